@@ -14,7 +14,7 @@ from pathlib import Path
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.applicable_actions import Offers
 from tmd.studio.demonstrations.demo_store import Archive
-from tmd.studio.demonstrations.drafts import Drafts
+from tmd.studio.demonstrations.drafts import Draft, Drafts
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
@@ -67,7 +67,7 @@ def _measure(directory: Path) -> None:
     timed(f"{len(lines)} instructions", act)
     drafts = Drafts(directory / "drafts")
     visitor = drafts.enter()
-    timed("writing the draft", lambda: drafts.keep(visitor, session, "shown"))
+    timed("writing the draft", lambda: drafts.keep(visitor, Draft.of(session, "shown")))
     archive = Archive(corpus)
     saved: list[Demonstration] = []
     timed("saving", lambda: saved.append(archive.save(session)))

@@ -31,8 +31,7 @@ def test_english_is_told_with_file_and_line() -> None:
     assert found.verb == "scrub"
     assert {mention.section for mention in found.english} >= {"verbs", "families"}
     for mention in found.english:
-        assert "scrub" in line(mention.place.file, mention.place.line)
-        assert line(mention.place.file, mention.place.line)[mention.place.column - 1 :].startswith("scrub")
+        assert "scrub" in line(mention.file, mention.line)
     assert "wash" in found.same
     assert [entry.pattern.partition(" ")[0] for entry in found.bases] == ["clean|wash|rinse|scrub"]
 
@@ -45,20 +44,21 @@ def test_a_verb_that_only_wordnet_has() -> None:
 def test_rows_are_told_in_order_with_source_and_place() -> None:
     (drawer,) = explain("fetch", [corpus("03_drawer")]).domains
     assert drawer.stands_for is not None
-    assert drawer.stands_for[0] == "take"
-    place = drawer.stands_for[1]
-    assert place is not None and line(place.file, place.line).strip() == "fetch: take"
-    first = next(one for one in drawer.rows if one.row.location is not None)
-    assert (first.verb, first.row.pattern, first.row.source) == ("take", "take|hold X", "declared")
-    assert [one.row.source for one in drawer.rows] == sorted(
-        (one.row.source for one in drawer.rows), key=["declared", "learned", "actions"].index
+    place = drawer.stands_for
+    assert place.verb == "take"
+    assert place.file is not None and place.line is not None
+    assert line(place.file, place.line).strip() == "fetch: take"
+    first = next(one for one in drawer.rows if one.file is not None)
+    assert (first.verb, first.pattern, first.source) == ("take", "take|hold X", "declared")
+    assert [one.source for one in drawer.rows] == sorted(
+        (one.source for one in drawer.rows), key=["declared", "learned", "actions"].index
     )
-    assert 0 < drawer.shown < drawer.clauses
+    assert 0 < drawer.demonstrations.shown < drawer.demonstrations.clauses
 
 
 def test_rows_that_do_not_apply_are_told_with_the_reason() -> None:
     (blocks,) = explain("fill", [corpus("01_blocks")]).domains
-    reasons = {one.entry.pattern: one.reason for one in blocks.unused}
+    reasons = {one.pattern: one.reason for one in blocks.unused}
     assert reasons["fill V: (contains ?v water)".partition(":")[0]].startswith("this domain has nothing for (contains")
     (drawer,) = explain("take", [corpus("03_drawer")]).domains
     assert any("says it already" in one.reason for one in drawer.unused)

@@ -189,7 +189,7 @@ def test_the_ten_best_and_the_ten_worst_without_overlap() -> None:
 def test_steps_of_a_sequence_that_was_changed_afterwards_belong_to_no_clause() -> None:
     changed = PredictionRecord.model_validate(line("m", 1, "t", 1.0, predicted=["moveto(cup)"]))
     (shown,), _ = best_and_worst([changed])
-    assert not shown.whole
+    assert not shown.line.whole
     assert {step.clause for step in shown.steps} == {None}
     assert not any(step.latent for step in shown.steps)
 

@@ -46,6 +46,6 @@ def test_a_session_tells_of_the_state_that_is_looked_at(kitchen: Corpus, kitchen
             session.do(next(o for o in kitchen1.task.operators if o.instruction == ("find", (target,))).instruction)
         session.do(found[0].instruction)
     opened = GroundAtom("opened", ("fridge1_door",))
-    assert opened in session.about("fridge1_door").states
+    assert opened in about("fridge1_door", kitchen1, session.state).states
     session.goto(0)
-    assert opened not in session.about("fridge1_door").states
+    assert opened not in about("fridge1_door", kitchen1, session.state).states

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -15,7 +14,7 @@ from hypothesis import strategies as st
 from tmd import files as atomic
 from tmd.diagnostics import OutputError, TmdError
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.demonstrations.drafts import Drafts, place
+from tmd.studio.demonstrations.drafts import Draft, Drafts, place
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.veil.corpus import Corpus
 
@@ -26,7 +25,7 @@ DEMONSTRATOR = """
 import sys
 from pathlib import Path
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.demonstrations.drafts import Drafts
+from tmd.studio.demonstrations.drafts import Draft, Drafts
 from tmd.studio.demonstrations.session import Session
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
@@ -37,12 +36,12 @@ drafts.enter("guest")
 session = Session(corpus.world("corner1"), sys.argv[4], corpus.lexicon)
 for line in sys.argv[5:]:
     session.do(parse_instruction(line))
-    drafts.keep("guest", session, "shown")
+    drafts.keep("guest", Draft.of(session, "shown"))
     print(line, flush=True)
 while True:
     session.undo()
     session.redo()
-    drafts.keep("guest", session, "shown")
+    drafts.keep("guest", Draft.of(session, "shown"))
 """
 
 
@@ -66,43 +65,20 @@ def test_a_draft_is_the_session_again(table: Corpus, drafts: Drafts) -> None:
         DemonstratedStep(parse_instruction(PLAN[2]), 1),
     )
     visitor = drafts.enter()
-    drafts.keep(visitor, session, "shown")
-    assert drafts.offered().drafts == ()
+    drafts.keep(visitor, Draft.of(session, "shown"))
     drafts.leave(visitor)
-    (offered,) = drafts.offered().drafts
-    mine = drafts.enter("me")
-    taken = drafts.take(mine, offered)
-    assert (taken.visitor, taken.task, taken.environment) == ("me", "shown", "corner1")
+    drafts.enter(visitor)
+    taken = drafts.of(visitor, Draft)
+    assert taken is not None
+    assert (taken.task, taken.environment) == ("shown", "corner1")
     again = taken.resume(table.world("corner1"), table.lexicon)
     assert (again.steps, again.pins, again.text, again.state) == (session.steps, {3: 1}, session.text, session.state)
     assert again.proposed == session.proposed
     assert again.undo()
     assert again.instructions == session.instructions[:3]
-    drafts.discard(mine)
-    drafts.leave(mine)
-    assert drafts.offered() == Drafts(drafts.directory).offered()
+    drafts.discard(visitor, Draft)
+    drafts.leave(visitor)
     assert list(drafts.directory.iterdir()) == []
-
-
-def test_only_one_takes_a_draft(table: Corpus, drafts: Drafts) -> None:
-    drafts.enter("gone")
-    drafts.keep("gone", demonstrated(table), "shown")
-    drafts.leave("gone")
-    (offered,) = drafts.offered().drafts
-    studios = [drafts, Drafts(drafts.directory)]
-    guests = [f"guest{n}" for n in range(10)]
-    for number, guest in enumerate(guests):
-        studios[number % 2].enter(guest)
-
-    def take(number: int) -> bool:
-        try:
-            return studios[number % 2].take(guests[number], offered).visitor == guests[number]
-        except TmdError:
-            return False
-
-    with ThreadPoolExecutor(10) as pool:
-        assert sum(pool.map(take, range(10))) == 1
-    assert drafts.offered().drafts == ()
 
 
 def test_who_is_here_is_here_once(drafts: Drafts, table: Corpus) -> None:
@@ -111,7 +87,7 @@ def test_who_is_here_is_here_once(drafts: Drafts, table: Corpus) -> None:
         with pytest.raises(TmdError, match="'me' is here already"):
             studio.enter("me")
     with pytest.raises(TmdError, match="'you' is not here"):
-        drafts.keep("you", demonstrated(table), "shown")
+        drafts.keep("you", Draft.of(demonstrated(table), "shown"))
     for name in ("../x", "a b", "x" * 65, "ä"):
         with pytest.raises(TmdError, match="cannot be the name of a visitor"):
             drafts.enter(name)
@@ -123,13 +99,14 @@ def test_a_killed_process_loses_no_action_that_was_done(table: Corpus, drafts: D
     assert process.stdout is not None
     for line in PLAN[:3]:
         assert process.stdout.readline().strip() == line
-    assert Drafts(drafts.directory).offered().drafts == ()
+    with pytest.raises(TmdError, match="'guest' is here already"):
+        drafts.enter("guest")
     process.kill()
     process.wait()
     process.stdout.close()
-    found = drafts.offered()
-    assert found.complaints == ()
-    (draft,) = found.drafts
+    drafts.enter("guest")
+    draft = drafts.of("guest", Draft)
+    assert draft is not None
     assert len(draft.instructions) in (2, 3)
     again = draft.resume(table.world("corner1"), table.lexicon)
     assert [str(i) for i in again.instructions] == PLAN[: len(draft.instructions)]
@@ -139,26 +116,22 @@ DAMAGE = ["", "{", "[]", "null", '{"draft": 2}', '{"draft": 1}', "\x00", "[" * 1
 
 
 @pytest.mark.parametrize("content", DAMAGE, ids=range(len(DAMAGE)))
-def test_a_damaged_draft_is_told_of_and_set_aside(table: Corpus, drafts: Drafts, content: str) -> None:
-    drafts.enter("good")
-    drafts.keep("good", demonstrated(table), "shown")
-    drafts.leave("good")
+def test_a_damaged_draft_is_set_aside_and_reported(drafts: Drafts, content: str) -> None:
+    drafts.enter("bad")
     (drafts.directory / "bad.json").write_text(content)
-    found = drafts.offered()
-    assert [draft.visitor for draft in found.drafts] == ["good"]
-    (complaint,) = found.complaints
-    assert complaint.startswith("the draft of 'bad' is damaged (")
-    assert "\n" not in complaint
+    with pytest.raises(TmdError, match=r"^the draft of 'bad' is damaged \(") as error:
+        drafts.of("bad", Draft)
+    assert "\n" not in str(error.value)
     assert (drafts.directory / "bad.json.damaged-1").read_text() == content
-    assert drafts.offered().complaints == ()
+    assert drafts.of("bad", Draft) is None
 
 
 @settings(max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(data=st.data())
 def test_no_draft_crashes_the_studio(table: Corpus, drafts: Drafts, data: st.DataObject) -> None:
-    drafts.enter("one")
-    drafts.keep("one", demonstrated(table), "shown")
     drafts.leave("one")
+    drafts.enter("one")
+    drafts.keep("one", Draft.of(demonstrated(table), "shown"))
     file = drafts.directory / "one.json"
     content = json.loads(file.read_text())
     anything = (
@@ -167,28 +140,27 @@ def test_no_draft_crashes_the_studio(table: Corpus, drafts: Drafts, data: st.Dat
     for key in data.draw(st.lists(st.sampled_from(sorted(content)), max_size=3)):
         content[key] = data.draw(anything | st.lists(anything, max_size=2))
     file.write_text(json.dumps(content))
-    found = drafts.offered()
-    assert len(found.drafts) + len(found.complaints) == 1
-    for draft in found.drafts:
-        try:
-            draft.resume(table.world("corner1"), table.lexicon)
-        except TmdError as error:
-            assert "\n" not in str(error)
+    try:
+        draft = drafts.of("one", Draft)
+        assert draft is not None
+        draft.resume(table.world("corner1"), table.lexicon)
+    except TmdError as error:
+        assert "\n" not in str(error)
 
 
 def test_a_disk_that_takes_nothing_leaves_the_draft_before(
     table: Corpus, drafts: Drafts, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     drafts.enter("me")
-    drafts.keep("me", demonstrated(table, 2), "shown")
+    drafts.keep("me", Draft.of(demonstrated(table, 2), "shown"))
 
     def full(path: Path, data: bytes, flags: int) -> None:
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(atomic, "_write", full)
     with pytest.raises(OutputError, match="No space left on device"):
-        drafts.keep("me", demonstrated(table, 3), "shown")
-    draft = drafts.of("me")
+        drafts.keep("me", Draft.of(demonstrated(table, 3), "shown"))
+    draft = drafts.of("me", Draft)
     assert draft is not None
     assert len(draft.instructions) == 2
 

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.inference.ranking import RejectedProposal as Rejected
 from tmd.pddl.model import Instruction
-from tmd.studio.panels.say_panel import energies
+from tmd.view.candidates import candidates
 
 
 def plan(energy: float, source: str | None, why: str = "") -> RankedPlan:
@@ -17,22 +17,25 @@ def plan(energy: float, source: str | None, why: str = "") -> RankedPlan:
 
 
 def test_each_loser_says_why_and_each_plan_has_a_column() -> None:
-    html = energies([plan(3.5, "a-01"), plan(4.25, None, "words +0.75")], ["", "step 1 does not apply"])
+    plans = [plan(3.5, "a-01"), plan(4.25, None, "words +0.75")]
+    html = candidates(plans, ["", "step 1 does not apply"], narrow=True)
     losers = html.partition("<h4>Energies")[0]
     assert (
         "Plan 2" in losers and "words +0.75" in losers and "does not work: step 1" in losers and "Plan 1" not in losers
     )
-    assert html.count("scope='col'") == 2
+    assert html.count('scope="col"') == 2
     assert "3.50" in html and "4.25" in html and "a-01" in html and "no template" in html
     assert ">nl<" not in html  # a factor that is 0 everywhere tells nothing
 
 
 def test_without_a_plan_there_are_the_refusals() -> None:
-    html = energies([], refusals=[Rejected(0, "a-01", "no stove"), Rejected(0, "a-02", "no stove")])
+    html = candidates([], refusals=[Rejected(0, name, "no stove") for name in ("a-01", "a-02")], narrow=True)
     assert "1 reason" in html and "no stove" in html and "(2, for example" in html and "<table" not in html
 
 
 @given(st.text())
 def test_what_is_told_is_text(said: str) -> None:
     said += "<script>"
-    assert "<script" not in energies([plan(1.0, said), plan(2.0, said, said)], [said, said], [Rejected(0, said, said)])
+    plans = [plan(1.0, said), plan(2.0, said, said)]
+    html = candidates(plans, [said, said], [Rejected(0, said, said)], narrow=True)
+    assert "<script" not in html

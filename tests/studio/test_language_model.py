@@ -14,7 +14,8 @@ from tests.readers.fake_server import Answer, FakeServer, asked, reply, serve
 from tmd.pddl.model import Atom, Not
 from tmd.readers.interface import Question, QuestionOption, Usage
 from tmd.readers.llm.client import KEY, MODEL, URL, ModelError
-from tmd.studio.panels.say_panel import Request, effort
+from tmd.studio.panels.html import effort
+from tmd.studio.panels.say_panel import Request
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
 
@@ -163,7 +164,7 @@ def test_a_question_is_answered_by_a_button(server: Server, model: FakeServer, g
         visitor.until(lambda: buttons(visitor) == OPTIONS)
         visitor.shows("Which thing &lt;b&gt;do&lt;/b&gt; you mean?")
         visitor.shows("Put cup1 on shelf1")
-        visitor.shows("<h4>Read by the language model fake</h4><ul><li>1,000 tokens sent, 100 received</li>")
+        visitor.shows("<li>1,000 tokens sent, 100 received</li>")
         assert not element(visitor, "Plan it")["disabled"]
         assert element(visitor, OPTIONS[1])["hint"] == BOOK
         visitor.press(OPTIONS[1])

@@ -214,7 +214,7 @@ def test_goals_are_ticked_off_and_refusals_say_what_to_do(server: Server) -> Non
         visitor.shows("✓</span> cup1 is on shelf1")
         visitor.put("Text", "Put the zebra on the shelf.")
         visitor.press("Plan it")
-        visitor.told("No plan: clause 1: nothing here is called &#x27;zebra&#x27;.")
+        visitor.told("No plan: clause 1: nothing here is called &#39;zebra&#39;.")
         visitor.told("name a thing that is there")
         visitor.told("try: Put the cup on")
 
@@ -273,7 +273,7 @@ def test_what_is_saved_is_used_and_the_page_says_so(server: Server) -> None:
         visitor.press("Save (K)")
         visitor.told("Saved as shown-corner1-01. The same sentence now gives what you showed.")
         visitor.shows("Learning from what was saved")
-        visitor.told(f"&quot;{text}&quot;: The same sentence now gives what you showed.")
+        visitor.told(f"&#34;{text}&#34;: The same sentence now gives what you showed.")
         teacher, files = server.studio.teacher, server.studio.corpus
         assert not teacher.learning
         world = files.world("corner2")

@@ -19,7 +19,6 @@ from tmd.pddl.model import TRUE, Formula
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.records.grounding import GroundingRecord
-from tmd.studio.panels.say_panel import energies
 from tmd.veil.world import World
 from tmd.view.candidates import candidates
 from tmd.view.goals import ShownGoal, all_reached, doubts, followed
@@ -147,7 +146,7 @@ def test_steps_need_not_follow_the_clauses(study: World) -> None:
     reader = Reader(render(grounded_subject(text, study, found.parsed, found.plans)).html)
     assert "✓ reaches its goals" in reader.text
     assert re.findall(r'<tr><th scope="row">(\d)</th>', candidates(found.plans)) == ["1", "1", "3"]
-    assert re.findall(r"<li value='(\d)'>", energies(found.plans)) == ["1", "1", "3"]
+    assert re.findall(r"<li value=\"(\d)\">", candidates(found.plans, narrow=True)) == ["1", "1", "3"]
 
 
 def test_what_is_left_open_or_in_a_hand_is_doubtful_unless_it_was_asked_for(study: World) -> None:

@@ -24,11 +24,10 @@ from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Status
 from tmd.records.run import RanStep
 from tmd.veil.world import World
-from tmd.view.page import render
+from tmd.view.page import render, shown_steps
 from tmd.view.pictures import read_strip
 from tmd.view.run_record import Ran
 from tmd.view.sources import demonstrated_subject
-from tmd.view.steps import shown_steps
 from tmd.view.subject import PlannedStep, Subject, grounded_subject
 
 

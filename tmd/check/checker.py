@@ -1,4 +1,4 @@
-"""What lies at a path, which domain it belongs to, and checking all of it."""
+"""Checking of files and folders: their kinds, and the domain of each problem."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     from tmd.check.data_files import DataFiles
 
 
+# Bytes of a file in which its ``define`` is looked for.
 _HEAD = 20_000
-"""Bytes of a file in which its ``define`` is looked for."""
+# Directories with more PDDL files than that are not searched for a domain by its name.
 _MOST = 2_000
-"""Directories with more PDDL files than that are not searched for a domain by its name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +46,7 @@ class FoundDomain:
 
 
 def find_domain_file(problem: Path, name: str, domains: Path | None) -> FoundDomain:
-    """The file of the domain ``name`` for the file ``problem``.
+    """Return the file of the domain ``name`` for the file ``problem``.
 
     The first of: a domain of that name beside the problem or one directory above; the known domain of that name;
     a file ``domain.pddl`` beside the problem, whatever its name.
@@ -73,7 +73,7 @@ def find_domain_file(problem: Path, name: str, domains: Path | None) -> FoundDom
 
 
 def _best(named: Sequence[Path], problem: Path) -> Path | None:
-    """Of several domains with one name: ``domain.pddl``, the one of the same number, or of the folder's name."""
+    """Choose among domains of one name: ``domain.pddl``, the one of the same number, or of the folder's name."""
     if len(named) == 1 or named[0].name == "domain.pddl":
         return named[0]
     here = real(problem).parent
@@ -87,7 +87,7 @@ def _best(named: Sequence[Path], problem: Path) -> Path | None:
 
 
 def _shown(found: Path, problem: Path) -> Path:
-    """``found`` in the way in which the problem's own path was written."""
+    """Return ``found`` in the way in which the problem's own path was written."""
     if found.parent == real(problem).parent:
         return problem.parent / found.name
     above = problem.parent.parent if problem.parent.name not in ("", "..") else problem.parent / ".."
@@ -96,7 +96,7 @@ def _shown(found: Path, problem: Path) -> Path:
 
 @cache
 def domains_in(directory: Path) -> dict[str, tuple[Path, ...]]:
-    """The domains of a directory by name; ``domain.pddl`` goes before others of its name."""
+    """Return the domains of a directory by name; ``domain.pddl`` goes before others of its name."""
     files = sorted(directory.glob("*.pddl"), key=lambda path: (path.name != "domain.pddl", path.name))
     found: dict[str, tuple[Path, ...]] = {}
     for file in files[:_MOST]:
@@ -110,25 +110,25 @@ def domains_in(directory: Path) -> dict[str, tuple[Path, ...]]:
     return found
 
 
+# The files of domains and problems that are not PDDL, beside environments.
 DATA_FILES = frozenset({"objects.yaml", "lexicon.yaml", "skills.yaml", "templates.yaml", "demonstrations.jsonl"})
-"""The files of domains and problems that are no PDDL, beside environments."""
+# What the other files of a folder are checked against.
 _FIRST = ("domain.pddl", "objects.yaml")
-"""What the other files of a folder are checked against."""
+# Of a longer source line only the beginning is kept.
 MAX_LINE = 10_000
-"""Of a longer source line only the beginning is kept."""
+# Of one file.
 MOST_SHOWN = 200
-"""Of one file."""
+# Larger files are refused: no file that people write comes near.
 MAX_BYTES = 10_000_000
-"""Larger files are refused: no file that people write comes near."""
 
 
 @dataclass(slots=True)
 class Checker:
-    """Checks files and folders, each once, and collects what is wrong with them.
+    """Checker of files and folders, each once, which collects their faults.
 
     Args:
         domains: The directory of all domains; the usual one by default.
-        domain: The file of the domain of all problems, where it shall not be looked for.
+        domain: The file of the domain of all problems, if it is known.
         problems: The directory of all problems; the usual one by default.
         given: Files that are checked together: a problem that nothing else has a domain for is of one of these.
     """
@@ -233,7 +233,7 @@ class Checker:
         self._read[real(file)] = None if faulty or checked is None else result.problem
 
     def _meant(self, name: str) -> Path | None:
-        """The domain among the files given that a problem means that names none of them, if there is only one such."""
+        """Return the domain, among the files given, of a problem that names none of them, if only one may be meant."""
         named: dict[str, Path] = {}
         for file in self.given:
             if file.suffix == ".pddl" and file.is_file():
@@ -247,7 +247,7 @@ class Checker:
         return named[close[0]] if close else None
 
     def problem(self, file: Path) -> Problem | None:
-        """The problem in ``file``; ``None`` where it or its domain has faults, which are told."""
+        """Return the problem in ``file``; ``None`` where it or its domain has faults, which are reported."""
         key = real(file)
         if key not in self._read:
             self._read[key] = None
@@ -272,7 +272,7 @@ class Checker:
                 return
 
     def read(self, file: Path) -> str | None:
-        """The text of a file; ``None`` where it cannot be read, which is told."""
+        """Return the text of a file; ``None`` where it cannot be read, which is reported."""
         self.files[file] = None
         try:
             if file.is_file() and file.stat().st_size > MAX_BYTES:
@@ -296,13 +296,13 @@ class Checker:
 
 
 def _weight(fault: TmdError) -> int:
-    """Errors before what is not supported, and that before warnings: the first ones of many are shown."""
+    """Return a sort key: errors before unsupported features before warnings."""
     severity = SEVERITY.get(fault.code, Severity.ERROR)
     return 2 if severity is not Severity.ERROR else int(fault.code == "not-supported")
 
 
 def _drop_compiled_in(checked: CheckedDomain, file: Path) -> None:
-    """A predicate that ``objects.yaml`` or environments speak of plays a part, whatever the actions say."""
+    """Drop warnings on unused predicates that ``objects.yaml`` or environments use."""
     objects = file.parent / "objects.yaml"
     from tmd.world.compile import AT, PART_OF
 
@@ -320,7 +320,7 @@ def _drop_compiled_in(checked: CheckedDomain, file: Path) -> None:
 
 
 def files_of(path: Path) -> list[Path]:
-    """``path``, or the files of a directory that are checked, what others need before the others.
+    """Return ``path``, or the files of a directory that are checked, what others need before the others.
 
     Raises:
         TmdError: There is nothing there.
@@ -331,7 +331,7 @@ def files_of(path: Path) -> list[Path]:
 
 
 def _files(directory: Path) -> Iterator[Path]:
-    """The files of ``directory`` that are checked, domains first, then by name."""
+    """Yield the files of ``directory`` that are checked, domains first, then by name."""
     found = [
         path
         for path in directory.rglob("*")
@@ -341,14 +341,14 @@ def _files(directory: Path) -> Iterator[Path]:
 
 
 def _is_ours(path: Path) -> bool:
-    """Whether a file of a directory is one that tmd reads; other YAML may lie there as well."""
+    """Return whether a file of a directory is one that tmd reads; other YAML may lie there as well."""
     if path.suffix in (".yaml", ".yml"):
         return path.name in DATA_FILES or path.parent.name in ("environments", BASES)
     return path.suffix == ".pddl" or path.name in DATA_FILES
 
 
 def _line(place: Location) -> str | None:
-    """The line at ``place``, where it can be read."""
+    """Return the line at ``place``, where it can be read."""
     try:
         lines = split_lines(read_text(place.file))
     except TmdError:

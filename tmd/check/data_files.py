@@ -1,4 +1,4 @@
-"""YAML and JSON Lines of domains and problems: which file is checked how, and with what beside it."""
+"""Checks of the YAML and JSON Lines of domains and problems."""
 
 from __future__ import annotations
 
@@ -30,11 +30,11 @@ from tmd.world.yaml_positions import YamlSource
 
 
 def check_demonstrations(path: Path, world: Callable[[str], Problem | None], known: list[str], report: Report) -> None:
-    """Every demonstration of a file: read, and played in its environment.
+    """Check every demonstration of a file: read it, and play it in its environment.
 
     Args:
         path: JSON Lines.
-        world: The environment of a name; ``None`` where it has faults of its own.
+        world: Returns the environment of a name; ``None`` where it has faults.
         known: The names of all environments.
         report: Takes the faults.
 
@@ -70,7 +70,7 @@ def _play(demonstration: Demonstration, line: str, world: Callable[[str], Proble
 
 
 def _states(demonstration: Demonstration, problem: Problem) -> list[State]:
-    """What happens, whatever the goal is; the plan that was corrected is played as well."""
+    """Return the states of a demonstration without its goal; the corrected plan is played as well."""
     what = f"'{demonstration.id}'"
     try:
         states = replay(replace(demonstration, goal=None), problem)
@@ -87,20 +87,20 @@ def _states(demonstration: Demonstration, problem: Problem) -> list[State]:
 
 
 def _as_proposed(demonstration: Demonstration) -> Demonstration:
-    """What would have been done without the correction; how it ends is not stated, and it need not reach the goal."""
+    """Return the demonstration without its correction; it need not reach the goal or the stated end."""
     segments = tuple(replace(segment, instructions=segment.proposed or ()) for segment in demonstration.segments)
     return replace(demonstration, segments=segments, end_state=(), goal=None)
 
 
 def _place(demonstration: Demonstration, line: str) -> Location | None:
-    """Where the environment's name stands."""
+    """Return the place of the environment's name."""
     place = demonstration.location
     column = line.find(json.dumps(demonstration.environment))
     return Location(place.file, place.line, column + 1) if place and column >= 0 else place
 
 
 def check_objects(folder: DomainFolder, report: Report) -> None:
-    """``objects.yaml``: its form, the classes, their facts, and the rules that derive more.
+    """Check ``objects.yaml``: its form, the classes, their facts, and the rules that derive more.
 
     Raises:
         TmdError: The file cannot be used at all.
@@ -127,7 +127,7 @@ def check_objects(folder: DomainFolder, report: Report) -> None:
 
 
 def _check_nouns(source: YamlSource, classes: Classes, lexicon: Lexicon) -> None:
-    """Each name of a class, part or substance must be read as the object of a plain instruction."""
+    """Check that each name of a class, part or substance is read as the object of a plain instruction."""
     entries = classes.entries
     relations = section("prepositions") | section("particles")
     named: dict[str, tuple[str | int, ...]] = {
@@ -148,7 +148,7 @@ def _check_nouns(source: YamlSource, classes: Classes, lexicon: Lexicon) -> None
 
 
 def check_compiled(folder: DomainFolder) -> None:
-    """``domain.pddl`` must be what its sources compile to.
+    """Check that ``domain.pddl`` is the compiled form of its sources.
 
     Raises:
         TmdError: It is something else.
@@ -164,7 +164,7 @@ def check_compiled(folder: DomainFolder) -> None:
 
 
 def check_environment(path: Path, folder: DomainFolder, report: Report) -> Problem | None:
-    """An environment as a problem of its domain.
+    """Return an environment as a problem of its domain.
 
     Raises:
         TmdError: The file cannot be used at all.
@@ -173,7 +173,7 @@ def check_environment(path: Path, folder: DomainFolder, report: Report) -> Probl
 
 
 def check_shapes(folder: DomainFolder) -> None:
-    """The shapes of ``objects.yaml`` and the files that they name.
+    """Check the shapes of ``objects.yaml`` and the files that they name.
 
     Raises:
         TmdError: A shape makes no sense, or a file is not what it should be.
@@ -187,9 +187,9 @@ def check_shapes(folder: DomainFolder) -> None:
 
 
 def check_scene(environment: Environment, folder: DomainFolder) -> None:
-    """Where things stand: each finds room, and none is in another.
+    """Check the places of things: each finds room, and no two overlap.
 
-    Only given positions can put things into each other, which the simulator tells to the millimetre; without
+    Only given positions can put things into each other, which the simulator finds to the millimetre; without
     ``tmd[robot]`` that is left out.
 
     Raises:
@@ -211,7 +211,7 @@ def check_scene(environment: Environment, folder: DomainFolder) -> None:
 
 
 def _instructions(folder: DomainFolder) -> Domain | None:
-    """The hand-written domain that classes are compiled into; ``None`` where it has faults, which are told anyway."""
+    """Return the hand-written domain that classes are compiled into; ``None`` where it has faults."""
     try:
         return read_domain(folder.instructions_path)
     except TmdError:
@@ -219,7 +219,7 @@ def _instructions(folder: DomainFolder) -> Domain | None:
 
 
 def _facts(classes: Classes) -> Iterator[tuple[tuple[str | int, ...], str]]:
-    """Every fact of ``objects.yaml`` with its path; an edge as ``predicate tail head``."""
+    """Yield every fact of ``objects.yaml`` with its path; an edge as ``predicate tail head``."""
     entries = classes.entries
     for kind in ("facts", "init"):
         yield from (((kind, number), fact) for number, fact in enumerate(getattr(entries, kind)))
@@ -238,7 +238,7 @@ def _facts(classes: Classes) -> Iterator[tuple[tuple[str | int, ...], str]]:
 def _check_fact(
     source: YamlSource, path: tuple[str | int, ...], fact: str, arities: dict[str, int], names: set[str]
 ) -> None:
-    """The predicate, the number of names, and names that differ by a letter from one of ``names``.
+    """Check a fact: its predicate, the number of names, and names that differ by a letter from one of ``names``.
 
     Any other name may be that of an object, which each environment knows for itself.
     """
@@ -250,24 +250,24 @@ def _check_fact(
     elif len(words) - 1 != arities[name]:
         message = f"'{fact}': '{name}' takes {arities[name]} argument(s), found {len(words) - 1}"
         source.fault(source.error(path, message, None, "wrong-arity"))
-    for term in words[1:] if "edges" not in path else ():  # classes tell what is wrong with the names of edges
+    for term in words[1:] if "edges" not in path else ():  # classes report the names of edges
         meant = [] if term in names else get_close_matches(term, sorted(names), n=1, cutoff=_ONE_LETTER)
         if meant:
             message = f"({' '.join(words)}): there is no '{term}'"
             source.fault(source.error(path, message, f'did you mean "{meant[0]}"?', "unknown-object"))
 
 
+# The likeness (of :mod:`difflib`) of two names of three letters or more that differ by one.
 _ONE_LETTER = 0.65
-"""The likeness (of :mod:`difflib`) of two names of three letters or more that differ by one."""
 
 
 def _is_of(diagnostic: Diagnostic, folder: DomainFolder) -> bool:
-    """Whether something was told of the folder of a domain."""
+    """Return whether a diagnostic is about the folder of a domain."""
     return real(Path(diagnostic.location.file)).parent == real(folder.path)
 
 
 class FaultCollector(Protocol):
-    """What takes in the faults of data files, and knows where domains and problems are."""
+    """Receiver of the faults of data files, which knows the places of domains and problems."""
 
     domains: Path | None
     problems: Path | None
@@ -278,11 +278,11 @@ class FaultCollector(Protocol):
         """Take in a fault of ``file``."""
 
     def problem(self, file: Path) -> Problem | None:
-        """The problem in ``file``; ``None`` where it or its domain has faults, which are told."""
+        """Return the problem in ``file``; ``None`` where it or its domain has faults, which are reported."""
 
 
 class DataFiles:
-    """Checks the files that are no PDDL; each folder and environment is read once.
+    """Checker of files that are not PDDL; each folder and environment is read once.
 
     Args:
         checker: Takes what is found, and knows where domains and problems are.
@@ -318,7 +318,7 @@ class DataFiles:
         return lambda fault: self.checker.report(fault, file)
 
     def _folder(self, file: Path) -> DomainFolder:
-        """The domain folder that ``file`` lies in."""
+        """Return the domain folder that ``file`` lies in."""
         path = file.parent
         return self._folders.setdefault(real(path), DomainFolder(real(path) if path == Path() else path))
 
@@ -369,12 +369,12 @@ class DataFiles:
             self.checker.report(fault, file)
 
     def _corpora(self, folder: Path) -> list[Path]:
-        """The demonstrations of a domain."""
+        """Return the demonstrations of a domain."""
         problems = self._beside(folder)
         return sorted(problems.glob("*/demonstrations.jsonl")) if problems else []
 
     def _beside(self, folder: Path) -> Path | None:
-        """The problems of a domain: those beside its folder, or the known ones."""
+        """Return the problems of a domain: those beside its folder, or the known ones."""
         name = real(folder).name
         beside = real(folder).parent.parent / "problems" / name
         try:
@@ -383,7 +383,7 @@ class DataFiles:
             return None
 
     def _problems_of(self, folder: DomainFolder) -> Iterator[Problem]:
-        """The environments of a domain that have no faults; faults are told where those files are checked."""
+        """Yield the environments of a domain that have no faults; faults are reported where those files are checked."""
         problems = None if self._has_faults(folder) else self._beside(folder.path)
         for path in sorted((problems / "environments").glob("*")) if problems else ():
             try:
@@ -395,11 +395,11 @@ class DataFiles:
                 continue
 
     def _has_faults(self, folder: DomainFolder) -> bool:
-        """Whether an error of a domain's folder is known: its environments may then lack what they should have."""
+        """Return whether a domain's folder has an error, so that its environments may be incomplete."""
         return any(d.severity is Severity.ERROR and _is_of(d, folder) for d in self.checker.findings.sorted())
 
     def _nameable(self, folder: DomainFolder) -> frozenset[str]:
-        """What a group may name: as for nouns, or, without classes, the objects of the environments as well."""
+        """Return the names that a group may have: as for nouns, or, without classes, those of objects as well."""
         names = _names(folder)
         if names:
             return names
@@ -428,14 +428,14 @@ class DataFiles:
             scene = faults if faults or problem is None else _scene_faults(file, folder)
             told = {(d.code, d.message) for d in self.checker.findings.sorted() if _is_of(d, folder)}
             for fault in scene:
-                if (fault.code, fault.message) not in told:  # what a class says wrongly is told of the class
+                if (fault.code, fault.message) not in told:  # a fault of a class is reported there
                     self.checker.report(fault, file)
             for fault in lint_cases(problem) if problem is not None and not faults else ():
                 self.checker.report(fault, file)
             self._worlds[key] = None if faults else problem
 
     def _domain_of(self, file: Path, name: str) -> DomainFolder:
-        """The folder of the domain ``name``: near the environment, or the known one."""
+        """Return the folder of the domain ``name``: near the environment, or the known one."""
         if Path(name).name != name:
             raise YamlSource(file).error(("domain",), f"'{name}' is not a name of a domain", None, "outside-folder")
         for above in list(real(file).parents)[:4]:
@@ -465,7 +465,7 @@ class DataFiles:
 
 
 def _scene_faults(file: Path, folder: DomainFolder) -> list[TmdError]:
-    """What is wrong with an environment as a scene, where a robot acts in the domain."""
+    """Return the faults of an environment as a scene, in a domain with skills."""
     if not (folder.path / "skills.yaml").is_file():
         return []
     try:
@@ -478,7 +478,7 @@ def _scene_faults(file: Path, folder: DomainFolder) -> list[TmdError]:
 
 
 def _names(folder: DomainFolder) -> frozenset[str]:
-    """What nouns of a domain may lead to; nothing where it has no classes, for then its objects are anybody's."""
+    """Return the names that nouns of a domain may mean; empty for a domain without classes."""
     if not (folder.path / "objects.yaml").is_file():
         return frozenset()
     entries = folder.classes.entries

@@ -29,7 +29,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """Whether it is an error, a warning or a note."""
+        """Return whether it is an error, a warning or a note."""
         return SEVERITY[self.code]
 
 
@@ -43,7 +43,7 @@ class Findings:
         return len(self._found)
 
     def add(self, error: TmdError, place: Location) -> None:
-        """Take in a fault; one without a place is told at ``place``."""
+        """Add a fault, at ``place`` if it has no location."""
         self.put(Diagnostic(error.location or place, error.code or "syntax", error.message, error.hint, error.source))
 
     def put(self, diagnostic: Diagnostic) -> None:
@@ -56,5 +56,5 @@ class Findings:
             self.put(diagnostic)
 
     def sorted(self) -> list[Diagnostic]:
-        """All of them by file, line and column."""
+        """Return all of them by file, line and column."""
         return [self._found[key] for key in sorted(self._found)]

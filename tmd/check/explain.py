@@ -1,4 +1,4 @@
-"""Everything that the offline reader takes for granted about a verb: ``tmd check --explain``.
+"""Explanation of a verb, as the offline reader knows it: ``tmd check --explain``.
 
 English comes first: the classes of the word lists that the verb is in, the verbs that ask for the same, the words for
 its outcome. Then, in a domain, the rows that are tried for it, in the order in which they are tried, and the rows of
@@ -8,13 +8,14 @@ base lexicons that are not used there, with reasons.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.base import condition_text
-from tmd.goals.sources.table import GoalRow, GoalTable, family
+from tmd.goals.sources.table import GoalTable, family
 from tmd.goals.tables import goal_tables, left_out
+from tmd.json_record import JsonRecord
 from tmd.knowledge import known
 from tmd.language.clause import Clause
 from tmd.language.lexicon.file import bases_near, read_lexicon
@@ -23,97 +24,98 @@ from tmd.language.parser import parse
 from tmd.pddl.reading.syntax import nearest
 from tmd.veil.corpus import Corpus
 
+# The files of English words that are looked through, in ``tmd/language/data``.
 _DATA = ("words.txt", "senses.txt", "wordnet_verbs.txt")
-"""The files of English words that are looked through, in ``tmd/language/data``."""
 _MOST_NEAR = 6
+# Rows of verbs that ask for the same are printed for people only so many.
 _MOST_OTHERS = 8
-"""Rows of verbs that ask for the same are printed for people only so many."""
+# Verbs that are only so many families away are near in meaning.
 _FARTHEST = 3
-"""Verbs that are only so many families away are near in meaning."""
 
 
-@dataclass(frozen=True, slots=True)
-class Mention:
-    """A line of the word lists that a verb stands in.
+class Mention(JsonRecord):
+    """Line of the word lists that has a verb; ``section`` is a class of words or a table, such as ``families``."""
 
-    Attributes:
-        place: The line.
-        section: The class, or the table: ``verbs``, ``families``.
-        text: The entry: the verb itself in a list of words, the whole line in a table.
-    """
-
-    place: Location
     section: str
     text: str
+    file: str
+    line: int
 
 
-@dataclass(frozen=True, slots=True)
-class Tried:
-    """A row that is tried for a verb.
+class BaseRow(JsonRecord):
+    """Row of a base lexicon."""
 
-    Attributes:
-        verb: The verb that it is looked up by.
-        why: The relation of that verb to the explained one.
-        row: The row.
-    """
+    pattern: str
+    condition: str
+    file: str | None
+    line: int | None
+
+    @property
+    def written(self) -> str:
+        """The row as it is written."""
+        return f"{self.pattern}: {self.condition}"
+
+
+class Tried(JsonRecord):
+    """Row that is tried for a verb; ``verb`` is the verb that it is looked up by, ``why`` its relation to the other."""
 
     verb: str
     why: str
-    row: GoalRow
+    source: str
+    pattern: str
+    condition: str
+    probability: float
+    evidence: str
+    file: str | None
+    line: int | None
 
 
-@dataclass(frozen=True, slots=True)
-class Unused:
-    """A row of a base lexicon that is not used for a verb, or not in this domain."""
+class Unused(BaseRow):
+    """Row of a base lexicon that is not used for a verb, or not in this domain."""
 
-    entry: Declared
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class InDomain:
-    """The meanings of a verb in a domain.
+class Canonical(JsonRecord):
+    """Verb that another one stands for, and the line of the lexicon that says so."""
 
-    Attributes:
-        domain: Its name.
-        stands_for: The verb that it stands for, where it stands for another one, and the place that says so.
-        serves: The verbs that stand for it.
-        rows: The rows that are tried for it, in order.
-        unused: The rows of base lexicons for it that are not used.
-        shown: How many clauses of the demonstrations have the verb, or one that stands for the same.
-        clauses: How many clauses there are in all.
-        nearest: Where nothing is known, verbs that the domain knows, nearest first.
-    """
+    verb: str
+    file: str | None
+    line: int | None
 
-    domain: str
-    stands_for: tuple[str, Location | None] | None
-    serves: tuple[str, ...]
-    rows: tuple[Tried, ...]
-    unused: tuple[Unused, ...]
+
+class Shown(JsonRecord):
+    """Number of clauses in the demonstrations with the verb, or one of the same meaning, and of all clauses."""
+
     shown: int
     clauses: int
-    nearest: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Explanation:
-    """Everything that is taken for granted about a verb.
+class InDomain(JsonRecord):
+    """Meanings of a verb in a domain; ``nearest`` are known verbs, where no row is tried."""
 
-    Attributes:
-        verb: The verb: its stem, with its particle.
-        english: The lines of the word lists that it stands in.
-        same: The verbs that ask for the same, nearest first.
-        bases: Where no domain is named, the rows of base lexicons for it.
-        domains: Its meanings in each domain that was named.
-        nearest: For a verb that no list has, the nearest known verbs.
+    domain: str
+    stands_for: Canonical | None
+    serves: tuple[str, ...]
+    demonstrations: Shown
+    rows: tuple[Tried, ...]
+    unused: tuple[Unused, ...]
+    nearest: tuple[str, ...]
+
+
+class Explanation(JsonRecord):
+    """Everything that is known of a verb, as ``tmd check --explain --json`` prints it.
+
+    ``bases`` are rows of base lexicons where no domain is named; ``nearest`` are known verbs near one that no list has.
     """
 
     verb: str
+    known: bool
     english: tuple[Mention, ...]
     same: tuple[str, ...]
-    bases: tuple[Declared, ...]
+    bases: tuple[BaseRow, ...]
+    nearest: tuple[str, ...]
     domains: tuple[InDomain, ...]
-    nearest: tuple[str, ...] = ()
 
 
 def explain(verb: str, corpora: Sequence[Corpus]) -> Explanation:
@@ -130,12 +132,13 @@ def explain(verb: str, corpora: Sequence[Corpus]) -> Explanation:
     english = tuple(_mentions(stem))
     unknown = not english and not family(stem)
     return Explanation(
-        stem,
-        english,
-        family(stem),
-        () if corpora else tuple(_of_bases(stem)),
-        tuple(_in_domain(stem, corpus) for corpus in corpora),
-        _nearest(stem, sorted(_families())) if unknown and not corpora else (),
+        verb=stem,
+        known=bool(english),
+        english=english,
+        same=family(stem),
+        bases=() if corpora else tuple(_of_bases(stem)),
+        nearest=_nearest(stem, sorted(_families())) if unknown and not corpora else (),
+        domains=tuple(_in_domain(stem, corpus) for corpus in corpora),
     )
 
 
@@ -176,8 +179,8 @@ def _mentions(verb: str) -> Iterator[Mention]:
             words = [word.strip(":!>-") for word in line.split()]
             if verb in (words[:1] if file == _DATA[-1] else words):
                 whole = bool(colon) and "_" not in section and " " not in head.strip()
-                place = Location(f"tmd/language/data/{file}", number, line.find(verb) + 1)
-                yield Mention(place, section or "WordNet", line if whole or not section else verb)
+                text = line if whole or not section else verb
+                yield Mention(section=section or "WordNet", text=text, file=f"tmd/language/data/{file}", line=number)
                 found = True
 
 
@@ -207,12 +210,12 @@ def _nearest(verb: str, known_verbs: Iterable[str]) -> tuple[str, ...]:
     return tuple(found[:_MOST_NEAR])
 
 
-def _of_bases(verb: str) -> Iterator[Declared]:
+def _of_bases(verb: str) -> Iterator[BaseRow]:
     """Yield the rows of the base lexicons for a verb as they are written."""
     for file in bases_near(Path("domains") / "any" / "lexicon.yaml").values():
         for entry in read_lexicon(file).goals:
             if verb in entry.pattern.partition(" ")[0].split("|"):
-                yield entry
+                yield BaseRow(**_entry(entry))
 
 
 # ---------------------------------------------------------------------- in a domain
@@ -225,7 +228,11 @@ def _in_domain(verb: str, corpus: Corpus) -> InDomain:
     asked = list(_asked(verb, lexicon))
     rows = tuple(_tried(tables, asked))
     own = {name for name, why in asked if why != _SAME}
-    unused = tuple(Unused(one.entry, one.reason) for one in left_out(lexicon, domain) if own.intersection(one.verbs))
+    unused = tuple(
+        Unused(**_entry(one.entry), reason=one.reason)
+        for one in left_out(lexicon, domain)
+        if own.intersection(one.verbs)
+    )
     stands_for = lexicon.canonical_verb(verb)
     section = "verb_synonyms" if verb in lexicon.verb_synonyms else "phrasal"
     clauses = [
@@ -233,15 +240,15 @@ def _in_domain(verb: str, corpus: Corpus) -> InDomain:
     ]
     shown = sum(lexicon.canonical_verb(said) == stands_for for said in clauses)
     known_verbs = {name for table in tables for name in table.verbs()}
+    other = Canonical(verb=stands_for, **_place(lexicon.places.get((section, verb)))) if stands_for != verb else None
     return InDomain(
-        corpus.folder.name,
-        (stands_for, lexicon.places.get((section, verb))) if stands_for != verb else None,
-        tuple(sorted(name for name, other in lexicon.verb_synonyms.items() if other == verb)),
-        rows,
-        unused,
-        shown,
-        len(clauses),
-        () if rows else _nearest(verb, known_verbs),
+        domain=corpus.folder.name,
+        stands_for=other,
+        serves=tuple(sorted(name for name, other in lexicon.verb_synonyms.items() if other == verb)),
+        demonstrations=Shown(shown=shown, clauses=len(clauses)),
+        rows=rows,
+        unused=unused,
+        nearest=() if rows else _nearest(verb, known_verbs),
     )
 
 
@@ -270,25 +277,46 @@ def _tried(tables: Sequence[GoalTable], asked: Sequence[tuple[str, str]]) -> Ite
             for row in table.of(name):
                 if id(row) not in told:
                     told.add(id(row))
-                    yield Tried(name, why, row)
+                    yield Tried(
+                        verb=name,
+                        why=why,
+                        source=row.source,
+                        pattern=row.pattern,
+                        condition=condition_text(row.condition),
+                        probability=row.probability,
+                        evidence=row.evidence,
+                        **_place(row.location),
+                    )
 
 
 def _clauses(text: str, lexicon: Lexicon) -> Sequence[Clause]:
     return parse(text.replace("|", " "), lexicon).clauses
 
 
-# ---------------------------------------------------------------------- for people and programs
+def _entry(entry: Declared) -> dict[str, Any]:
+    return {
+        "pattern": entry.pattern,
+        "condition": " ".join(entry.condition.split()),
+        **_place(entry.location),
+    }
+
+
+def _place(place: Location | None) -> dict[str, Any]:
+    return {"file": place.file if place else None, "line": place.line if place else None}
+
+
+# ---------------------------------------------------------------------- for people
 
 
 def explanation_text(explanation: Explanation) -> str:
     """Return an explanation as lines for people."""
     lines = [explanation.verb.replace("_", " ")]
-    lines += _section("English", ((f"{m.section}: {m.text}", m.place) for m in explanation.english))
+    lines += _section("English", (_line(f"{m.section}: {m.text}", m) for m in explanation.english))
     if not explanation.english:
         lines += ["", "English", "  not in any list of words"]
     if explanation.same:
         lines += ["", "asks for the same, nearest first", f"  {', '.join(explanation.same)}"]
-    lines += _section("rows of base lexicons", ((_written(e), e.location) for e in explanation.bases))
+    lines += _section("rows of base lexicons", (_line(entry.written, entry) for entry in explanation.bases))
     if explanation.nearest:
         lines += ["", f"nearest known verbs: {', '.join(explanation.nearest)}"]
     for meaning in explanation.domains:
@@ -299,101 +327,37 @@ def explanation_text(explanation: Explanation) -> str:
 def _domain_lines(verb: str, meaning: InDomain) -> Iterator[str]:
     yield from ("", f"in {meaning.domain}")
     if meaning.stands_for is not None:
-        other, place = meaning.stands_for
-        yield _line(f"stands for '{other}'", place)
+        yield _line(f"stands for '{meaning.stands_for.verb}'", meaning.stands_for)
     if meaning.serves:
         yield f"  serves as well: {', '.join(meaning.serves)}"
-    if meaning.shown:
-        yield f"  demonstrations: {meaning.shown} of {meaning.clauses} clauses"
-    else:
-        yield f"  demonstrations: none of {meaning.clauses} clauses"
-    nearer = [one for one in meaning.rows if one.why != _SAME]
+    yield f"  demonstrations: {meaning.demonstrations.shown or 'none'} of {meaning.demonstrations.clauses} clauses"
     others = [one for one in meaning.rows if one.why == _SAME]
-    shown = [*nearer, *others[:_MOST_OTHERS]]
+    hidden = others[_MOST_OTHERS:]
     yield from _section(
-        "rows that are tried, in this order", (_of_tried(verb, one) for one in meaning.rows if one in shown)
+        "rows that are tried, in this order", (_of_tried(verb, one) for one in meaning.rows if one not in hidden)
     )
-    if len(others) > _MOST_OTHERS:
-        yield f"  and {len(others) - _MOST_OTHERS} more of verbs that ask for the same (--json has all)"
+    if hidden:
+        yield f"  and {len(hidden)} more of verbs that ask for the same (--json has all)"
     if not meaning.rows:
         yield "  no row of any source"
     if meaning.nearest:
         yield f"  nearest known verbs: {', '.join(meaning.nearest)}"
     yield from _section(
         "rows of base lexicons that are not used here",
-        ((f"{_written(one.entry)}\n      {one.reason}", one.entry.location) for one in meaning.unused),
+        (f"{_line(one.written, one)}\n      {one.reason}" for one in meaning.unused),
     )
 
 
-def _section(title: str, entries: Iterable[tuple[str, Location | None]]) -> list[str]:
-    lines = [_line(text, place) for text, place in entries]
-    return ["", title, *lines] if lines else []
+def _section(title: str, lines: Iterable[str]) -> list[str]:
+    found = list(lines)
+    return ["", title, *found] if found else []
 
 
-def _line(text: str, place: Location | None) -> str:
-    first, newline, rest = text.partition("\n")
-    return f"  {first}" + (f"   [{place.file}:{place.line}]" if place is not None else "") + newline + rest
+def _line(text: str, at: Mention | BaseRow | Tried | Canonical) -> str:
+    return f"  {text}" + (f"   [{at.file}:{at.line}]" if at.file is not None else "")
 
 
-def _written(entry: Declared) -> str:
-    return f"{entry.pattern}: {' '.join(entry.condition.split())}"
-
-
-def _of_tried(verb: str, tried: Tried) -> tuple[str, Location | None]:
-    row = tried.row
-    how = row.source if row.location is not None else f"{row.source}, {row.probability:.2f}: {row.evidence}"
-    why = "" if tried.verb == verb else f" of '{tried.verb}', {tried.why};"
-    return f"{row.pattern}: {condition_text(row.condition)}  ({(why + ' ' + how).strip()})", row.location
-
-
-def explanation_json(explanation: Explanation) -> dict[str, object]:
-    """Return an explanation for programs."""
-    return {
-        "verb": explanation.verb,
-        "known": bool(explanation.english),
-        "english": [
-            {"section": m.section, "text": m.text, "file": m.place.file, "line": m.place.line}
-            for m in explanation.english
-        ],
-        "same": list(explanation.same),
-        "bases": [_entry_json(entry) for entry in explanation.bases],
-        "nearest": list(explanation.nearest),
-        "domains": [_domain_json(meaning) for meaning in explanation.domains],
-    }
-
-
-def _domain_json(meaning: InDomain) -> dict[str, object]:
-    stands_for = None
-    if meaning.stands_for is not None:
-        other, place = meaning.stands_for
-        stands_for = {"verb": other, **_place_json(place)}
-    return {
-        "domain": meaning.domain,
-        "stands_for": stands_for,
-        "serves": list(meaning.serves),
-        "demonstrations": {"shown": meaning.shown, "clauses": meaning.clauses},
-        "rows": [
-            {
-                "verb": one.verb,
-                "why": one.why,
-                "source": one.row.source,
-                "pattern": one.row.pattern,
-                "condition": condition_text(one.row.condition),
-                "probability": one.row.probability,
-                "evidence": one.row.evidence,
-                **_place_json(one.row.location),
-            }
-            for one in meaning.rows
-        ],
-        "unused": [{**_entry_json(one.entry), "reason": one.reason} for one in meaning.unused],
-        "nearest": list(meaning.nearest),
-    }
-
-
-def _entry_json(entry: Declared) -> dict[str, object]:
-    condition = " ".join(entry.condition.split())
-    return {"pattern": entry.pattern, "condition": condition, **_place_json(entry.location)}
-
-
-def _place_json(place: Location | None) -> dict[str, object]:
-    return {"file": place.file if place else None, "line": place.line if place else None}
+def _of_tried(verb: str, row: Tried) -> str:
+    how = row.source if row.file is not None else f"{row.source}, {row.probability:.2f}: {row.evidence}"
+    why = "" if row.verb == verb else f" of '{row.verb}', {row.why};"
+    return _line(f"{row.pattern}: {row.condition}  ({(why + ' ' + how).strip()})", row)

@@ -1,12 +1,14 @@
-"""What is wrong with a lexicon: its words, the verbs that it serves, and the goals that it declares."""
+"""Checks of a lexicon: its words, the verbs that it serves, and the goals that it declares."""
 
 from __future__ import annotations
 
 import json
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from tmd.check.codes import SEVERITY, Severity
 from tmd.check.lint.reachable import Possible, Scope, possible, types_of
@@ -22,8 +24,8 @@ from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, neare
 from tmd.pddl.writer import format_formula
 
 _WORD = re.compile(r"[a-z]+")
+# A particle stands at most that many words behind its verb.
 _PARTICLE_WITHIN = 5
-"""A particle stands at most that many words behind its verb."""
 
 
 def declared_verbs(lexicon: Lexicon, domain: Domain) -> frozenset[str]:
@@ -31,7 +33,7 @@ def declared_verbs(lexicon: Lexicon, domain: Domain) -> frozenset[str]:
     try:
         return frozenset(declared_goals(lexicon, domain).verbs())
     except TmdError:
-        return lexicon.goal_verbs  # faults are told by themselves
+        return lexicon.goal_verbs  # faults are reported elsewhere
 
 
 def check_lexicon(
@@ -42,7 +44,7 @@ def check_lexicon(
     names: Collection[str],
     texts: Iterable[str],
 ) -> list[TmdError]:
-    """What is odd about the words of a lexicon itself.
+    """Return the warnings on the words of a lexicon itself.
 
     Args:
         path: The file.
@@ -52,22 +54,22 @@ def check_lexicon(
         names: What nouns may lead to: classes, parts, substances, objects. Empty where that is not known.
         texts: The texts of the domain's demonstrations.
     """
-    source = _Lines(path)
+    source = Written(path)
     return [*_unknown_targets(lexicon, names, source), *_unserved(lexicon, meant, _Served(texts, actions), source)]
 
 
-def _unknown_targets(lexicon: Lexicon, names: Collection[str], source: _Lines) -> Iterator[TmdError]:
-    """Nouns that lead to what the domain does not have."""
+def _unknown_targets(lexicon: Lexicon, names: Collection[str], source: Written) -> Iterator[TmdError]:
+    """Report nouns that mean names which the domain does not have."""
     for noun, targets in sorted(lexicon.nouns.items()) if names else ():
         for target in targets:
             if target not in names and lexicon.own("nouns", noun):
                 hint = nearest(target, sorted(names))
                 message = f"'{noun}' leads to '{target}', which is no class, part, substance or object of the domain"
-                yield source.error(noun, target, message, hint, "unknown-target")
+                yield source.error(source.of_key(noun, target), message, hint, "unknown-target")
 
 
-def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source: _Lines) -> Iterator[TmdError]:
-    """Verbs of the lexicon itself that no demonstration, no action and no row serves."""
+def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source: Written) -> Iterator[TmdError]:
+    """Report verbs of the lexicon itself that no demonstration, no action and no row serves."""
     verbs = {verb: verb for verb in lexicon.verbs} | dict(lexicon.phrasal) | dict(lexicon.verb_synonyms)
     # one word of several that stand for the same verb is enough: its template serves all of them
     shown = {
@@ -80,30 +82,40 @@ def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source:
             if serving != verb:
                 message += f", nor '{serving}', which it stands for"
             hint = "add a demonstration or a goal of it, let it stand for a verb that has one, or remove it"
-            yield source.error(verb, verb, message, hint, "unserved-verb")
+            yield source.error(source.of_key(verb, verb), message, hint, "unserved-verb")
 
 
 def _declares(lexicon: Lexicon, section_name: str, verb: str) -> bool:
-    """Whether a section of the lexicon itself has a verb."""
+    """Return whether a section of the lexicon itself has a verb."""
     place = lexicon.places.get((section_name, verb))
     return place is not None and place.file == lexicon.source
 
 
 def texts_of(path: Path) -> list[str]:
-    """The texts of a corpus, as far as it can be read."""
-    texts = []
+    """Return the texts of a corpus, as far as it can be read."""
+    return [line["text"] for line in _lines_of(path) if isinstance(line.get("text"), str)]
+
+
+def segments_of(path: Path) -> list[str]:
+    """Return the pieces of a corpus' texts that have instructions, as far as it can be read."""
+    found: list[str] = []
+    for line in _lines_of(path):
+        with suppress(KeyError, TypeError):
+            found += [str(segment["text"]) for segment in line["segments"] if segment["instructions"]]
+    return found
+
+
+def _lines_of(path: Path) -> Iterator[dict[str, Any]]:
+    """Yield the JSON objects of a file of JSON Lines; other lines are passed over."""
     try:
         lines = read_text(path).splitlines()
     except TmdError:
-        return []
+        return
     for line in lines:
-        try:
-            said = json.loads(line)
-        except (ValueError, RecursionError):
-            continue
-        if isinstance(said, dict) and isinstance(said.get("text"), str):
-            texts.append(said["text"])
-    return texts
+        with suppress(ValueError, RecursionError):
+            value = json.loads(line)
+            if isinstance(value, dict):
+                yield value
 
 
 def check_phrases(path: Path, lexicon: Lexicon) -> Iterator[TmdError]:
@@ -144,37 +156,16 @@ class _Served:
         )
 
 
-class _Lines:
-    """The lines of a lexicon, to find a key in it."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.lines = read_text(path).splitlines()
-
-    def error(self, key: str, word: str, message: str, hint: str | None, code: str) -> TmdError:
-        for number, line in self._lines_with(key):
-            column = line.find(word, line.find(key) + (len(key) if word != key else 0))
-            place = Location(str(self.path), number, max(column, 0) + 1)
-            return TmdError(message, location=place, hint=hint, source=line, code=code)
-        return TmdError(message, location=Location(str(self.path), 1, 1), hint=hint, code=code)
-
-    def _lines_with(self, key: str) -> Iterator[tuple[int, str]]:
-        word = re.compile(rf"(?<![\w]){re.escape(key)}(?![\w])")
-        for number, line in enumerate(self.lines, start=1):
-            if word.search(line.partition("#")[0]):
-                yield number, line
-
-
+# So sure must a word be a verb (:meth:`tmd.language.lexicon.lexicon.Lexicon.verb`).
 _A_VERB = 2
-"""So sure must a word be a verb (:meth:`tmd.language.lexicon.lexicon.Lexicon.verb`)."""
+# The sections of words that only lead to what is asked for: *please*, *I need you to*.
 _POLITE = ("lead_verbs", "let_verbs", "modals", "adverbs")
-"""The sections of words that only lead to what is asked for: *please*, *I need you to*."""
 
 
 def check_goal_verbs(
     path: Path, lexicon: Lexicon, meant: Collection[str], actions: Collection[str], segments: Iterable[str]
 ) -> Iterator[TmdError]:
-    """Notes on the verbs of a lexicon that declares goals.
+    """Report notes on the verbs of a lexicon that declares goals.
 
     Args:
         path: The lexicon's file.
@@ -198,24 +189,8 @@ def check_goal_verbs(
             yield written.error(written.in_section("goals"), message, hint, "no-goal")
 
 
-def segments_of(path: Path) -> list[str]:
-    """The pieces of a corpus' texts that have instructions, as far as it can be read."""
-    found: list[str] = []
-    try:
-        lines = read_text(path).splitlines()
-    except TmdError:
-        return []
-    for line in lines:
-        try:
-            segments = json.loads(line)["segments"]
-            found += [str(segment["text"]) for segment in segments if segment["instructions"]]
-        except (ValueError, KeyError, TypeError, RecursionError):
-            continue
-    return found
-
-
 def _standing_for_another(lexicon: Lexicon, written: Written) -> Iterator[TmdError]:
-    """Verbs with a row of their own that share the templates of another verb."""
+    """Report verbs with their own row that share the templates of another verb."""
     told: set[str] = set()
     for entry in lexicon.goals:
         for verb in entry.pattern.partition(" ")[0].split("|"):
@@ -228,7 +203,7 @@ def _standing_for_another(lexicon: Lexicon, written: Written) -> Iterator[TmdErr
 
 
 def _verb_of_action(name: str, lexicon: Lexicon) -> Iterator[str]:
-    """What an action's name says as a verb: itself with its particle, or its first word."""
+    """Yield the verb of an action's name: itself with its particle, or its first word."""
     stem, _, rest = name.partition("_")
     if not _is_verb(stem, lexicon):
         return
@@ -236,7 +211,7 @@ def _verb_of_action(name: str, lexicon: Lexicon) -> Iterator[str]:
 
 
 def _first_verb(text: str, lexicon: Lexicon) -> Iterator[str]:
-    """The verb that a piece of a text begins with, if it begins with one."""
+    """Yield the verb that a piece of a text begins with, if it begins with one."""
     words = text.lower().replace(",", " ").replace(".", " ").split()
     found = lexicon.verb(words[0]) if words else None
     if found is None or found[2] < _A_VERB or found[1] != "base" or any(found[0] in section(s) for s in _POLITE):
@@ -252,14 +227,14 @@ def _is_verb(word: str, lexicon: Lexicon) -> bool:
 
 
 def _has_goal(verb: str, meant: Collection[str], lexicon: Lexicon) -> bool:
-    """Whether a row is for a verb, for its verb without a particle, or for one that means the same."""
+    """Return whether a row is for a verb, for its verb without a particle, or for one that means the same."""
     plain = verb.partition("_")[0]
     own = {verb, plain, lexicon.canonical_verb(verb), lexicon.canonical_verb(plain)}
     return any(verb in meant for verb in own | {other for one in own for other in family(one)})
 
 
+# The word of a pattern that a fault speaks of.
 _NAMED = re.compile(r"'([^']+)'|slot ([A-Z])")
-"""The word of a pattern that a fault speaks of."""
 _ANY: tuple[str, ...] = (OBJECT,)
 
 
@@ -270,8 +245,8 @@ class _Sound:
     entry: Declared
     formula: Formula
     variables: frozenset[str]
+    # Those that ``?rel`` may stand for; none where the condition does not speak of it.
     prepositions: tuple[str, ...] = ()
-    """Those that ``?rel`` may stand for; none where the condition does not speak of it."""
 
 
 def check_goals(
@@ -281,7 +256,7 @@ def check_goals(
     environments: Iterable[Problem],
     kinds: Callable[[], Collection[str]],
 ) -> list[TmdError]:
-    """Every fault of ``goals``, ``attributes`` and ``groups``.
+    """Return every fault of ``goals``, ``attributes`` and ``groups``.
 
     Args:
         path: The lexicon's file.
@@ -317,12 +292,21 @@ class Written:
         self.lines = split_lines(read_text(path))
 
     def error(self, place: Location, message: str, hint: str | None, code: str) -> TmdError:
-        """A fault at ``place``, with its line."""
+        """Return a fault at ``place``, with its line."""
         source = self.lines[place.line - 1] if place.line <= len(self.lines) else None
         return TmdError(message, location=place, hint=hint, source=source, code=code)
 
+    def of_key(self, key: str, word: str) -> Location:
+        """Return the place of a word on the first line with a key; the beginning of the file without such a line."""
+        found = re.compile(rf"(?<![\w]){re.escape(key)}(?![\w])")
+        for number, line in enumerate(self.lines, start=1):
+            if found.search(line.partition("#")[0]):
+                column = line.find(word, line.find(key) + (len(key) if word != key else 0))
+                return Location(str(self.path), number, max(column, 0) + 1)
+        return Location(str(self.path), 1, 1)
+
     def in_pattern(self, entry: Declared, word: str = "") -> Location:
-        """Where a word of an entry's pattern stands, the last time that it does."""
+        """Return the place of a word in an entry's pattern, the last one if there are several."""
         begin = entry.location or Location(str(self.path), 1, 1)
         for number in range(begin.line, max(begin.line - 3, 0), -1):
             column = self.lines[number - 1].find(entry.pattern)
@@ -332,7 +316,7 @@ class Written:
         return begin
 
     def in_condition(self, entry: Declared, place: Location | None) -> Location:
-        """Where a place of an entry's condition stands: YAML may have folded its lines, so blanks do not count."""
+        """Return a place of an entry's condition in the file; blanks do not count, as YAML may have folded lines."""
         begin = entry.location or Location(str(self.path), 1, 1)
         said = split_lines(entry.condition)
         left = 0
@@ -346,7 +330,7 @@ class Written:
         return begin
 
     def _signs(self, begin: Location) -> Iterator[tuple[int, int]]:
-        """The places of what is not a blank, from ``begin`` on; the sign of a block (``>-``) is none of them."""
+        """Yield the places of what is not a blank, from ``begin`` on; the sign of a block (``>-``) is none of them."""
         block = self.lines[begin.line - 1][begin.column - 1 :].startswith(("|", ">"))
         for number in range(begin.line + block, len(self.lines) + 1):
             line = self.lines[number - 1]
@@ -355,7 +339,7 @@ class Written:
                     yield number, column
 
     def in_section(self, section: str, key: str = "", word: str = "") -> Location:
-        """Where a section begins, or a key of it, or a word behind that key."""
+        """Return the place of a section, of a key in it, or of a word after that key."""
         inside = False
         for number, line in enumerate(self.lines, start=1):
             if re.match(rf"{section}\s*:", line):
@@ -421,13 +405,13 @@ class _Entries:
 
 
 def _stands_for(word: str) -> str | None:
-    """For a preposition that is read for another one, that one."""
+    """Return a hint for a preposition that another one covers."""
     known = next((name for name, members in PREPOSITIONS.items() if word in members and word not in PREPOSITIONS), None)
     return f'write "{known}", which is read for "{word}" as well' if known else None
 
 
 def _read(text: str, report: Report) -> tuple[Formula | None, Source]:
-    """A condition without the operators ``was`` and ``first``; ``None`` where it cannot be read, which is told."""
+    """Read a condition without the operators ``was`` and ``first``; ``None`` where it has faults."""
     told: list[TmdError] = []
     document = parse(text, "", told.append)
     formula = None if told else document.source.recover(None, _one_condition, document)
@@ -437,7 +421,7 @@ def _read(text: str, report: Report) -> tuple[Formula | None, Source]:
 
 
 def _one_condition(document: Document) -> Formula:
-    """The condition that a text consists of.
+    """Return the condition that a text consists of.
 
     Raises:
         TmdError: It is none, or several.
@@ -451,7 +435,7 @@ def _one_condition(document: Document) -> Formula:
 
 
 def _plain(node: Node) -> Node:
-    """A group without ``was`` and ``first``: what they are said of must be a condition all the same."""
+    """Return a group without ``was`` and ``first``: their argument must be a condition all the same."""
     if not isinstance(node, Group):
         return node
     if node.head in (WAS, FIRST) and len(node.parts) == 2 and isinstance(node.parts[1], Group):
@@ -460,7 +444,7 @@ def _plain(node: Node) -> Node:
 
 
 def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: Written) -> Iterator[TmdError]:
-    """Conditions that can hold of nothing in any environment; those with ``?rel`` for each preposition by itself."""
+    """Report conditions that hold in no environment; those with ``?rel`` for each preposition."""
     waiting = {(one, preposition): "" for one in sound for preposition in one.prepositions or ("",)}
     looked = False
     for problem in environments if waiting else ():
@@ -478,12 +462,12 @@ def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: 
 
 
 def _scope(one: _Sound) -> Scope:
-    """Slots may be filled with anything: a part stands in where the thing itself does not fit."""
+    """Return the types of slots: any, because a part is taken where the thing itself does not fit."""
     return dict.fromkeys(one.variables, _ANY)
 
 
 def _related(formula: Formula, preposition: str) -> Formula:
-    """A condition with a preposition for ``?rel``."""
+    """Return a condition with a preposition for ``?rel``."""
     match formula:
         case Atom(predicate, terms):
             return Atom(predicate, tuple(preposition if term == RELATION else term for term in terms))
@@ -495,7 +479,7 @@ def _related(formula: Formula, preposition: str) -> Formula:
 
 
 def _lacking(formula: Formula, scope: Scope, world: Possible) -> str | None:
-    """An atom without which a condition cannot hold and that never holds; ``None`` where there is none."""
+    """Return an atom without which a condition cannot hold and that never holds; ``None`` where there is none."""
     match formula:
         case Atom():
             return None if world.may_hold(formula, scope) else " ".join(format_formula(formula).split())
@@ -513,7 +497,7 @@ def _lacking(formula: Formula, scope: Scope, world: Possible) -> str | None:
 
 
 def _unknown_kinds(lexicon: Lexicon, kinds: Collection[str], written: Written) -> Iterator[TmdError]:
-    """Names of groups that nothing has."""
+    """Report names in groups that nothing has."""
     for group, names in lexicon.groups.items():
         for name in names if kinds else ():
             if name not in kinds:

@@ -26,13 +26,13 @@ _DEFINE = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\s+([^\s()]*)", re.IGN
 _LIKE_A_PROBLEM = re.compile(r"\(\s*(:init|:goal|:objects)\b", re.IGNORECASE)
 _COMMENT = re.compile(r";[^\n\r]*")
 
+# By the code of a fault: names that may well be declared, in a section that could not be read.
 Words = Mapping[str, frozenset[str]]
-"""By the code of a fault: names that may well be declared, in a section that could not be read."""
 
 
 @dataclass(frozen=True, slots=True)
 class CheckedDomain:
-    """What was read of a domain, and everything wrong with it."""
+    """Domain as far as it could be read, with its faults."""
 
     domain: Domain
     source: Source
@@ -41,13 +41,13 @@ class CheckedDomain:
 
     @property
     def sound(self) -> bool:
-        """Whether there is nothing wrong but perhaps what deserves a warning."""
+        """Return whether there is nothing wrong but perhaps what deserves a warning."""
         return not any(_is_error(fault) for fault in self.faults)
 
 
 @dataclass(frozen=True, slots=True)
 class CheckedProblem:
-    """What was read of a problem (``None`` where nothing could be), and everything wrong with it."""
+    """Problem as far as it could be read (``None`` where it could not), with its faults."""
 
     problem: Problem | None
     source: Source
@@ -55,7 +55,7 @@ class CheckedProblem:
 
 
 def kind_and_name(text: str) -> tuple[str, str]:
-    """Whether ``text`` is a ``domain`` or a ``problem``, and its name in lower case (perhaps empty)."""
+    """Return whether ``text`` is a ``domain`` or a ``problem``, and its name in lower case (perhaps empty)."""
     code = _COMMENT.sub("", text)
     found = _DEFINE.search(code)
     if found:
@@ -79,7 +79,7 @@ def check_domain_text(text: str, file: str) -> CheckedDomain:
 
 
 def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> CheckedProblem:
-    """The same for a problem; without its domain only its form is checked."""
+    """Return the same for a problem; without its domain only its form is checked."""
     faults: list[TmdError] = []
     domain = checked.domain if checked else Domain(_domain_named_in(text))
     try:
@@ -97,7 +97,7 @@ def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> C
 
 
 def domain_name(text: str) -> str:
-    """The domain that a problem says it is of; empty where it says nothing."""
+    """Return the domain that a problem says it is of; empty where it says nothing."""
     return _domain_named_in(text)
 
 
@@ -110,16 +110,16 @@ def _is_error(fault: TmdError) -> bool:
     return SEVERITY.get(fault.code, Severity.ERROR) is Severity.ERROR
 
 
+# A kind of fault, and the kind and a part of the message of what only follows from it.
 _ECHOES = {
     "unknown-requirement": ("missing-requirement", ""),
     "unknown-function": ("missing-requirement", ":action-costs"),
     "type-cycle": ("parent-after-child", ""),
 }
-"""A kind of fault, and the kind and a part of the message of what only follows from it."""
 
 
 def _without_echoes(faults: list[TmdError], others: Sequence[TmdError] = ()) -> list[TmdError]:
-    """``faults`` without those that only follow from them, or from ``others``."""
+    """Return ``faults`` without those that only follow from them, or from ``others``."""
     found = [_ECHOES[fault.code] for fault in (*faults, *others) if fault.code in _ECHOES]
     return [f for f in faults if not any(f.code == code and part in f.message for code, part in found)]
 
@@ -138,7 +138,7 @@ def _joined(one: Words, other: Words) -> Words:
 
 
 def _excused(text: str, file: str, faults: list[TmdError]) -> Words:
-    """The words of the sections in which something could not be read: they would be declared otherwise."""
+    """Return the words of the sections in which something could not be read: they would be declared otherwise."""
     if not faults:
         return {}
     document = parse(text, file, lambda _: None)

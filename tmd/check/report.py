@@ -14,6 +14,7 @@ from tmd.diagnostics import Location, TmdError
 from tmd.files import write_text
 from tmd.pddl.reading.syntax import ODD_BLANK, Group, parse, read_text, split_lines
 
+# The codes that may be fixed; parentheses only where there is one way to do it.
 FIXABLE = frozenset(
     {
         "empty-condition",
@@ -26,7 +27,6 @@ FIXABLE = frozenset(
         "stale-domain",
     }
 )  # fmt: skip
-"""The codes that may be fixed; parentheses only where there is one way to do it."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -40,7 +40,7 @@ class _Edit:
 
 
 def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
-    """The text of ``file`` with what is mechanical fixed; ``None`` where nothing is.
+    """Return the text of ``file`` with what is mechanical fixed; ``None`` where nothing is.
 
     Raises:
         TmdError: The file cannot be read.
@@ -80,7 +80,7 @@ def _edits(text: str, lines: Sequence[str], file: Path, diagnostics: Sequence[Di
             yield _Edit(row, column, 0, " ")
         elif diagnostic.code == "look-alike":
             plain = re.fullmatch(r'write "(.)"', diagnostic.hint or "")
-            if plain and plain[1] == " ":  # told once a line
+            if plain and plain[1] == " ":  # reported once a line
                 yield from (_Edit(row, found.start(), 1, " ") for found in ODD_BLANK.finditer(lines[row], column))
             elif plain:
                 yield _Edit(row, column, 1, plain[1])
@@ -92,7 +92,7 @@ def _edits(text: str, lines: Sequence[str], file: Path, diagnostics: Sequence[Di
 
 
 def _parenthesis(diagnostic: Diagnostic, text: str, lines: Sequence[str]) -> Iterator[_Edit]:
-    """At the end of the file only: elsewhere nobody but the author knows where it belongs."""
+    """Yield the edit of a parenthesis at the end of the file; elsewhere only the author knows its place."""
     if "no opening parenthesis" in diagnostic.message:
         yield _Edit(diagnostic.location.line - 1, diagnostic.location.column - 1, 1, "")
     elif diagnostic.hint == 'add the missing ")"' and '"(define"' in diagnostic.message:
@@ -119,13 +119,13 @@ def _insertion(place: Location, text: str) -> _Edit:
     return _Edit(place.line - 1, place.column - 1, 0, text)
 
 
+# Fixing one thing may bring another to light.
 _MOST_ROUNDS = 4
-"""Fixing one thing may bring another to light."""
 
 
 @dataclass(frozen=True, slots=True)
 class CheckReport:
-    """What was found.
+    """Result of a check.
 
     Attributes:
         files: The files that were checked.
@@ -139,7 +139,7 @@ class CheckReport:
 
     @property
     def counts(self) -> Mapping[Severity, int]:
-        """How many diagnostics there are of each severity."""
+        """Number of diagnostics of each severity."""
         return {severity: sum(d.severity is severity for d in self.diagnostics) for severity in Severity}
 
 
@@ -155,7 +155,7 @@ def check_paths(
 
     Args:
         paths: The files and folders.
-        domain: The file of the domain of all problems, where it shall not be looked for.
+        domain: The file of the domain of all problems, if it is known.
         domains: The directory of all domains; the usual one by default.
         problems: The directory of all problems; the usual one by default.
         fix: Fix what can be fixed without knowing what the author meant, and check again.
@@ -180,7 +180,7 @@ def check_paths(
 
 
 def _stamp(file: Path) -> tuple[int, int, int] | None:
-    """What tells whether a file was written since; ``None`` where there is none."""
+    """Return a stamp that changes when the file is written; ``None`` where there is none."""
     try:
         status = file.stat()
     except OSError:
@@ -196,8 +196,8 @@ def _fix(checker: Checker, stamps: Mapping[Path, tuple[int, int, int] | None]) -
         stamps: The files as they were before that.
 
     Returns:
-        The files that changed; and whether somebody else, an editor or another fix, wrote one meanwhile: what was found
-        is no longer where it was then, and the file is left alone.
+        The files that changed; and whether another program, an editor or another fix, wrote one meanwhile: the
+        diagnostics are outdated then, and the file is left alone.
     """
     by_file: dict[Path, list[Diagnostic]] = {}
     for diagnostic in checker.findings.sorted():

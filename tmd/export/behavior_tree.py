@@ -19,15 +19,15 @@ from tmd.export.strips import Checked, checked_steps
 from tmd.pddl.model import ActionSchema, GroundAtom
 from tmd.pddl.semantics import schema_of
 
+# The node that checks literals; it has the port ``literals``.
 CONDITION = "Holds"
-"""The node that checks literals; it has the port ``literals``."""
 _TREE = "MainTree"
+# Attributes that mean something else in BehaviorTree.CPP; it refuses ports of these names in any case.
 _RESERVED = {"id", "name"}
-"""Attributes that mean something else in BehaviorTree.CPP; it refuses ports of these names in any case."""
 
 
 def format_tree(source: Planned) -> str:
-    """The XML of the tree.
+    """Return the XML of the tree.
 
     Raises:
         TmdError: The problem cannot be ground.
@@ -69,7 +69,7 @@ def _literal(atom: GroundAtom, positive: bool) -> str:
 
 
 def _ports(action: ActionSchema) -> list[str]:
-    """The port of each parameter: its name, with ``_`` behind it where BehaviorTree.CPP keeps that for itself."""
+    """Return the port of each parameter: its name, with ``_`` after names that BehaviorTree.CPP reserves."""
     names = [p.name.removeprefix("?") for p in action.parameters]
     return [f"{name}_" if name in _RESERVED else f"p{name}" if not name[0].isalpha() else name for name in names]
 

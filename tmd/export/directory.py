@@ -35,7 +35,7 @@ def check_directory(directory: Path, *, overwrite: bool = False) -> None:
 
 
 def _first_above(path: Path) -> Path:
-    """``path``, or the nearest directory above it that is there."""
+    """Return ``path``, or the nearest directory above it that is there."""
     found = path.absolute()
     while not found.exists() and found != found.parent:
         found = found.parent

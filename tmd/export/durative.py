@@ -26,35 +26,35 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.writer import format_domain, format_formula, format_problem
 
+# Between the end of an instruction and the start of the next; the tolerance of VAL and POPF.
 GAP = Decimal("0.001")
-"""Between the end of an instruction and the start of the next; the tolerance of VAL and POPF."""
 
 
 def starts(count: int) -> list[Decimal]:
-    """When each of ``count`` instructions starts."""
+    """Return the start times of ``count`` instructions."""
     return [number * (DURATION + GAP) for number in range(count)]
 
 
 def format_temporal(plan: Sequence[Instruction]) -> str:
-    """A plan of PDDL 2.1: ``0.000: (grasp cup1) [1.000]``."""
+    """Return a plan of PDDL 2.1: ``0.000: (grasp cup1) [1.000]``."""
     lines = [f"{start:.3f}: {i.pddl()} [{DURATION:.3f}]" for start, i in zip(starts(len(plan)), plan, strict=True)]
     return "".join(f"{line}\n" for line in lines)
 
 
 def format_popf(plan: Sequence[Instruction]) -> str:
-    """A plan as the planner POPF prints it, which is what PlanSys2 reads: from ``Solution Found`` on."""
+    """Return a plan as the planner POPF prints it, which is what PlanSys2 reads: from ``Solution Found`` on."""
     makespan = len(plan) * DURATION + max(0, len(plan) - 1) * GAP
     lines = [f"{start:.3f}: {i.pddl()}  [{DURATION:.3f}]" for start, i in zip(starts(len(plan)), plan, strict=True)]
     return "".join(f"{line}\n" for line in [";;;; Solution Found", f"; Cost: {makespan:.3f}", *lines])
 
 
+# How long every action takes; PDDL says nothing of how long an instruction takes a robot.
 DURATION = 1
-"""How long every action takes; PDDL says nothing of how long an instruction takes a robot."""
 _TOKEN = "robot_free"
 
 
 def token(domain: Domain) -> str:
-    """The name of the token, which no predicate of ``domain`` has."""
+    """Return the name of the token, which no predicate of ``domain`` has."""
     name = _TOKEN
     while any(p.name == name for p in domain.predicates):
         name += "_"
@@ -62,7 +62,7 @@ def token(domain: Domain) -> str:
 
 
 def format_durative_domain(domain: Domain) -> str:
-    """``domain``, whose actions have no duration, as text of PDDL 2.1 with durative actions.
+    """Return ``domain``, whose actions have no duration, as text of PDDL 2.1 with durative actions.
 
     Costs are left out: what is minimised is time.
     """
@@ -80,7 +80,7 @@ def format_durative_domain(domain: Domain) -> str:
 
 
 def format_durative_problem(problem: Problem) -> str:
-    """``problem`` as text for :func:`format_durative_domain`."""
+    """Return ``problem`` as text for :func:`format_durative_domain`."""
     free = GroundAtom(token(problem.domain))
     bare = replace(problem.domain, functions=())
     written = replace(

@@ -1,4 +1,4 @@
-"""What a text asks for, taken all in all: one PDDL condition on the end of its plan."""
+"""Goal of a whole text: one PDDL condition on the end of its plan."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tmd.pddl.task import Task
 
 
 def end_goal(plan: RankedPlan, task: Task) -> Formula | None:
-    """What the steps of a text asked for and later steps did not undo, as one condition; ``None`` without goals.
+    """Return the goals of a text that later steps did not undo, as one condition; ``None`` without goals.
 
     A conjunct that does not hold at the end of ``plan`` was undone by a later step: *open the fridge, …, close it*. Of
     alternatives only those are left that hold at the end, if a later step speaks of what was chosen: in *fill a cup and
@@ -38,14 +38,14 @@ def end_goal(plan: RankedPlan, task: Task) -> Formula | None:
 
 
 def asked_problem(grounded: Grounded) -> Problem | None:
-    """The environment as a problem whose goal is what a text asks for; ``None`` where it has no plan with goals."""
+    """Return the environment with the goal of a text; ``None`` where the text has no plan with goals."""
     task = grounded.world.task
     whole = end_goal(grounded.plans[0], task) if grounded.plans else None
     return None if whole is None else aimed_at(task.problem, whole)
 
 
 def _narrowed(part: Formula, standing: list[Formula], later: Collection[str]) -> Formula:
-    """A disjunction without what was not chosen, where later steps speak of what was."""
+    """Return a disjunction without what was not chosen, where later steps speak of what was."""
     every = set.intersection(*(_objects(inner) for inner in _alternatives(part)))
     chosen = {name for inner in standing for name in _objects(inner)} - every
     if not chosen & set(later):
@@ -58,7 +58,7 @@ def _alternatives(part: Formula) -> tuple[Formula, ...]:
 
 
 def _objects(formula: Formula) -> set[str]:
-    """The objects that a condition over ground atoms speaks of."""
+    """Return the objects that a condition over ground atoms speaks of."""
     match formula:
         case Atom(_, terms):
             return set(terms)

@@ -13,8 +13,8 @@ from tmd.pddl.plan_file import format_plan
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.writer import format_domain, format_problem
 
+# File names with contents.
 Files: TypeAlias = Mapping[str, bytes]
-"""File names with contents."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ def _strips(source: Planned) -> Files:
 
 
 def _with_origins(text: str, found: Strips, keyword: str = "action") -> str:
-    """The text of a domain with the instruction before each action that stands for it."""
+    """Return the text of a domain with the instruction before each action that stands for it."""
     for action in found.problem.domain.actions:
         head = f"  (:{keyword} {action.name}\n"
         text = text.replace(head, f"  ; {found.instructions[action.name].pddl()}\n{head}")
@@ -133,9 +133,10 @@ def _texts(files: Mapping[str, str]) -> Files:
     return {name: text.encode("utf-8") for name, text in files.items()}
 
 
+# What is written where no format is asked for.
 DEFAULT = "adl"
-"""What is written where no format is asked for."""
 
+# Every format by its name, in the order in which they are documented.
 FORMATS: Mapping[str, Format] = {
     form.name: form
     for form in (
@@ -151,12 +152,11 @@ FORMATS: Mapping[str, Format] = {
         Format("json", "problem and plan in a form of our own, and its JSON Schema", _json),
     )
 }
-"""Every format by its name, in the order in which they are documented."""
 
 
 @dataclass(frozen=True, slots=True)
 class ChosenFiles:
-    """What became of the formats that were asked for.
+    """Result of an export.
 
     Attributes:
         files: The files of each format that could be written, by path within one directory.
@@ -168,7 +168,7 @@ class ChosenFiles:
 
 
 def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
-    """The files of each format; several formats have a directory each. One that fails does not keep the others back.
+    """Return the files of each format, in a directory each if there are several; failures do not stop the others.
 
     Raises:
         TmdError: There is no such format.

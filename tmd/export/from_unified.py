@@ -33,13 +33,13 @@ from tmd.pddl.model import (
 from tmd.pddl.reading.checking import check_problem
 from tmd.pddl.reading.requirements import used_requirements
 
+# Something of unified-planning, which ships no types.
 _Outside: TypeAlias = Any
-"""Something of unified-planning, which ships no types."""
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 
 
 def from_unified_planning(problem: _Outside, *, domain: str | None = None) -> Problem:
-    """A ``unified_planning.model.Problem`` as one of ours.
+    """Return a ``unified_planning.model.Problem`` as one of ours.
 
     Names are taken over in lower case. Objects that an action names become constants.
 

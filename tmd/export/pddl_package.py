@@ -12,14 +12,14 @@ from tmd.pddl.normalise import portable
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.writer import format_domain, format_problem
 
+# A ``pddl.core.Problem``; the package ships no types.
 PddlProblem: TypeAlias = Any
-"""A ``pddl.core.Problem``; the package ships no types."""
 
 
 def to_pddl(problem: Problem) -> PddlProblem:
-    """``problem`` as a ``pddl.core.Problem`` whose ``domain`` is set, made by that package's own reader.
+    """Return ``problem`` as a ``pddl.core.Problem`` whose ``domain`` is set, made by that package's own reader.
 
-    Names stay as they are, and so does the meaning; ``either`` becomes a type of its own.
+    Names stay as they are, and so does the meaning; ``either`` becomes a separate type.
 
     Raises:
         TmdError: The problem cannot be written in the form that other tools read, or the package refuses it.
@@ -49,7 +49,7 @@ def to_pddl(problem: Problem) -> PddlProblem:
 
 
 def from_pddl(problem: PddlProblem) -> Problem:
-    """A ``pddl.core.Problem`` as one of ours.
+    """Return a ``pddl.core.Problem`` as one of ours.
 
     Args:
         problem: A problem that knows its domain: typed ADL with action costs.

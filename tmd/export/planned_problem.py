@@ -41,7 +41,7 @@ class Planned:
 
     @property
     def unit_cost(self) -> bool:
-        """Whether each instruction costs 1."""
+        """Return whether each instruction costs 1."""
         return not self.problem.minimize_cost
 
 
@@ -59,9 +59,9 @@ def planned(problem: Problem, plan: Iterable[Instruction]) -> Planned:
 
 
 def with_outcome(problem: Problem, plan: Iterable[Instruction]) -> Problem:
-    """``problem`` with the goal that everything is as it is after ``plan``.
+    """Return ``problem`` with the goal that everything is as it is after ``plan``.
 
-    The goal of a text is not stated anywhere; what its plan changed stands for it. Where nothing changed, the goal
+    The goal of a text is not stated anywhere; the changes of its plan are taken for it. Where nothing changed, the goal
     is empty.
 
     Raises:

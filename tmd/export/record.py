@@ -11,7 +11,7 @@ from tmd.records.plan import PlanRecord, StepRecord
 
 
 def record(source: Planned) -> PlanRecord:
-    """A planned problem as a record.
+    """Return a planned problem as a record.
 
     Raises:
         TmdError: The problem cannot be written in the form that other tools read.
@@ -44,17 +44,17 @@ def _words(atoms: State) -> list[list[str]]:
 
 
 def format_record(source: Planned) -> str:
-    """The record of a planned problem as JSON."""
+    """Return the record of a planned problem as JSON."""
     return json.dumps(record(source).model_dump(), ensure_ascii=False, indent=2) + "\n"
 
 
 def format_schema() -> str:
-    """The JSON Schema of :class:`PlanRecord`."""
+    """Return the JSON Schema of :class:`PlanRecord`."""
     return json.dumps(PlanRecord.model_json_schema(), ensure_ascii=False, indent=2) + "\n"
 
 
 def parse_record(text: str, file: str = "<text>") -> Planned:
-    """The planned problem in a record.
+    """Return the planned problem in a record.
 
     Raises:
         TmdError: The text is not a record, or its plan does not work.

@@ -8,12 +8,12 @@ from tmd.planning.downward_process import DownwardProcess
 from tmd.planning.fast_downward import texts_for_planners
 from tmd.planning.processes import Deadline, died
 
+# Seconds after which the translator is stopped: a guard, no part of the result.
 _LIMIT = 600.0
-"""Seconds after which the translator is stopped: a guard, no part of the result."""
 
 
 def format_sas(source: Planned) -> str:
-    """The problem as Fast Downward's translator writes it.
+    """Return the problem as Fast Downward's translator writes it.
 
     Raises:
         MissingToolError: Fast Downward is not installed.

@@ -29,8 +29,8 @@ from tmd.world.folder import DomainFolder
 FORMATS = ("urdf", "mjcf")
 WORLD, ROOM = "world", "room"
 _MESHES = "meshes"
+# Steps of physics after which everything has come to rest.
 _SETTLED = 240
-"""Steps of physics after which everything has come to rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ class _Part:
 
 
 def scene_files(environment: Environment, folder: DomainFolder, formats: tuple[str, ...]) -> dict[str, bytes]:
-    """The files of a scene, by their paths.
+    """Return the files of a scene, by their paths.
 
     Args:
         environment: What there is and where.
@@ -89,7 +89,7 @@ def scene_files(environment: Environment, folder: DomainFolder, formats: tuple[s
 
 
 def _collect(parts: list[_Part]) -> dict[str, bytes]:
-    """Let boxes be boxes again and name every mesh by a file beside the scene; the files."""
+    """Turn box meshes into boxes, name every other mesh by a file beside the scene, and return the files."""
     found: dict[str, bytes] = {}
     for part in parts:
         for geometry in part.robot.iter("geometry"):
@@ -115,12 +115,12 @@ def _collect(parts: list[_Part]) -> dict[str, bytes]:
 
 
 def _named(part: _Part, link: str) -> str:
-    """A link's name in the scene: the root has that of the object."""
+    """Return a link's name in the scene: the root has that of the object."""
     return part.name if link == "root" else f"{part.name}_{link}"
 
 
 def _joint(owner: str, name: str) -> str:
-    """A joint's name in the scene, which differs from every link's."""
+    """Return a joint's name in the scene, which differs from every link's."""
     return f"{owner}_{name}_joint"
 
 
@@ -135,7 +135,7 @@ def _words(values: tuple[float, ...] | list[float]) -> str:
 
 
 def _angles(pose: Pose) -> Vector:
-    """Roll, pitch, yaw."""
+    """Return roll, pitch and yaw in radians."""
     m = pose.matrix()
     pitch = math.asin(max(-1.0, min(1.0, -float(m[2, 0]))))
     if abs(m[2, 0]) > 1 - 1e-9:
@@ -177,7 +177,7 @@ def _urdf(name: str, parts: list[_Part]) -> ET.Element:
 
 
 def _mjcf(urdf: ET.Element, meshes: Mapping[str, bytes], positions: Mapping[str, float]) -> bytes:
-    """What MuJoCo makes of the URDF, with its meshes in ``meshes/`` and the joints at the start as a key frame.
+    """Compile the URDF with MuJoCo, with its meshes in ``meshes/`` and the joints at the start as a key frame.
 
     Raises:
         MissingToolError: MuJoCo is not installed.

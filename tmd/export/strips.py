@@ -6,7 +6,7 @@ others from firing. A disjunction is decided by the literal that holds. So in ev
 applies, the instruction applies as well and does exactly the same: every plan of the export is a plan of the problem.
 The other way round that is not so: what the plan does not do cannot be done.
 
-A negated literal becomes an atom of a predicate of its own, ``not_`` and the name, which is kept in step. Atoms that
+A negated literal becomes an atom of a separate predicate, ``not_`` and the name, which is kept in step. Atoms that
 never change are compiled away. Predicates and objects keep their names; an action is named by its instruction,
 ``grasp-cup1``, with the number of its step behind it where the same instruction is decided in two ways.
 """
@@ -56,7 +56,7 @@ class Strips:
     instructions: Mapping[str, Instruction]
 
     def restored(self, plan: Iterable[Instruction]) -> tuple[Instruction, ...]:
-        """A plan for :attr:`problem` as a plan for the original problem.
+        """Return a plan for :attr:`problem` as a plan for the original problem.
 
         Raises:
             TmdError: An instruction is not one of the exported problem.
@@ -80,7 +80,7 @@ class _Decided:
 
 
 def strips(source: Planned, *, typed: bool = False) -> Strips:
-    """The plan-resolved ground STRIPS of a planned problem.
+    """Return the plan-resolved ground STRIPS of a planned problem.
 
     Costs are left out: in the export each action costs 1.
 
@@ -113,7 +113,7 @@ class Checked:
 
 
 def checked_steps(source: Planned) -> tuple[list[Checked], tuple[tuple[GroundAtom, bool], ...]]:
-    """Each instruction of the plan with what can be checked before and after it, and the literals of the goal.
+    """Return each instruction of the plan with what can be checked before and after it, and the literals of the goal.
 
     Raises:
         TmdError: The problem cannot be ground.
@@ -139,7 +139,7 @@ def _literals(task: Task, cube: Cube) -> tuple[tuple[GroundAtom, bool], ...]:
 
 
 def _followed(task: Task, plan: Iterable[Instruction]) -> tuple[list[_Decided], Cube]:
-    """The operators of ``plan`` as they work in turn, and the case of the goal that holds at the end."""
+    """Return the operators of ``plan`` as they work in turn, and the case of the goal that holds at the end."""
     state = task.init
     steps: list[_Decided] = []
     for instruction in plan:
@@ -150,7 +150,7 @@ def _followed(task: Task, plan: Iterable[Instruction]) -> tuple[list[_Decided], 
 
 
 def _decided(operator: Operator, state: Bits) -> _Decided:
-    """``operator`` as it works in ``state``."""
+    """Return ``operator`` as it works in ``state``."""
     needs = operator.precondition
     add, delete = operator.add, operator.delete
     silent = list(operator.forbidden)
@@ -167,7 +167,7 @@ def _decided(operator: Operator, state: Bits) -> _Decided:
 
 
 def _kept_false(cube: Cube, needs: Cube, state: Bits) -> Cube:
-    """``needs`` with a literal that keeps ``cube`` false, as it is in ``state``; as they are where one is there."""
+    """Return ``needs`` with a literal that keeps ``cube`` false, as it is in ``state``; unchanged if one is there."""
     if cube.positive & needs.negative or cube.negative & needs.positive:
         return needs
     absent, present = cube.positive & ~state, cube.negative & state
@@ -189,7 +189,7 @@ def _written(task: Task, steps: Sequence[_Decided], goal: Cube) -> Strips:
 
 
 def _names(steps: Sequence[_Decided]) -> dict[_Decided, str]:
-    """A name for each different action, in the order of the plan."""
+    """Return a name for each different action, in the order of the plan."""
     names: dict[_Decided, str] = {}
     taken: set[str] = set()
     for number, step in enumerate(steps, start=1):
@@ -204,7 +204,7 @@ def _names(steps: Sequence[_Decided]) -> dict[_Decided, str]:
 
 
 class _Writer:
-    """Writes bit sets as atoms, and atoms that are needed false as atoms of a predicate of their own."""
+    """Writer of bit sets as atoms; atoms that must be false become atoms of a separate predicate."""
 
     def __init__(self, task: Task, negated: Bits) -> None:
         self.task = task
@@ -236,7 +236,7 @@ class _Writer:
         return Atom(atom.predicate, atom.args)
 
     def problem(self, actions: tuple[ActionSchema, ...], goal: Cube) -> Problem:
-        """The problem: only what its actions and its goal speak of is in it."""
+        """Return the problem: only what its actions and its goal speak of is in it."""
         source = self.task.problem
         aim = And(tuple(self.lifted(atom) for atom in self.atoms(goal)))
         start = self.atoms(Cube(self.task.init, self.negated & ~self.task.init))
@@ -262,7 +262,7 @@ class _Writer:
 
 
 def restored(problem: Problem, plan: Iterable[Instruction]) -> tuple[Instruction, ...]:
-    """``plan`` with the names of plan-resolved actions read as the instructions of ``problem`` that they stand for.
+    """Return ``plan`` with the names of plan-resolved actions replaced by the instructions of ``problem``.
 
     ``(grasp-cup1)`` and ``(grasp-cup1-7)`` become ``(grasp cup1)``. An instruction that names an action of the
     problem stays as it is, and so does a name that can be read in no way or in several.
@@ -280,7 +280,7 @@ def restored(problem: Problem, plan: Iterable[Instruction]) -> tuple[Instruction
 
 
 def _endings(name: str) -> Iterable[str]:
-    """The name, and the name without the number of a step."""
+    """Return the name, and the name without the number of a step."""
     yield name
     head, _, tail = name.rpartition("-")
     if head and tail.isdecimal():
@@ -297,7 +297,7 @@ def _readings(text: str, names: Mapping[str, int], objects: set[str]) -> Iterabl
 
 
 def _split(pieces: Sequence[str], count: int, objects: set[str]) -> Iterable[tuple[str, ...]]:
-    """Every way to join ``pieces`` by hyphens to ``count`` objects."""
+    """Return every way to join ``pieces`` by hyphens to ``count`` objects."""
     if count == 0:
         if not pieces:
             yield ()
@@ -310,9 +310,9 @@ def _split(pieces: Sequence[str], count: int, objects: set[str]) -> Iterable[tup
 
 
 def with_flat_types(problem: Problem) -> Problem:
-    """``problem``, which is ground, with as few types as tell its objects apart, and without unused objects.
+    """Return ``problem``, which is ground, with as few types as separate its objects, and without unused objects.
 
-    Objects that stand in the same place of a predicate are of one type: the nearest one that covers them all. Where
+    Objects in the same place of a predicate are of one type: the nearest one that covers them all. Where
     the problem has no types, or one is enough, there are none.
     """
     classes = _Classes(problem)
@@ -348,7 +348,7 @@ def _atoms(problem: Problem) -> Iterator[GroundAtom]:
 
 
 class _Classes:
-    """The objects of a ground problem, those together that stand in the same place of a predicate."""
+    """The objects of a ground problem, grouped by the places of predicates that they share."""
 
     def __init__(self, problem: Problem) -> None:
         self.parents: dict[str, str] = {}
@@ -364,7 +364,7 @@ class _Classes:
         return list(self.parents)
 
     def example(self, predicate: str, place: int) -> str:
-        """An object that stands in this place."""
+        """Return an object in this place."""
         return self.first[(predicate, place)]
 
     def root(self, name: str) -> str:
@@ -376,7 +376,7 @@ class _Classes:
         self.parents[self.root(one)] = self.root(other)
 
     def type_of(self, name: str) -> str:
-        """The nearest type that covers everything in the class of ``name``."""
+        """Return the nearest type that covers everything in the class of ``name``."""
         root = self.root(name)
         members = [member for member in self.parents if self.root(member) == root]
         chains = [self.hierarchy.ancestors(self.own[member]) for member in members]

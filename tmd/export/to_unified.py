@@ -22,14 +22,14 @@ from tmd.pddl.writer import format_domain, format_problem
 
 _WORD = re.compile(r"[A-Za-z_][\w-]*")
 _HYPHENED = re.compile(r"[A-Za-z_]\w*(?:-\w+)+")
+# A ``unified_planning.model.Problem``; the package ships no types.
 UpProblem: TypeAlias = Any
-"""A ``unified_planning.model.Problem``; the package ships no types."""
+# A plan of unified-planning.
 UpPlan: TypeAlias = Any
-"""A plan of unified-planning."""
 
 
 def to_unified_planning(problem: Problem) -> UpProblem:
-    """``problem`` as a ``unified_planning.model.Problem``, made by unified-planning's own reader.
+    """Return ``problem`` as a ``unified_planning.model.Problem``, made by unified-planning's own reader.
 
     Names stay as they are. The name of the domain is lost: unified-planning has no place for it.
 
@@ -62,7 +62,7 @@ def _shared_names() -> Iterator[None]:
 
 @contextmanager
 def _refusals(form: str) -> Iterator[None]:
-    """What unified-planning cannot do is told as such: it has many kinds of errors for that."""
+    """Convert errors of unified-planning, which are of many kinds, to :class:`TmdError`."""
     try:
         yield
     except TmdError:
@@ -73,7 +73,7 @@ def _refusals(form: str) -> Iterator[None]:
 
 
 def _without_idle_costs(problem: Problem) -> Problem:
-    """``problem`` without costs that nothing minimises: unified-planning would take them for numeric fluents."""
+    """Return ``problem`` without costs that nothing minimises: unified-planning would take them for numeric fluents."""
     if problem.minimize_cost or not problem.domain.functions:
         return problem
     actions = tuple(replace(action, cost=None) for action in problem.domain.actions)
@@ -81,7 +81,7 @@ def _without_idle_costs(problem: Problem) -> Problem:
 
 
 def plan_to_unified_planning(plan: Iterable[Instruction], problem: UpProblem) -> UpPlan:
-    """A plan as a ``SequentialPlan`` for ``problem``.
+    """Return a plan as a ``SequentialPlan`` for ``problem``.
 
     Args:
         plan: The instructions.
@@ -105,7 +105,7 @@ def plan_to_unified_planning(plan: Iterable[Instruction], problem: UpProblem) ->
 
 
 def plan_from_unified_planning(plan: UpPlan) -> tuple[Instruction, ...]:
-    """The instructions of a plan of unified-planning: of a sequential one, or of one with times, by their start.
+    """Return the instructions of a plan of unified-planning: of a sequential one, or of one with times, by their start.
 
     Raises:
         TmdError: It is a plan of another kind.
@@ -125,7 +125,7 @@ def plan_from_unified_planning(plan: UpPlan) -> tuple[Instruction, ...]:
 
 
 def format_anml(problem: Problem) -> str:
-    """A problem as ANML, by unified-planning's writer.
+    """Return a problem as ANML, by unified-planning's writer.
 
     ANML's names have no hyphens; each becomes ``_``. ANML has no costs of actions.
 
@@ -150,7 +150,7 @@ def format_anml(problem: Problem) -> str:
 
 
 def messages(source: Planned) -> tuple[bytes, bytes]:
-    """Problem and plan as the protocol buffers ``Problem`` and ``Plan`` of unified-planning.
+    """Return problem and plan as the protocol buffers ``Problem`` and ``Plan`` of unified-planning.
 
     Raises:
         MissingToolError: unified-planning or protobuf is not installed.

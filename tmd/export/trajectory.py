@@ -22,8 +22,8 @@ from tmd.robot.state_recorder import Recorded, Sample, StateRecorder
 
 SUFFIXES = (".jsonl", ".mcap")
 DEFAULT_RATE = 10.0
+# Frames, by the names that ROS has for them.
 WORLD, BASE = "map", "base_footprint"
-"""Frames, by the names that ROS has for them."""
 _HEADER = (
     "std_msgs/Header header\n", "=" * 80 + "\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n",
     "=" * 80 + "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n",
@@ -45,7 +45,7 @@ _STRING = "string data\n"
 
 
 def open_trajectory(path: Path) -> TrajectoryFile:
-    """A file for a recording; its suffix says of what kind.
+    """Return a file for a recording; its suffix says of what kind.
 
     Raises:
         MissingToolError: What writes it is not installed.
@@ -55,7 +55,7 @@ def open_trajectory(path: Path) -> TrajectoryFile:
 
 
 def recorders(session: SimulationSession, file: TrajectoryFile | None, rate: float) -> tuple[StateRecorder, ...]:
-    """Who records a run into a file: nobody where there is none."""
+    """Return the recorder of a run into a file; none without a file."""
     return () if file is None else (StateRecorder(session, rate, file),)
 
 
@@ -88,7 +88,7 @@ class TrajectoryFile:
             self._file = None
 
     def open(self, what: Recorded) -> None:
-        """It begins.
+        """Begin the recording.
 
         Raises:
             OutputError: It cannot be written.
@@ -100,7 +100,7 @@ class TrajectoryFile:
             raise self._error(error) from error
 
     def write(self, sample: Sample) -> None:
-        """The next sample.
+        """Write the next sample.
 
         Raises:
             OutputError: It cannot be written.
@@ -125,13 +125,13 @@ class TrajectoryFile:
         return self._file
 
     def _begin(self, what: Recorded) -> None:
-        """What stands before the first sample."""
+        """Write the beginning, before the first sample."""
 
     def _add(self, sample: Sample) -> None:
         raise NotImplementedError
 
     def _finish(self) -> None:
-        """What stands after the last one."""
+        """Write the end, after the last sample."""
 
 
 class _JsonLines(TrajectoryFile):

@@ -7,8 +7,8 @@ from pathlib import Path
 from tmd.files import write_text
 from tmd.pddl.reading.syntax import read_text
 
+# The files that can be laid out.
 SUFFIXES = (".pddl", ".yaml", ".yml")
-"""The files that can be laid out."""
 
 
 def format_file(path: str | Path, *, write: bool = True) -> bool:
@@ -45,6 +45,6 @@ def _laid_out(text: str, file: Path) -> str:
 
 
 def _has_marks(file: Path) -> bool:
-    """Whether the file begins with a byte order mark or has Windows line ends, which reading hides."""
+    """Return whether the file begins with a byte order mark or has Windows line ends, which reading hides."""
     data = file.read_bytes()
     return data.startswith(b"\xef\xbb\xbf") or b"\r" in data

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 
+# An object or list that fits on a line of this many characters stands on one.
 WIDTH = 120
-"""An object or list that fits on a line of this many characters stands on one."""
 
 
 def lay_out(value: object, indent: int = 0) -> str:
-    """The text of a JSON value; keys keep their order."""
+    """Return the text of a JSON value; keys keep their order."""
     line = json.dumps(value, ensure_ascii=False)
     if not value or not isinstance(value, dict | list) or (indent and indent + len(line) <= WIDTH):
         return line

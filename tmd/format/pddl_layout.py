@@ -1,6 +1,6 @@
 """Laying out PDDL: indentation, spaces and blank lines; comments and the author's own line breaks stay.
 
-Sections and the parts of actions begin lines of their own; a line that is too long is broken; nothing is joined. A
+Sections and the parts of actions begin on new lines; a line that is too long is broken; nothing is joined. A
 group continues under its first argument, or two columns in where its head stands last on a line, unless the author
 chose another of the usual ways.
 """
@@ -17,25 +17,25 @@ from tmd.pddl.reading.syntax import parse, split_lines
 WIDTH = 120
 _TOKEN = re.compile(r";.*|[()]|[^\s();]+")
 _PARTS = frozenset({":parameters", ":precondition", ":effect"})
+# Longer texts are refused, as `tmd check` refuses them.
 MAX_CHARACTERS = 10_000_000
-"""Longer texts are refused, as `tmd check` refuses them."""
+# Tokens that are laid out until every line is short enough: some 30 s. A domain of a thousand lines takes 50,000.
 _MOST_WORK = 3_000_000
-"""Tokens that are laid out until every line is short enough: some 30 s. A domain of a thousand lines takes 50,000."""
 _DEEPEST = 100
+# A comment that many blanks behind the code follows it; farther away it is in a column.
 _LOOSE = 2
-"""A comment that many blanks behind the code follows it; farther away it stands in a column."""
 _TOP = frozenset({"define", ":action"})
+# Groups that continue two columns in from their parenthesis.
 _BODY = frozenset({"forall", "exists"})
-"""Groups that continue two columns in from their parenthesis."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Token:
     text: str
+    # 0: on the line of the token before; 1: on a new line; 2: with a blank line between.
     breaks: int
-    """0: on the line of the token before; 1: on a line of its own; 2: with a blank line between."""
+    # Where it stood; ``indent`` is where its line began.
     column: int
-    """Where it stood; ``indent`` is where its line began."""
     indent: int
 
     @property
@@ -51,15 +51,15 @@ class _Open:
     line_indent: int
     head: str = ""
     count: int = 0
+    # The column of the first argument, if it stands on the line of the head.
     argument: int | None = None
-    """The column of the first argument, if it stands on the line of the head."""
     last: str = ""
+    # Where it and its line began before.
     was: tuple[int, int] = (0, 0)
-    """Where it and its line began before."""
     was_argument: int | None = None
 
     def indent(self, column: int) -> int:
-        """Where a line begins that continues this group and began at ``column`` before."""
+        """Return the column of a line that continues this group and began at ``column`` before."""
         if self.head in _TOP:
             return self.column + (4 if self.last in _PARTS else 2)
         if self.argument is not None and column == self.was_argument:
@@ -76,7 +76,7 @@ class _Open:
 
 
 def format_pddl(text: str, file: str = "<text>") -> str:
-    """``text`` laid out; the same tokens and comments in the same order.
+    """Return ``text`` laid out; the same tokens and comments in the same order.
 
     Raises:
         TmdError: Its parentheses do not match, so nothing can be laid out, or it is too large or too deep.
@@ -104,7 +104,7 @@ def format_pddl(text: str, file: str = "<text>") -> str:
 
 
 def _refuse_unbalanced(text: str, file: str) -> None:
-    """What else may be wrong does not keep a text from being laid out."""
+    """Refuse unbalanced or very deep parentheses; other faults do not prevent layout."""
     depth = deepest = 0
     for token in _tokens(text):
         depth += {"(": 1, ")": -1}.get(token.text, 0)
@@ -137,7 +137,7 @@ def _tokens(text: str) -> list[_Token]:
 
 
 def _broken(tokens: list[_Token]) -> Iterator[_Token]:
-    """Sections and the parts of actions on lines of their own."""
+    """Yield the tokens with sections and the parts of actions on their own lines."""
     heads: list[str] = []
     counts: list[int] = []
     for place, token in enumerate(tokens):
@@ -165,7 +165,7 @@ def _broken(tokens: list[_Token]) -> Iterator[_Token]:
 
 
 def _lay_out(tokens: list[_Token]) -> tuple[list[str], list[int]]:
-    """The lines, and the number of the token that each begins with (and the number of all at the end)."""
+    """Return the lines, and the number of the token that each begins with (and the number of all at the end)."""
     lines: list[str] = []
     starts: list[int] = []
     stack: list[_Open] = []
@@ -190,7 +190,7 @@ def _lay_out(tokens: list[_Token]) -> tuple[list[str], list[int]]:
 
 
 def _gap(comment: _Token, before: _Token, first: _Token, indent: int, length: int) -> int:
-    """The blanks before a comment: as many as there were, or so many that it stays in its column."""
+    """Return the blanks before a comment: as many as there were, or so many that it stays in its column."""
     was = comment.column - before.column - len(before.text)
     if was <= _LOOSE:
         return max(1, was)

@@ -14,8 +14,8 @@ from tmd.diagnostics import Location, TmdError
 from tmd.pddl.reading.syntax import split_lines
 from tmd.yaml_nodes import look_over
 
+# Longer texts are refused: what says where comments stand reads some 100,000 characters a second.
 MAX_CHARACTERS = 1_000_000
-"""Longer texts are refused: what says where comments stand reads some 100,000 characters a second."""
 _OPENING = (yaml.FlowMappingStartToken, yaml.FlowSequenceStartToken)
 _CLOSING = (yaml.FlowMappingEndToken, yaml.FlowSequenceEndToken)
 _BLOCKS = (yaml.BlockMappingStartToken, yaml.BlockSequenceStartToken)
@@ -24,16 +24,16 @@ _SILENT = (*_BLOCKS, yaml.BlockEndToken, yaml.KeyToken, yaml.StreamStartToken, y
 
 @dataclass(slots=True)
 class _Line:
-    """What stands on one line: its tokens, where it began, and where it begins now."""
+    """Tokens of one line, and its old and new indentation."""
 
     tokens: list[yaml.Token] = field(default_factory=list)
     indent: int | None = None
+    # It holds a piece of a scalar of several lines, and only moves as a whole.
     whole: bool = False
-    """It holds a piece of a scalar of several lines, and only moves as a whole."""
 
 
 def format_yaml(text: str, file: str = "<text>") -> str:
-    """``text`` laid out; the same data and comments in the same order.
+    """Return ``text`` laid out; the same data and comments in the same order.
 
     Raises:
         TmdError: It is not YAML, or it is too large or too deep.
@@ -61,7 +61,7 @@ def format_yaml(text: str, file: str = "<text>") -> str:
 
 
 def _events(text: str) -> list[tuple[str, str]]:
-    """What ``text`` says: its events without their places."""
+    """Return the YAML events of ``text`` without their places."""
     found = []
     for event in yaml.parse(text, Loader=yaml.SafeLoader):
         said = (getattr(event, "value", ""), getattr(event, "tag", ""), getattr(event, "anchor", ""))
@@ -106,7 +106,7 @@ def _tokens_by_line(text: str, count: int) -> list[_Line]:
 
 
 def _shifts(source: list[str], lines: list[_Line]) -> list[int]:
-    """By how much each line moves: to its level, with the line before it, or, for comments, with the next one."""
+    """Return the shift of each line: to its level, with the line before it, or, for comments, with the next one."""
     shifts: list[int] = []
     current = 0
     for line, raw in zip(lines, source, strict=True):

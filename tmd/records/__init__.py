@@ -3,7 +3,7 @@
 ===================  ==========================================================================
 module               format
 ===================  ==========================================================================
-``json_record``      what all have in common: strictness, and faults told in one line
+``json_record``      the common base: strictness, and faults in one line
 ``clauses``          ``tmd parse --json``, and the clauses within a grounding
 ``grounding``        ``tmd ground --json``, with ``--goal-only`` as well
 ``run``              ``tmd run --json``, and the lines of ``tmd run --log``
@@ -16,6 +16,6 @@ module               format
 ``schemas``          all of them as JSON Schema: ``python -m tmd.records DIR`` writes the files
 ===================  ==========================================================================
 
-Begin with :mod:`tmd.json_record`, what all of them share. What fills them stands beside what it tells of:
+Begin with :mod:`tmd.json_record`, their common base. The code that fills them is beside its subject:
 :mod:`tmd.view.grounding_record`, :mod:`tmd.robot_trials.trials`, :mod:`tmd.evaluation.runs.jobs`.
 """

@@ -1,4 +1,4 @@
-"""``tmd parse --json``: the clauses of a text, and what no clause accounts for."""
+"""``tmd parse --json``: the clauses of a text, and the pieces without a clause."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from tmd.language.clause import (
     clause_json,
 )
 
+# Where a piece of text begins and ends: characters from 0, the end is the first after it.
 Place = tuple[int, int]
-"""Where a piece of text begins and ends: characters from 0, the end is the first after it."""
 
 
 class PhraseRecord(JsonRecord):
-    """How a noun was said; what is as it mostly is, is left out."""
+    """Form of a noun phrase; usual values are left out."""
 
     quantifier: Quantifier = Quantifier.PLAIN
     number: int | None = None
@@ -45,7 +45,7 @@ class _Written(_Verb):
 
 
 class _Said(JsonRecord):
-    """What may be said besides."""
+    """Optional parts of a clause."""
 
     antecedents: dict[str, tuple[str, ...]] = Field(default_factory=dict)
     together: dict[str, int] = Field(default_factory=dict)
@@ -66,10 +66,10 @@ class _Said(JsonRecord):
 
 
 class InnerClause(_Said, _Verb):
-    """A clause of a condition: it has no place of its own in the text."""
+    """Clause of a condition, without a place in the text."""
 
     def clause(self, text: str = "", place: Place = (0, 0)) -> Clause:
-        """The clause."""
+        """Return the clause."""
         return _clause(self, text, place)
 
 
@@ -82,7 +82,7 @@ class ConditionRecord(JsonRecord):
     negated: bool = False
 
     def condition(self) -> Condition:
-        """The condition."""
+        """Return the condition."""
         return Condition(self.word, tuple(clause.clause() for clause in self.clauses), self.negated, self.text)
 
 
@@ -93,11 +93,11 @@ class ClauseRecord(_Said, _Written):
 
     @classmethod
     def of(cls, clause: Clause) -> ClauseRecord:
-        """The clause as a record."""
+        """Return the clause as a record."""
         return cls.model_validate({**clause_json(clause), "span": clause.span})
 
     def clause(self) -> Clause:
-        """The clause."""
+        """Return the clause."""
         return _clause(self, self.text, self.span)
 
 
@@ -135,7 +135,7 @@ class ParsedRecord(JsonRecord):
 
     @classmethod
     def of(cls, parsed: Parsed) -> ParsedRecord:
-        """A parsed text as a record."""
+        """Return a parsed text as a record."""
         constraints = {"constraints": tuple(map(ClauseRecord.of, parsed.constraints))} if parsed.constraints else {}
         return ParsedRecord(
             clauses=tuple(map(ClauseRecord.of, parsed.clauses)),
@@ -144,7 +144,7 @@ class ParsedRecord(JsonRecord):
         )
 
     def parsed(self, text: str) -> Parsed:
-        """The clauses of ``text``."""
+        """Return the clauses of ``text``."""
         return Parsed(
             text,
             tuple(record.clause() for record in self.clauses),

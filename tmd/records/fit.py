@@ -15,7 +15,7 @@ class CurvePoint(JsonRecord):
 
 
 class WorldFit(JsonRecord):
-    """What was learned for one kind of world. A curve may also be plain numbers: the loss of one round each."""
+    """Weights learned for one kind of world. A curve may also be plain numbers: the loss of one round each."""
 
     weights: dict[str, float]
     curve: tuple[CurvePoint | float, ...]
@@ -30,7 +30,7 @@ class WorldFit(JsonRecord):
 
 
 class Fit(JsonRecord):
-    """What one model learned from one training set, in which environments."""
+    """Weights that one model learned from one training set, by kind of world."""
 
     WHAT = "what a model of tmd experiment learned"
     REMAKE = "remove that file; the page will lack its curve"

@@ -1,4 +1,4 @@
-"""``tmd ground --json``: what was said, what it asks for, and the ranked plans."""
+"""``tmd ground --json``: the text, its goals, and the ranked plans."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class GroundedStep(InstructionRecord):
 
 
 class ChoiceRecord(JsonRecord):
-    """What was chosen for one goal, or for one clause where the model has no goals."""
+    """Choice for one goal, or for one clause where the model has no goals."""
 
     source: str | None = Field(description="The demonstration or proposer; null where nothing could be used.")
     energy: float
@@ -52,7 +52,7 @@ class OtherGoal(JsonRecord):
 
 
 class GoalRecord(JsonRecord):
-    """What one step of the text asks for. Its part of the plan is ``steps[first:last]``."""
+    """Goal of one step of the text. Its part of the plan is ``steps[first:last]``."""
 
     clause: int = Field(ge=0)
     text: str
@@ -74,17 +74,17 @@ class GoalRecord(JsonRecord):
         return text
 
     def step_goal(self) -> StepGoal:
-        """The goal."""
+        """Return the goal."""
         formula = None if self.pddl is None else _condition(self.pddl)
         told = (self.source or "", self.row or "", self.already, self.note or "", self.first, self.last)
         return StepGoal(self.clause, self.text, formula, *told)
 
 
 def _condition(text: str) -> Formula:
-    """The condition that a text states.
+    """Return the condition that a text states.
 
     Raises:
-        ValueError: It is none.
+        ValueError: It is not a condition.
     """
     try:
         document = parse(text, "pddl")
@@ -122,7 +122,7 @@ class RankedPlanRecord(JsonRecord):
         return self
 
     def ranked(self) -> RankedPlan:
-        """The plan; in which state it ends is not recorded."""
+        """Return the plan; in which state it ends is not recorded."""
         steps = [PlanStep(step.instruction, step.clause, step.latent) for step in self.steps]
         goals = tuple(goal.step_goal() for goal in self.goals)
         own = [tuple(steps[g.first : g.last]) for g in goals] or [
@@ -141,7 +141,7 @@ class RefusedTemplate(JsonRecord):
 
 
 class RefusedText(JsonRecord):
-    """Why there is no plan for what was said, and what to say or do instead."""
+    """Reason why there is no plan, and a remedy."""
 
     clause: int | None = Field(ge=0, description="Null where it is about the whole request.")
     why: str
@@ -184,7 +184,7 @@ class QuestionRecord(JsonRecord):
 
 
 class MadeWith(JsonRecord):
-    """What decides the plans beside text and environment."""
+    """Settings that decide the plans beside text and environment."""
 
     version: str
     model: str
@@ -196,7 +196,7 @@ class MadeWith(JsonRecord):
 
 
 class GroundedText(JsonRecord):
-    """What was said, and where."""
+    """Text of a request, with its domain and environment."""
 
     text: str
     domain: str
@@ -238,22 +238,22 @@ class GroundingRecord(ParsedRecord, GroundedText):
         return self
 
     def ranked(self) -> tuple[RankedPlan, ...]:
-        """The plans."""
+        """Return the plans."""
         return tuple(plan.ranked() for plan in self.plans)
 
     def refused_templates(self) -> tuple[RejectedProposal, ...]:
-        """The demonstrations whose templates cannot be used."""
+        """Return the demonstrations whose templates cannot be used."""
         return tuple(RejectedProposal(refusal.clause, refusal.source, refusal.reason) for refusal in self.refusals)
 
     def goal_only(self) -> GoalOnlyRecord:
-        """What ``tmd ground --goal-only --json`` prints of it."""
+        """Return the record that ``tmd ground --goal-only --json`` prints."""
         names = ("text", "domain", "environment", "environment_file", "refused", "warnings")
         goal, goals = (self.plans[0].goal, self.plans[0].goals) if self.plans else (None, ())
         return GoalOnlyRecord(**{name: getattr(self, name) for name in names}, goal=goal, goals=goals)
 
 
 class GoalOnlyRecord(GroundedText):
-    """What ``tmd ground --goal-only --json`` prints: the goal of the first plan."""
+    """Record of ``tmd ground --goal-only --json``: the goal of the first plan."""
 
     WHAT = "what tmd ground --goal-only --json prints"
     REMAKE = "make it again with tmd ground --goal-only --json"

@@ -9,14 +9,14 @@ from pydantic import Field
 from tmd.json_record import JsonRecord
 from tmd.records.prediction import PredictionRecord
 
+# The share of predictions at whose end the goal of the text holds, in percent, of the examples that have a goal.
 SUCCESS = "success"
-"""The share of predictions at whose end the goal of the text holds, in percent, of the examples that have a goal."""
+# What every example is scored by.
 METRICS = ("IED", "EED", "EED_trim", "END")
-"""What every example is scored by."""
+# What rows are compared in.
 TESTED = (SUCCESS, *METRICS)
-"""What rows are compared in."""
+# The share of predictions whose every instruction could be executed, in percent.
 EXECUTABLE = "executable"
-"""The share of predictions whose every instruction could be executed, in percent."""
 COLUMNS = (*TESTED, EXECUTABLE)
 
 
@@ -43,12 +43,12 @@ class Means(JsonRecord):
     executable_se: float
 
     def mean(self, column: str) -> float | None:
-        """The mean of a column of :data:`COLUMNS`; ``None`` for success without goals."""
+        """Return the mean of a column of :data:`COLUMNS`; ``None`` for success without goals."""
         value: float | None = getattr(self, column)
         return value
 
     def se(self, column: str) -> float | None:
-        """Its standard error."""
+        """Return the standard error of the mean."""
         value: float | None = getattr(self, f"{column}_se")
         return value
 
@@ -61,7 +61,7 @@ class Row(Means):
 
 
 class Difference(JsonRecord):
-    """How two rows differ in one metric."""
+    """Difference of two rows in one metric."""
 
     difference: float
     low: float
@@ -70,7 +70,7 @@ class Difference(JsonRecord):
     p_holm: float
 
     def reversed(self) -> Difference:
-        """The same, the other way round."""
+        """Return the same, the other way round."""
         turned = {"difference": -self.difference, "low": -self.high, "high": -self.low}
         return self.model_copy(update=turned)
 
@@ -87,12 +87,12 @@ class Pair(JsonRecord):
     END: Difference
 
     def of(self, metric: str) -> Difference | None:
-        """The difference in a metric; ``None`` where the rows are not compared in it."""
+        """Return the difference in a metric; ``None`` where the rows are not compared in it."""
         found: Difference | None = getattr(self, metric)
         return found
 
     def seen_from(self, row: str) -> Pair:
-        """With ``row`` first, if it is one of the two."""
+        """Return the pair with ``row`` first, if it is one of the two."""
         if row != self.b:
             return self
         turned = {metric: found.reversed() for metric in TESTED if (found := self.of(metric)) is not None}
@@ -110,7 +110,7 @@ class Significance(JsonRecord):
 
 
 class FoldSizes(JsonRecord):
-    """How many examples a fold trains and tests on, and the name of its training set."""
+    """Numbers of examples that a fold trains and tests on, and the name of its training set."""
 
     train: int
     test: int
@@ -138,5 +138,5 @@ class Metrics(JsonRecord):
 
     @property
     def tested(self) -> tuple[str, ...]:
-        """What rows are compared in."""
+        """Metrics that rows are compared in."""
         return tuple(metric for metric in TESTED if all(p.of(metric) is not None for p in self.significance.pairs))

@@ -1,4 +1,4 @@
-"""``plan.json`` of ``tmd export``: a planned problem, in a form of our own: there is no common standard for plans."""
+"""``plan.json`` of ``tmd export``: a planned problem, in a form specific to tmd, as there is no common standard."""
 
 from __future__ import annotations
 

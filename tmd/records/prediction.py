@@ -12,7 +12,7 @@ Score: TypeAlias = Annotated[float, Field(ge=0, le=100, strict=True)]
 
 
 class PredictedClause(JsonRecord):
-    """What was done for one clause."""
+    """Predicted instructions for one clause."""
 
     text: str
     verb: str
@@ -64,5 +64,5 @@ class PredictionRecord(JsonRecord):
 
     @property
     def whole(self) -> bool:
-        """Whether the clauses' instructions are the prediction; if not, the model changed it afterwards."""
+        """Return whether the clauses' instructions are the prediction; if not, the model changed it afterwards."""
         return tuple(step for clause in self.clauses for step in clause.steps) == self.predicted

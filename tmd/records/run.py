@@ -34,7 +34,7 @@ class OrderRecord(InstructionRecord):
 
     @classmethod
     def of(cls, order: Order) -> OrderRecord:
-        """The instruction as a record."""
+        """Return the instruction as a record."""
         action, args = order.instruction
         return cls(action=action, args=args, clause=order.clause, latent=order.latent)
 
@@ -48,7 +48,7 @@ class MismatchRecord(JsonRecord):
 
     @classmethod
     def of(cls, mismatch: Mismatch) -> MismatchRecord:
-        """The mismatch as a record."""
+        """Return the mismatch as a record."""
         return cls(fact=str(mismatch.atom), expected=mismatch.expected, measured=mismatch.measured)
 
     def __str__(self) -> str:
@@ -87,7 +87,7 @@ class RanStep(JsonRecord):
 
     @classmethod
     def of(cls, title: Title, step: ExecutedStep) -> RanStep:
-        """A step that is over."""
+        """Return a step that is over."""
         action, args = step.instruction
         return cls(
             number=title.number,
@@ -107,7 +107,7 @@ class RanStep(JsonRecord):
 
     @property
     def instruction(self) -> Instruction:
-        """What was done."""
+        """Instruction that was carried out."""
         return Instruction(self.action, self.args)
 
     @property
@@ -117,17 +117,17 @@ class RanStep(JsonRecord):
 
     @property
     def seen(self) -> str:
-        """What was seen, in one line, but for what is not as predicted."""
+        """Observation in one line, without mismatches."""
         return self.failure or self.evidence or ""
 
     @property
     def told(self) -> str:
-        """Why it failed, or what is not as predicted, or what was seen."""
+        """Reason of the failure, or the mismatches, or the observation."""
         return self.failure or "; ".join(map(str, self.mismatches)) or self.seen
 
 
 class RunRequest(JsonRecord):
-    """What was to be done, and how."""
+    """Request to a robot: a plan, and how to carry it out."""
 
     text: str | None
     domain: str
@@ -168,7 +168,7 @@ class RunRecord(RunRequest):
         execution: Execution,
         ticks: int,
     ) -> RunRecord:
-        """A run that is over.
+        """Return a run that is over.
 
         Args:
             asked: What was to be done.
@@ -182,7 +182,7 @@ class RunRecord(RunRequest):
 
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
-    """What came of a run.
+    """Result of a run.
 
     Attributes:
         execution: How it ended: ``.status``, ``.reason``, and ``.steps`` with the state after each.
@@ -194,7 +194,7 @@ class RecordedRun:
 
 
 def how_it_ended(execution: Execution, ticks: int) -> dict[str, Any]:
-    """The keys of a record, or of the last line of a log, that say how a run of ``ticks`` steps of physics ended."""
+    """Return the keys of a record, or of the last line of a log, for the end of a run of ``ticks`` steps of physics."""
     ended: dict[str, Any] = {
         "status": execution.status.value,
         "reason": execution.reason or None,
@@ -222,7 +222,7 @@ class PlanEvent(RunRequest, _Event):
 
 
 class BeginEvent(_Event):
-    """An instruction begins."""
+    """Beginning of an instruction."""
 
     event: Literal["begin"]
     number: int
@@ -253,7 +253,7 @@ _EVENTS: dict[str, type[RunEvent]] = {
 
 
 def read_log(lines: Sequence[tuple[int, str]], file: str) -> tuple[PlanEvent, list[RunEvent]]:
-    """The first line of a log, and those after it; the last one may be cut off where the run was killed.
+    """Return the first line of a log, and those after it; the last one may be cut off where the run was killed.
 
     Args:
         lines: The lines that are not blank, with their numbers.

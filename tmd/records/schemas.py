@@ -22,6 +22,7 @@ from tmd.records.sentence_test import ReaderComparison, SentenceReport
 from tmd.records.trajectory import TrajectoryLine
 from tmd.records.trial import Trial
 
+# The formats by name. Of ``run-log``, ``prediction`` and ``trajectory``, JSON Lines, it is the format of a line.
 FORMATS: dict[str, Any] = {
     "parse": ParsedRecord,
     "grounding": GroundingRecord,
@@ -38,19 +39,18 @@ FORMATS: dict[str, Any] = {
     "trial": Trial,
     "trajectory": TrajectoryLine,
 }
-"""The formats by name. Of ``run-log``, ``prediction`` and ``trajectory``, JSON Lines, it is the format of a line."""
 
 
 def schema_text(name: str) -> str:
-    """The JSON Schema of a format."""
+    """Return the JSON Schema of a format."""
     return lay_out(TypeAdapter(FORMATS[name]).json_schema(schema_generator=_WithoutTitles)) + "\n"
 
 
 class _WithoutTitles(GenerateJsonSchema):
-    """Titles of keys would only repeat the keys."""
+    """Generator of schemas without titles, which would only repeat the keys."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:  # noqa: ANN401 - a schema of pydantic's core
-        """Never."""
+        """Return false."""
         return False
 
 

@@ -1,4 +1,4 @@
-"""``tmd test --json``: what became of each sentence test, and how many of each kind there are."""
+"""``tmd test --json``: the outcome of each sentence test, and the number of each kind."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from tmd.records.grounding import ModelUse
 
 
 class Outcome(StrEnum):
-    """What became of a sentence test."""
+    """Outcome of a sentence test."""
 
     RIGHT = "right"
+    # A plan was presented, and the condition does not hold at its end.
     WRONG = "wrong"
-    """A plan was presented, and the condition does not hold at its end."""
+    # No plan for what can be done.
     REFUSED = "refused"
-    """No plan for what can be done."""
     IMPOSSIBLE_REFUSED = "impossible_refused"
     IMPOSSIBLE_PLANNED = "impossible_planned"
 
     @property
     def passed(self) -> bool:
-        """Whether it is as it should be."""
+        """Return whether it is as it should be."""
         return self in (Outcome.RIGHT, Outcome.IMPOSSIBLE_REFUSED)
 
 
 class SentenceSummary(JsonRecord):
-    """How many tests have each outcome; ``wrong_warned`` are the wrong ones that came with a warning.
+    """Numbers of tests by outcome; ``wrong_warned`` are the wrong ones that came with a warning.
 
     The last five are of the language model, and are left out where none was asked.
     """
@@ -48,7 +48,7 @@ class SentenceSummary(JsonRecord):
 
 
 class SentenceCase(JsonRecord):
-    """What became of one test."""
+    """Result of one test."""
 
     id: str
     outcome: Outcome

@@ -10,12 +10,12 @@ from tmd.json_record import JsonRecord, rounded
 from tmd.robot.sim.pose import Pose
 from tmd.robot.state_recorder import Recorded, Sample
 
+# Position x, y, z and unit quaternion x, y, z, w.
 PoseRecord: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""Position x, y, z and unit quaternion x, y, z, w."""
 
 
 def pose_record(pose: Pose) -> PoseRecord:
-    """A pose in seven rounded numbers."""
+    """Return a pose in seven rounded numbers."""
     (x, y, z), (qx, qy, qz, qw) = pose.position, pose.orientation
     return rounded(x), rounded(y), rounded(z), rounded(qx), rounded(qy), rounded(qz), rounded(qw)
 
@@ -39,7 +39,7 @@ class SceneLine(_TrajectoryLine):
 
     @classmethod
     def of(cls, what: Recorded) -> SceneLine:
-        """The line of a recording that begins."""
+        """Return the line of a recording that begins."""
         poses = {name: pose_record(pose) for name, pose in what.fixtures.items()}
         return cls(event="scene", environment=what.environment, rate=what.rate, fixtures=poses)
 
@@ -58,7 +58,7 @@ class SampleLine(_TrajectoryLine):
 
     @classmethod
     def of(cls, sample: Sample) -> SampleLine:
-        """The line of a sample."""
+        """Return the line of a sample."""
         x, y, theta = map(rounded, sample.base)
         return cls(
             event="sample",

@@ -1,4 +1,4 @@
-"""``robot/`` of ``tmd experiment``: what a robot did with a prediction, or why there are no trials."""
+"""``robot/`` of ``tmd experiment``: trials of predictions on the robot, or the reason why there are none."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tmd.records.run import RanStep
 
 
 class TrialRequest(JsonRecord):
-    """What decides the outcome of a trial; ``id`` is null where no prediction can be executed."""
+    """Request that decides the outcome of a trial; ``id`` is null where no prediction can be executed."""
 
     environment: str
     model: str
@@ -43,7 +43,7 @@ class Trial(JsonRecord):
 
 
 class Skip(JsonRecord):
-    """Why there are no trials."""
+    """Reason why there are no trials."""
 
     WHAT = "the reason why there are no trials"
     REMAKE = Trial.REMAKE

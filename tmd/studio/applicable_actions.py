@@ -1,4 +1,4 @@
-"""What may be done with an object that was pointed at, and why the rest may not be done now."""
+"""Instructions for an object, and the reasons why some of them do not apply now."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from tmd.view.wording import Wording
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """An instruction; ``why`` is empty where it applies, and tells else what it needs or what is in its way."""
+    """Instruction; ``why`` is empty where it applies, and otherwise names an unmet or an opposing condition."""
 
     instruction: Instruction
     why: str = ""
 
     @property
     def applies(self) -> bool:
-        """Whether it can be carried out in the state that was asked about."""
+        """Return whether it can be carried out in the state that was asked about."""
         return not self.why
 
 
@@ -35,7 +35,7 @@ class ActionGroup:
 
     @property
     def applies(self) -> bool:
-        """Whether one of them does."""
+        """Return whether one of them does."""
         return self.offers[0].applies
 
 
@@ -59,7 +59,7 @@ class Offers:
                 self._without.append(operator)
 
     def of(self, name: str, state: Bits, *, parts: bool = False) -> tuple[ActionGroup, ...]:
-        """Every instruction that mentions the object ``name``, by action: first those that apply, then by name.
+        """Return every instruction that mentions the object ``name``, by action: first those that apply, then by name.
 
         Args:
             name: The object.
@@ -76,7 +76,7 @@ class Offers:
         return self._groups((o for n in names for o in self._by_object.get(n, ())), state)
 
     def anywhere(self, state: Bits) -> tuple[ActionGroup, ...]:
-        """The instructions that mention no object, such as ``wait()``."""
+        """Return the instructions that mention no object, such as ``wait()``."""
         return self._groups(self._without, state)
 
     def _groups(self, operators: Iterable[Operator], state: Bits) -> tuple[ActionGroup, ...]:

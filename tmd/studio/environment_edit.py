@@ -1,4 +1,4 @@
-"""Changing an environment: another place, another state, a thing more or less; checked before anybody sees it."""
+"""Edits of an environment: other places and states, more or fewer things; checked before they are used."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 from tmd.world.shape import NAME
 
+# Characters that the name of an environment may have.
 _LONGEST = 60
-"""Characters that the name of an environment may have."""
+# Objects that an environment may have here.
 _MOST = 200
-"""Objects that an environment may have here."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,11 +61,11 @@ class EditedEnvironment:
         self._objects: dict[str, dict[str, Any]] = dumped
 
     def classes(self) -> list[str]:
-        """The classes of things that can be added."""
+        """Return the classes of things that can be added."""
         return sorted({entry["class"] for entry in self._objects.values()})
 
     def changes(self, name: str) -> list[StateChange]:
-        """The states that an object and its parts can be given, other than those that they have."""
+        """Return the states that an object and its parts can be given, other than those that they have."""
         entry = self._entry(name)
         found = []
         for part, vertex in self._folder.classes.get(entry["class"]).vertices.items():
@@ -92,7 +92,7 @@ class EditedEnvironment:
         entry.pop("yaw", None)
 
     def add(self, kind: str, relation: str, place: str) -> str:
-        """Add a thing of a class, and return its name."""
+        """Return add a thing of a class, and return its name."""
         self._entry(place)
         if len(self._objects) >= _MOST:
             raise TmdError(f"an environment has at most {_MOST} objects here")
@@ -139,7 +139,7 @@ class EditedEnvironment:
 
 
 def _values(vertex: Vertex, usual: StateValue) -> list[StateValue]:
-    """What a state may be: true or false, or a setting that the part offers."""
+    """Return the values that a state may have: true and false, or the settings that the part offers."""
     if isinstance(usual, bool):
         return [True, False]
     return [fact[2] for fact in vertex.facts if fact[:2] == ("offers", "self")] if isinstance(usual, str) else []

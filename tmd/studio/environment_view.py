@@ -19,7 +19,7 @@ from tmd.world.folder import DomainFolder
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """What there is to see of an environment.
+    """Shapes and colours of an environment.
 
     Attributes:
         still: Draws its states.
@@ -56,7 +56,7 @@ class Setting:
         return self.world.name
 
     def names(self) -> list[str]:
-        """The objects that can be pointed at, without their parts, sorted."""
+        """Return the objects that can be pointed at, without their parts, sorted."""
         if self.look is not None:
             return sorted(self.look.still.blueprints)
         parts = {part for known in self.world.profiles.parts.values() for _, part in known}

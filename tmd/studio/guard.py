@@ -1,8 +1,8 @@
-"""Who may speak to the studio: this machine's own addresses, its own page, and who has its token.
+"""Access control: addresses of this machine, the studio's own page, and the token.
 
 Any page that is open in a visitor's browser can send requests to the studio's port. So each request is asked for three
 things. ``Host`` must be an address of this machine, so that no foreign name that was made to point here is served. A
-websocket's ``Origin``, which a browser always tells and no page can forge, must be the studio's own page. And the token
+websocket's ``Origin``, which a browser always sends and no page can forge, must be the studio's own page. And the token
 that was printed must be in the address, or in the cookie that the first visit with it set.
 """
 
@@ -31,18 +31,18 @@ if TYPE_CHECKING:
 _FILE = "token"
 _BYTES = 24
 _LONGEST = 200
+# The word in the address before the token.
 TOKEN = "token"
-"""The word in the address before the token."""
 _LOCAL = frozenset({"localhost", "127.0.0.1", "::1"})
 _ANY = frozenset({"0.0.0.0", "::", ""})
+# No other page may show the studio in a frame, and have its buttons pressed there.
 _ALONE = "frame-ancestors 'none'"
-"""No other page may show the studio in a frame, and have its buttons pressed there."""
 
 _Answer = Callable[["ServerConnection", "Request"], "Response | None"]
 
 
 def kept_token(directory: Path) -> str:
-    """The token of a studio, in a file that only its user may read, so that an open page comes back after a restart.
+    """Return the token of a studio, kept in a file that only its user may read.
 
     Where it cannot be kept, it is a new one each time.
     """
@@ -62,7 +62,7 @@ def kept_token(directory: Path) -> str:
 
 
 class Guard:
-    """Lets in, and turns away.
+    """Access control of one server.
 
     Args:
         host: The address that is listened at.
@@ -77,11 +77,11 @@ class Guard:
         self._port = 0
 
     def listen(self, port: int) -> None:
-        """Know the port: cookies are told from those of another studio by it."""
+        """Set the port, which distinguishes the cookies of several studios."""
         self._port = port
 
     def refusal(self, request: Request) -> str:
-        """Why a request is turned away; empty where it is not."""
+        """Return why a request is refused; empty where it is not."""
         hosts = request.headers.get_all("Host")
         if len(hosts) != 1 or not self._own(hosts[0]):
             return "this is not an address of the studio; use the one that it printed"
@@ -93,7 +93,7 @@ class Guard:
         return ""
 
     def _own(self, host: str) -> bool:
-        """Whether this machine is called so; the port may be another one where it is forwarded."""
+        """Return whether this machine is called so; the port may be another one where it is forwarded."""
         try:
             name = (urlsplit(f"//{host}").hostname or "").lower()
         except ValueError:
@@ -104,7 +104,7 @@ class Guard:
             ipaddress.ip_address(name)
         except ValueError:
             return False
-        return self._everywhere  # by number: no name leads here that somebody else could have made up
+        return self._everywhere  # by number: no foreign name can lead here
 
     def _knows(self, request: Request) -> bool:
         return any(
@@ -126,7 +126,7 @@ class Guard:
         return f"tmd-studio-{self._port}"
 
     def answer(self, request: Request) -> Response | None:
-        """What to say at once: a refusal, or the page's address without the token; ``None`` to go on."""
+        """Return a refusal, or the page's address without the token; ``None`` to go on."""
         why = self.refusal(request)
         if why:
             return response(HTTPStatus.FORBIDDEN, f"The studio does not answer: {why}.\n")
@@ -144,12 +144,12 @@ def _web(origin: str) -> bool:
 
 
 def _said(request: Request) -> list[str]:
-    """The tokens in the address."""
+    """Return the tokens in the address."""
     return [value[:_LONGEST] for value in parse_qs(urlsplit(request.path).query).get(TOKEN, [])]
 
 
 def response(status: HTTPStatus, text: str, headers: dict[str, str] | None = None) -> Response:
-    """An answer of plain text that nothing keeps."""
+    """Return an answer of plain text that nothing keeps."""
     from websockets.datastructures import Headers
     from websockets.http11 import Response
 
@@ -160,7 +160,7 @@ def response(status: HTTPStatus, text: str, headers: dict[str, str] | None = Non
 
 @contextmanager
 def guarding(guard: Guard, own: _Answer, change: Callable[[Request, Response], Response]) -> Iterator[None]:
-    """Within it, whatever is served over websockets asks the guard first.
+    """Have the guard asked first for everything that is served over websockets within this context.
 
     viser starts its server itself, and hands nothing of this on (1.1.1); what it calls is replaced while it starts.
 

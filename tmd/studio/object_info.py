@@ -1,4 +1,4 @@
-"""What there is to know of an object that was pointed at: its parts, its states, and the edges of its object graph."""
+"""Facts about one object: its parts, its states, and the edges of its object graph."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from tmd.veil.world import PART_OF, World
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """One object in one state. Facts are sorted; :class:`~tmd.view.wording.Wording` tells them in words.
+    """One object in one state. Facts are sorted; :class:`~tmd.view.wording.Wording` puts them into words.
 
     Attributes:
         name: The object.
@@ -38,9 +38,9 @@ class About:
 
 
 def about(name: str, world: World, state: Bits) -> About:
-    """What is so of ``name`` in ``state``.
+    """Return the facts about ``name`` in ``state``.
 
-    That two objects belong together is said by ``whole`` and ``parts``; edges that hold both ways say no more, and are
+    ``whole`` and ``parts`` record that two objects belong together; edges that hold both ways add nothing, and are
     left out.
 
     Raises:
@@ -66,7 +66,7 @@ def about(name: str, world: World, state: Bits) -> About:
 
 
 def _empty(trait: GroundAtom, world: World) -> bool:
-    """Whether it says of a thing and itself what is so of each, such as that it belongs to itself."""
+    """Return whether it says of a thing and itself what is so of each, such as that it belongs to itself."""
     if len(trait.args) < 2 or len(set(trait.args)) > 1:
         return False
     alike = (trait._replace(args=(name,) * len(trait.args)) for name in world.profiles.objects)
@@ -76,7 +76,7 @@ def _empty(trait: GroundAtom, world: World) -> bool:
 def _divided(
     name: str, atoms: Iterable[GroundAtom], world: World
 ) -> tuple[tuple[GroundAtom, ...], tuple[GroundAtom, ...]]:
-    """Of the atoms that mention ``name`` those of it alone, and those of another object as well."""
+    """Divide the atoms that mention ``name`` into those of it alone and those of another object as well."""
     alone: list[GroundAtom] = []
     shared: list[GroundAtom] = []
     for atom in sorted(atoms):

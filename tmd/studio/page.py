@@ -11,13 +11,16 @@ import gzip
 import json
 import secrets
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import cache
 from http import HTTPStatus
 from importlib.resources import files
 from threading import Lock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 from urllib.parse import parse_qs, urlencode
+
+from pydantic import BaseModel, Field, TypeAdapter, ValidationError
 
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import PlanStep
@@ -29,32 +32,32 @@ if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response
 
+# Asked for by the page, to know whether the studio is there.
 ALIVE = "/alive"
-"""Asked for by the page, to know whether the studio is there."""
+# Of this process: the page knows by it that the studio was started again.
 _INSTANCE = secrets.token_hex(8)
-"""Of this process: the page knows by it that the studio was started again."""
 _HEAD = b"<head>"
+# The key in the window's storage under which the script answers.
 KEY = "tmd-page"
-"""The key in the window's storage under which the script answers."""
+# The label of the input through which it sends events.
 EVENT = "tmdevent"
-"""The label of the input through which it tells what happens."""
+# Seconds that a window may take to answer.
 _PATIENCE = 5.0
-"""Seconds that a window may take to answer."""
+# Characters of an event, or of an address, that are read.
 _LONGEST = 20_000
-"""Characters of an event, or of an address, that are read."""
+# Steps of a plan that a window kept that are read.
 _MOST_STEPS = 1_000
-"""Steps of a plan that a window kept that are read."""
+# Digits of a number in an address.
 _WHOLE = 6
-"""Digits of a number in an address."""
 
 
 def answer(_connection: ServerConnection, request: Request) -> Response | None:
-    """What viser knows nothing of; ``None`` for the rest."""
+    """Answer the requests that viser does not know; ``None`` for the rest."""
     return response(HTTPStatus.OK, _INSTANCE) if _path(request) == ALIVE else None
 
 
 def with_script(request: Request, page: Response) -> Response:
-    """The page of viser with the studio's script and style; anything else as it is."""
+    """Return the page of viser with the studio's script and style; anything else as it is."""
     if _path(request) not in ("/", "/index.html") or page.status_code != HTTPStatus.OK or page.body is None:
         return page
     packed = page.headers.get("Content-Encoding") == "gzip"
@@ -82,7 +85,7 @@ def _path(request: Request) -> str:
 
 @dataclass(frozen=True, slots=True)
 class PageLink:
-    """What a window looks at, as its address says it.
+    """View of a window as its address states it.
 
     Attributes:
         environment: The environment; empty for the first.
@@ -99,7 +102,7 @@ class PageLink:
     tab: str = ""
 
     def query(self) -> str:
-        """The address, from the question mark on."""
+        """Return the address, from the question mark on."""
         told = {name: value for name, value in asdict(self).items() if value != getattr(_NOWHERE, name)}
         return f"?{urlencode(told)}" if told else ""
 
@@ -108,7 +111,7 @@ _NOWHERE = PageLink()
 
 
 def read_link(query: str) -> PageLink:
-    """What an address says; what it cannot say is left out."""
+    """Read an address; invalid parts are left out."""
     try:
         said = {name: values[0] for name, values in parse_qs(query.lstrip("?")[:_LONGEST]).items()}
     except ValueError:
@@ -123,35 +126,63 @@ def read_link(query: str) -> PageLink:
 
 
 def plan_to_json(plan: Sequence[PlanStep]) -> str:
-    """A plan as a window keeps it; empty for none."""
+    """Return a plan as a window keeps it; empty for none."""
     return json.dumps([[str(s.instruction), s.clause, s.latent] for s in plan]) if plan else ""
 
 
-def read_plan(kept: object) -> tuple[PlanStep, ...]:
-    """A plan that a window kept; empty where it kept none, or what it sends is none."""
+_ROWS = TypeAdapter(Annotated[list[tuple[str, int, bool]], Field(max_length=_MOST_STEPS)])
+
+
+def read_plan(kept: str) -> tuple[PlanStep, ...]:
+    """Return the plan that a window kept; empty where it kept none, or an invalid one."""
     try:
-        rows = json.loads(kept) if isinstance(kept, str) and kept else []
-        if not isinstance(rows, list) or len(rows) > _MOST_STEPS:
-            return ()
-        steps = [(parse_instruction(line), clause, latent) for line, clause, latent in rows]
-    except (ValueError, TypeError, AttributeError, RecursionError, TmdError):
+        rows = _ROWS.validate_json(kept, strict=True)
+        return tuple(PlanStep(parse_instruction(line), clause, latent) for line, clause, latent in rows)
+    except (ValidationError, TmdError):
         return ()
-    right = all(type(clause) is int and type(latent) is bool for _, clause, latent in steps)
-    return tuple(PlanStep(*step) for step in steps) if right else ()
 
 
-def width_of(said: Mapping[str, Any]) -> int:
-    """The width of a window, as its script told it; 0 where it did not."""
-    width = said.get("width")
-    return width if isinstance(width, int) and 0 < width < 10**_WHOLE else 0
+_Width: TypeAlias = Annotated[int, Field(ge=0, lt=10**_WHOLE)]
+_Part: TypeAlias = Annotated[float, Field(ge=0, le=1)]
 
 
-def place_of(said: object) -> tuple[float, float] | None:
-    """A place in the picture, from its left upper corner (0, 0) to its right lower one (1, 1); ``None`` for none."""
-    if not isinstance(said, list) or len(said) != 2 or not all(type(part) in (int, float) for part in said):
-        return None
-    across, down = map(float, said)
-    return (across, down) if 0 <= across <= 1 and 0 <= down <= 1 else None
+class Event(BaseModel):
+    """Event in a window; one kind of event has one of the fields, or two.
+
+    Attributes:
+        number: Its number in the window.
+        dark: Whether the system became dark.
+        width: The new width of the window in pixels.
+        tab: The tab that was opened.
+        step: The step that was clicked, in ``list``.
+        list: The panel of the step.
+        clicked: Whether the picture was clicked.
+        over: A place in the picture, from (0, 0) at the upper left to (1, 1) at the lower right.
+        asked: The number of the question about it.
+        move: The step that was dragged to the place of step ``to``.
+        to: That step.
+    """
+
+    number: int
+    dark: bool | None = None
+    width: _Width = 0
+    tab: str = ""
+    step: int | None = None
+    list: str = ""
+    clicked: bool = False
+    over: tuple[_Part, _Part] | None = None
+    asked: int = 0
+    move: int | None = None
+    to: int | None = None
+
+
+class _Stored(BaseModel):
+    """State of a window when it was loaded: its address, whether its system is dark, its width, and its last plan."""
+
+    search: str = ""
+    dark: bool = False
+    width: _Width = 0
+    plan: str = ""
 
 
 def _number(said: Mapping[str, str], name: str, usual: int) -> int:
@@ -164,26 +195,23 @@ class Window:
 
     Args:
         client: viser's side of it.
-        told: Called with what happens in it.
+        told: Called with each event in it.
 
     Attributes:
         dark: Whether its system is dark.
         width: Pixels from its left to its right; 0 where it does not say.
-        link: What its address said when it was loaded.
+        link: The view that its address had when it was loaded.
         plan: The plan that it showed before; empty for none.
     """
 
-    def __init__(self, client: ClientHandle, told: Callable[[Mapping[str, Any]], None]) -> None:
+    def __init__(self, client: ClientHandle, told: Callable[[Event], None]) -> None:
         self._client = client
         try:
-            said = json.loads(client.local_storage.get_item(KEY, timeout=_PATIENCE) or "{}")
-        except (RuntimeError, TimeoutError, ValueError):
-            said = {}
-        said = said if isinstance(said, dict) else {}
-        self.dark = said.get("dark") is True
-        self.width = width_of(said)
-        self.link = read_link(str(said.get("search", "")))
-        self.plan = read_plan(said.get("plan"))
+            stored = _Stored.model_validate_json(client.local_storage.get_item(KEY, timeout=_PATIENCE) or "{}")
+        except (RuntimeError, TimeoutError, ValidationError):
+            stored = _Stored()
+        self.dark, self.width = stored.dark, stored.width
+        self.link, self.plan = read_link(stored.search), read_plan(stored.plan)
         self._kept, self._kept_plan = self.link, self.plan
         self._told = told
         self._seen = 0
@@ -197,13 +225,14 @@ class Window:
             events = json.loads(self._event.value[:_LONGEST])
         except (TypeError, ValueError, RecursionError):
             return
-        for event in events if isinstance(events, list) else ():
-            number = event.get("number") if isinstance(event, dict) else None
-            if isinstance(number, int) and self._is_new(number):
-                self._told(event)
+        for value in events if isinstance(events, list) else ():
+            with suppress(ValidationError):
+                event = Event.model_validate(value)
+                if self._is_new(event.number):
+                    self._told(event)
 
     def _is_new(self, number: int) -> bool:
-        """Whether an event was not told yet; from now on it is."""
+        """Return whether an event is new, and remember it."""
         with self._lock:
             new, self._seen = number > self._seen, max(number, self._seen)
             return new

@@ -26,19 +26,19 @@ if TYPE_CHECKING:
 
 LOCAL = "127.0.0.1"
 _TRIES = 8
+# Number of windows of one browser that are recognised when they come back.
 _WINDOWS = 8
-"""Number of windows of one browser that are told from one another when they come back."""
+# Seconds between two looks at learning that is under way.
 _LOOK = 0.5
-"""Seconds between two looks at learning that is under way."""
+# Seconds that a browser may take to say who it is.
 _PATIENCE = 5.0
-"""Seconds that a browser may take to say who it is."""
 
+# Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded.
 _WARMING = 5.0
-"""Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded."""
 
 
 class Server:
-    """Serves a studio.
+    """Web server of a studio.
 
     Args:
         studio: What is shown.
@@ -46,7 +46,6 @@ class Server:
         port: The port; 0 takes a free one.
 
     Attributes:
-        studio: As above.
         port: The port.
         token: What a visitor must know.
         url: Where it is reached from this machine, with the token.
@@ -58,7 +57,7 @@ class Server:
     def __init__(self, studio: Studio, host: str, port: int) -> None:
         viser = need_viser()
         port = free_port(host, port)
-        for name in ("websockets", "asyncio"):  # who sends nonsense is not answered, and nobody need know
+        for name in ("websockets", "asyncio"):  # invalid requests are not answered, and need no log
             logging.getLogger(name).setLevel(logging.CRITICAL)
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         self.studio = studio
@@ -86,7 +85,7 @@ class Server:
         visitor.guarded(visitor.come_back)(None)
 
     def _identity(self, client: ClientHandle) -> str:
-        """Who a browser is: random names that it keeps, one a window, so that what was not saved is offered again.
+        """Return the name of a window, by which its drafts are found when it is loaded again.
 
         A window takes a name of the browser that no other window has now, rather one with something that was not saved.
         """
@@ -145,7 +144,7 @@ class Server:
 
 
 def need_viser() -> ModuleType:
-    """The package that puts the scene and the panels into browsers.
+    """Return the package that puts the scene and the panels into browsers.
 
     Raises:
         MissingToolError: It is not installed.
@@ -157,7 +156,7 @@ def need_viser() -> ModuleType:
 
 
 def free_port(host: str, port: int) -> int:
-    """The port, if it can be listened at; a free one for 0.
+    """Return the port, if it can be listened at; a free one for 0.
 
     Raises:
         TmdError: It cannot.

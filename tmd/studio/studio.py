@@ -1,4 +1,4 @@
-"""What all visitors of a studio share: the domain, its environments made ready, the robot's figure, and the teacher."""
+"""State shared by all visitors: the domain, its environments, the robot's figure, and the teacher."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ from threading import RLock
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.reading.syntax import nearest
 from tmd.studio.applicable_actions import Offers
-from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
@@ -43,11 +42,8 @@ class Studio:
         extra: An environment file that is not among those of the domain.
 
     Attributes:
-        corpus: As above.
-        teacher: As above.
         archive: Where demonstrations are saved.
         drafts: What was not saved yet.
-        start: As above.
 
     Raises:
         TmdError: There is no such environment, or it is wrong.
@@ -77,7 +73,7 @@ class Studio:
         self.start = start or names[0]
 
     def changed(self, setting: Setting, change: Callable[[EditedEnvironment], object]) -> str:
-        """Make an environment of a changed one, for whoever changed it, and return its name; both files stay.
+        """Make a changed environment for a visitor, and return its name; both files stay.
 
         Raises:
             TmdError: It cannot be changed so.
@@ -110,11 +106,11 @@ class Studio:
         return name
 
     def environments(self) -> list[str]:
-        """The names of the environments, sorted."""
+        """Return the names of the environments, sorted."""
         return sorted({*self.corpus.environments(), *self._extra})
 
     def setting(self, name: str) -> Setting:
-        """An environment, made ready once.
+        """Return an environment, made ready once.
 
         Raises:
             TmdError: There is none, or it is wrong.
@@ -132,23 +128,23 @@ class Studio:
         return open_setting(self.corpus, make_world(name, problem, self.corpus.lexicon), path)
 
     def offers(self, name: str) -> Offers:
-        """What may be done in an environment."""
+        """Return the instructions of an environment."""
         with self._lock:
             if name not in self._offers:
                 self._offers[name] = Offers(self.setting(name).world)
             return self._offers[name]
 
     def figure(self) -> Figure | None:
-        """The robot; ``None`` where its model is not installed."""
+        """Return the robot; ``None`` where its model is not installed."""
         with self._lock:
             return _figure()
 
     def executable(self, setting: Setting) -> bool:
-        """Whether a robot could carry plans out: there are shapes, and the domain has skills."""
+        """Return whether a robot could carry plans out: there are shapes, and the domain has skills."""
         return setting.look is not None and (self.corpus.folder.path / SKILLS).is_file()
 
     def session(self, setting: Setting, text: str) -> Session:
-        """A demonstration of a text, at its beginning.
+        """Return a demonstration of a text, at its beginning.
 
         Raises:
             TmdError: The text is empty or too long, or what is shown here cannot be saved.
@@ -162,9 +158,9 @@ class Studio:
         Args:
             session: The demonstration.
             task: What it is an example of.
-            who: Who showed it; empty where that is not told.
-            when: Whether the time is told.
-            goal: What the text asks for, as a closed PDDL condition; not told by default.
+            who: The name of the person; empty where it is not recorded.
+            when: Whether the time is recorded.
+            goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
         Raises:
             TmdError: It cannot be saved; nothing is written.
@@ -176,11 +172,11 @@ class Studio:
         return saved
 
     def examples(self, name: str) -> list[str]:
-        """Texts that can be tried in an environment."""
+        """Return the example texts of an environment."""
         return [known.text for known in self._texts if known.environment == name]
 
     def nearest_example(self, text: str, name: str) -> str:
-        """The text that can be tried in an environment and has most words in common with ``text``; empty for none."""
+        """Return the example text of an environment with most words of ``text``; empty for none."""
         words = set(text.lower().split())
 
         def alike(known: str) -> tuple[int, int]:
@@ -196,14 +192,6 @@ class Studio:
             if texts:
                 self.teacher.ground(texts[0], self.setting(self.start).world, top=1)
 
-    def checked_text(self, text: str) -> str:
-        """The text without control characters.
-
-        Raises:
-            TmdError: There is nothing in it, or it is too long.
-        """
-        return clean(text)
-
 
 @cache
 def _figure() -> Figure | None:
@@ -214,7 +202,7 @@ def _figure() -> Figure | None:
 
 
 def open_studio(corpus: Corpus, environment: Path | None = None, learned: Path | None = None) -> Studio:
-    """The studio of a domain, with what its demonstrations teach.
+    """Return the studio of a domain, with what its demonstrations teach.
 
     Args:
         corpus: The domain.

@@ -1,4 +1,4 @@
-"""What a domain's demonstrations teach, while more of them come.
+"""Learning from a domain's demonstrations while more of them are saved.
 
 A demonstration that was just saved is in the library at once; the policy and what verbs mean, which take longer, are
 learned in the background. Whoever grounds a text meanwhile has what was known when they began, all of one piece; at
@@ -15,7 +15,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
 
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import GoalTable
@@ -26,9 +25,6 @@ from tmd.knowledge import (
     Knowledge,
     digest,
     known,
-    reward_from_json,
-    reward_to_json,
-    weights_bytes,
 )
 from tmd.readers.interface import Reader
 from tmd.readers.llm.client import URL, ModelSettings
@@ -40,19 +36,19 @@ from tmd.veil.library import Library, learn, teach
 from tmd.veil.world import World
 from tmd.world.folder import DomainFolder
 
+# The share of the work that learning is, roughly; the rest is saving.
 _SHARE = 0.95
-"""The share of the work that learning is, roughly; the rest is saving."""
+# How much the process that learns stands back behind the studio's own (POSIX).
 _NICE = 10
-"""How much the process that learns stands back behind the studio's own (POSIX)."""
+# Maximum number of language-model readers that are kept.
 _READERS = 8
-"""Maximum number of language-model readers that are kept."""
+# The key for servers that the environment does not name.
 _NO_KEY = "none"
-"""The key for servers that the environment does not name."""
 
 
 @dataclass(frozen=True, slots=True)
 class Trained:
-    """What came of it.
+    """Result of learning.
 
     Attributes:
         made_from: The digest of the files that it was learned from.
@@ -73,7 +69,12 @@ class Training:
     Args:
         corpus: The demonstrations.
         root: Where what is learned is kept; beside the demonstrations where none is given.
-        finish: Called in a thread of its own with what came of it, before :meth:`wait` returns; ``None`` if it failed.
+        finish: Called in a separate thread with the result, before :meth:`wait` returns; ``None`` if it failed.
+
+    Attributes:
+        share: Share of the work that is done, roughly, from 0 to 1.
+        trained: The result, once it is done.
+        error: The reason, if it failed; nothing was changed then.
     """
 
     def __init__(self, corpus: Corpus, root: Path | None, finish: Callable[[Trained | None], None]) -> None:
@@ -82,9 +83,9 @@ class Training:
         arguments = (theirs, corpus.folder.path, corpus.directory, root)
         self._process = context.Process(target=_work, args=arguments, daemon=True)
         self._finish = finish
-        self._share = 0.0
-        self._error: TmdError | None = None
-        self._trained: Trained | None = None
+        self.share = 0.0
+        self.error: TmdError | None = None
+        self.trained: Trained | None = None
         self._stopped = False
         self._process.start()
         theirs.close()
@@ -92,24 +93,9 @@ class Training:
         self._thread.start()
 
     @property
-    def share(self) -> float:
-        """How much of the work is done, roughly, from 0 to 1."""
-        return self._share
-
-    @property
     def running(self) -> bool:
-        """Whether it goes on."""
+        """Return whether it goes on."""
         return self._thread.is_alive()
-
-    @property
-    def trained(self) -> Trained | None:
-        """What came of it, once it is done."""
-        return self._trained
-
-    @property
-    def error(self) -> TmdError | None:
-        """Why it failed, if it did; nothing was changed then."""
-        return self._error
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait for the end, at most so many seconds; whether it came.
@@ -118,8 +104,8 @@ class Training:
             TmdError: Learning failed.
         """
         self._thread.join(timeout)
-        if self._error is not None:
-            raise self._error
+        if self.error is not None:
+            raise self.error
         return not self.running
 
     def stop(self) -> None:
@@ -133,30 +119,28 @@ class Training:
             while True:
                 kind, value = self._mine.recv()
                 if kind == "share":
-                    self._share = value
+                    self.share = value
                     continue
                 if kind == "error":
-                    self._error = TmdError(value)
+                    self.error = TmdError(value)
                 else:
-                    trained = _unpacked(value)
-                    self._finish(trained)
-                    self._trained = trained
-                    self._share = 1.0
+                    self._finish(value)
+                    self.trained, self.share = value, 1.0
                 break
         except (EOFError, OSError):
             why = "was stopped" if self._stopped else "ended before it was done"
-            self._error = TmdError(f"learning {why}; what was known before is used", hint="train again")
+            self.error = TmdError(f"learning {why}; what was known before is used", hint="train again")
         except TmdError as error:
-            self._error = error
+            self.error = error
         finally:
-            if self._error is not None:
+            if self.error is not None:
                 self._finish(None)
             self._process.join()
             self._mine.close()
 
 
 def _work(connection: Connection, folder: Path, directory: Path, root: Path | None) -> None:
-    """What the process does."""
+    """Learn in a process, and send the progress and the result."""
 
     def tell(share: float) -> None:
         connection.send(("share", _SHARE * share))
@@ -166,31 +150,28 @@ def _work(connection: Connection, folder: Path, directory: Path, root: Path | No
         corpus = Corpus(DomainFolder(folder), directory)
         made_from = digest(corpus)
         knowledge = known(corpus, root, tell)
-        connection.send(("done", _packed(made_from, len(corpus.demonstrations()), knowledge)))
+        trained = Trained(made_from, len(corpus.demonstrations()), knowledge.reward, knowledge.goals)
+        connection.send(("done", trained))
     except TmdError as error:
         with suppress(BrokenPipeError):
             connection.send(("error", str(error)))
     except BrokenPipeError:
-        return  # the studio has ended: nobody wants it any more
-
-
-def _packed(made_from: str, count: int, knowledge: Knowledge) -> tuple[Any, ...]:
-    reward = knowledge.reward
-    return made_from, count, reward and (reward_to_json(reward), weights_bytes(reward)), knowledge.goals
-
-
-def _unpacked(data: tuple[Any, ...]) -> Trained:
-    made_from, count, reward, goals = data
-    return Trained(made_from, count, reward and reward_from_json(*reward), goals)
+        return  # the studio has ended
 
 
 class Teacher:
-    """What is known of one domain. Threads may share it.
+    """Knowledge learned in one domain. Threads may share it.
 
     Args:
         corpus: The domain's environments and demonstrations.
         root: Where ``tmd learn --out`` keeps what it learns; beside the demonstrations where none is given. What was
             saved there and still holds is taken, else everything is learned now.
+
+    Attributes:
+        knowledge: The current knowledge.
+        habits: The instructions carried out for each verb, for proposals of clauses.
+        training: The last :meth:`retrain`, if there was one.
+        learning: Whether the files teach more than is known, and that is being learned.
 
     Raises:
         TmdError: A demonstration is wrong.
@@ -200,28 +181,13 @@ class Teacher:
         self.corpus = corpus
         self._root = root
         self._digest = digest(corpus)
-        self._knowledge = known(corpus, root)
+        self.knowledge = known(corpus, root)
         self._learned_from = tuple(corpus.demonstrations())
-        self._habits = Habits.of(self._knowledge.library)
+        self.habits = Habits.of(self.knowledge.library)
         self._guard = threading.RLock()
-        self._training: Training | None = None
-        self._learning = False
+        self.training: Training | None = None
+        self.learning = False
         self._readers: dict[tuple[ModelSettings, bool], Reader] = {}
-
-    @property
-    def knowledge(self) -> Knowledge:
-        """What is known now."""
-        return self._knowledge
-
-    @property
-    def habits(self) -> Habits:
-        """What was done for each verb, for proposals of clauses."""
-        return self._habits
-
-    @property
-    def training(self) -> Training | None:
-        """The last :meth:`retrain`, if there was one."""
-        return self._training
 
     def learn_one(self, demonstration: Demonstration) -> Knowledge:
         """Take up a demonstration that was just saved, and any that others have saved since.
@@ -240,24 +206,19 @@ class Teacher:
         """
         with self._guard:
             self._take_up(demonstration)
-            return self._knowledge
+            return self.knowledge
 
     def retrain(self) -> Training:
-        """Learn everything from all demonstrations, in a process of its own, as ``tmd ground`` does when it is asked.
+        """Learn everything from all demonstrations, in a separate process, as ``tmd ground`` does.
 
         What is learned is used as soon as it is there, and kept where ``tmd ground`` finds it. Where learning is under
         way already, that goes on; if demonstrations came meanwhile, it begins once more at its end.
         """
         with self._guard:
-            if self._training is None or not self._learning:
-                self._learning = True
-                self._training = Training(self.corpus, self._root, self._become)
-            return self._training
-
-    @property
-    def learning(self) -> bool:
-        """Whether what is known is not yet all that the files teach: it is being learned."""
-        return self._learning
+            if self.training is None or not self.learning:
+                self.learning = True
+                self.training = Training(self.corpus, self._root, self._become)
+            return self.training
 
     def model_reader(self, model: str, url: str, *, verify: bool) -> Reader:
         """Return the reader that asks a language model; the same one for the same settings.
@@ -271,7 +232,7 @@ class Teacher:
             ModelError: There is no model, or no key for a server that needs one.
             TmdError: A file of sentence tests is wrong.
         """
-        # whoever sees the page may name any server: the key goes only to the one that the environment names
+        # a visitor may name any server: the key goes only to the one that the environment variable names
         trusted = url in ("", os.environ.get(URL, "").strip())
         settings = ModelSettings(model or None, url or None, key=None if trusted else _NO_KEY)
         with self._guard:
@@ -302,23 +263,23 @@ class Teacher:
             if digest(self.corpus) != self._digest:
                 self._take_up()
                 self.retrain()
-            now = self._knowledge
+            now = self.knowledge
         return ground(text, world, now.library, reward=now.reward, goals=now.goals, top=top, reader=reader, ask=ask)
 
     def close(self) -> None:
         """End what is under way."""
-        training = self._training
+        training = self.training
         if training is not None and training.running:
             training.stop()
 
     def _library(self, found: tuple[Demonstration, ...]) -> Library:
-        """What ``found`` teaches: only what is new is learned, where nothing went and each id stands for one."""
+        """Return the library of ``found``, learning only new ones if none was removed and each id is unique."""
         corpus, before = self.corpus, set(self._learned_from)
         order = {demonstration.id: number for number, demonstration in enumerate(found)}
         if len(order) < len(found) or not before <= set(found):
             return learn(found, corpus.world, corpus.lexicon)
         new = [teach(d, corpus.world(d.environment), corpus.lexicon) for d in found if d not in before]
-        return self._knowledge.library.extended(new, order)
+        return self.knowledge.library.extended(new, order)
 
     def _take_up(self, wanted: Demonstration | None = None) -> None:
         """Have a library of the files as they are now; ``wanted`` must be in them."""
@@ -328,17 +289,17 @@ class Teacher:
         if wanted is not None and wanted not in found:
             raise TmdError(f"'{wanted.id}' is not among the demonstrations", hint="save it first")
         library = self._library(found)
-        self._habits = Habits.of(library)
-        self._knowledge = replace(self._knowledge, library=library)
+        self.habits = Habits.of(library)
+        self.knowledge = replace(self.knowledge, library=library)
         self._learned_from, self._digest = found, made_from
 
     def _become(self, trained: Trained | None) -> None:
         """Use what was learned; the library may know more by now, and then it is learned once more."""
         with self._guard:
-            self._learning = False
+            self.learning = False
             if trained is None:
                 return
             self._take_up()
-            self._knowledge = Knowledge(self._knowledge.library, trained.reward, goals=trained.goals)
+            self.knowledge = Knowledge(self.knowledge.library, trained.reward, goals=trained.goals)
             if trained.made_from != self._digest:
                 self.retrain()

@@ -6,7 +6,7 @@ import sys
 import threading
 import time
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial, wraps
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -20,7 +20,7 @@ from tmd.robot.monitor.listeners import Title
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
-from tmd.studio.page import PageLink, Window, place_of, width_of
+from tmd.studio.page import Event, PageLink, Window
 from tmd.studio.panels.context import Played
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
@@ -40,26 +40,26 @@ if TYPE_CHECKING:
 
     from tmd.studio.studio import Studio
 
+# Pixels of the panel beside the 3D view: two fifths of the window, between these.
 WIDTH, LEAST_WIDTH = 430, 330
-"""Pixels of the panel beside the 3D view: two fifths of the window, between these."""
+# Pixels: in a window of this width or less viser puts the panel before the lower part of the view.
 NARROW = 576
-"""Pixels: in a window of this width or less viser puts the panel before the lower part of the view."""
+# How much of the view it covers there.
 SHEET = 0.6
-"""How much of the view it covers there."""
 WELCOME = (
     "Welcome. Say: type what is to be done, or take an example, and press Enter. Demonstrate: show how it is done, and "
     "the next sentence uses it. Correct: change a plan that was made."
 )
 ROOM, EYES = "the whole room", "with the robot's eyes"
+# Of messages and of faults, as on the page.
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
-"""Of messages and of faults, as on the page."""
+# Seconds within which a click in the picture is the one that an object was pointed at with.
 _CLICK = 1.5
-"""Seconds within which a click in the picture is the one that an object was pointed at with."""
+# Seconds that a message over the view stays.
 ALOUD = 8.0
-"""Seconds that a message over the view stays."""
 TABS = ("Say", "Demonstrate", "Correct", "Object")
+# Under this name a browser keeps which visitors its windows are.
 KEY = "tmd-visitor"
-"""Under this name a browser keeps which visitors its windows are."""
 
 
 class Visitor:
@@ -71,9 +71,6 @@ class Visitor:
         identity: Who it is: drafts are kept by this.
 
     Attributes:
-        studio: As above.
-        client: As above.
-        identity: As above.
         reel: The states that are looked at.
         cursor: After how many steps the state is that is seen.
         selected: The object that was pointed at.
@@ -136,7 +133,7 @@ class Visitor:
         self.client.camera.on_update(self.guarded(self._resized))
 
     def come_back(self) -> None:
-        """Look at what the window's address says, as before it was loaded again, or as somebody sent it."""
+        """Show the view of the window's address: that before it was loaded again, or one that was sent."""
         link = self.window.link
         if link.environment in self.studio.environments() and link.environment != self.setting.name:
             self.enter(link.environment)
@@ -158,30 +155,28 @@ class Visitor:
     def _theme(self, *, dark: bool) -> None:
         self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
 
-    def _happened(self, event: Mapping[str, Any]) -> None:
-        """Something that the page's own script tells."""
-        step, to = event.get("step"), event.get("to")
-        if isinstance(event.get("dark"), bool):
-            self._theme(dark=event["dark"])
-        elif width_of(event):
-            self._width = width_of(event)
+    def _happened(self, event: Event) -> None:
+        """Handle an event that the page's own script sends."""
+        if event.dark is not None:
+            self._theme(dark=event.dark)
+        elif event.width:
+            self._width = event.width
             self._camera()
-        elif event.get("tab") in TABS:
-            self._tab = str(event["tab"])
+        elif event.tab in TABS:
+            self._tab = event.tab
             self.keep_link()
-        elif isinstance(step, int):
+        elif event.step is not None:
             owners: dict[str, Played] = {"say": self.say, "demonstrate": self.demonstrate, "correct": self.correct}
-            owner = owners.get(str(event.get("list")))
-            if owner is not None:
+            if event.list in owners:
                 self.stop()
-                owner.goto(step)
-        elif event.get("clicked") is True:  # in the picture; a click on an object has come before
+                owners[event.list].goto(event.step)
+        elif event.clicked:  # in the picture; a click on an object has come before
             if time.monotonic() - self._pointed_at > _CLICK:
                 self.select(None)
-        elif (place := place_of(event.get("over"))) is not None:
-            self.window.call(event.get("asked"), self._called(*place))
-        elif isinstance(event.get("move"), int) and isinstance(to, int):
-            self.correct.move(event["move"], to)
+        elif event.over is not None:
+            self.window.call(event.asked, self._called(*event.over))
+        elif event.move is not None and event.to is not None:
+            self.correct.move(event.move, event.to)
 
     def keep_link(self) -> None:
         """Let the window's address say what is looked at."""
@@ -264,7 +259,7 @@ class Visitor:
             self.object.refresh()
 
     def shows(self, panel: Played) -> bool:
-        """Whether the steps of no other panel are looked at."""
+        """Return whether the steps of no other panel are looked at."""
         return self.player.owner in (None, panel)
 
     def select(self, name: str | None) -> None:
@@ -287,7 +282,7 @@ class Visitor:
         self.guarded(lambda: self.select(name))(None)
 
     def _called(self, across: float, down: float) -> str:
-        """The name of what is seen at a place of the picture, the part's where it is one; empty for none."""
+        """Return the name of what is seen at a place of the picture, the part's where it is one; empty for none."""
         camera, scenery = self.client.camera, self._scenery
         if scenery is None:
             return ""
@@ -329,7 +324,7 @@ class Visitor:
             camera.look_at = target
 
     def _resized(self) -> None:
-        """The view has another form: look at the whole room again, unless the visitor looks at something else."""
+        """Look at the whole room again in a view of another form, unless the visitor moved the camera."""
         camera = self.client.camera
         with self._lock:
             aspect, eye = self._aimed
@@ -352,7 +347,7 @@ class Visitor:
         threading.Thread(target=self.guarded(lambda: frames(ended)), args=(None,), daemon=True).start()
 
     def is_playing(self) -> bool:
-        """Whether something is being played."""
+        """Return whether something is being played."""
         return self._playing is not None and not self._playing.is_set()
 
     def stop(self) -> None:
@@ -386,7 +381,7 @@ class Visitor:
         self.play(frames)
 
     def leave(self) -> None:
-        """The browser is gone."""
+        """Stop playing: the browser is gone."""
         self.stop()
 
     # messages
@@ -396,7 +391,7 @@ class Visitor:
         self.correct.open(text, plan)
 
     def saved(self, demonstration: Demonstration) -> None:
-        """A demonstration was saved: plan its text again, and say whether that uses it."""
+        """Plan the text of a saved demonstration again, and report whether the plan uses it."""
         self.say.saved(demonstration)
 
     def learning(self, share: float | None) -> None:
@@ -434,7 +429,7 @@ class Visitor:
             self._aloud = self.client.add_notification(title, said, auto_close_seconds=ALOUD, color=colour)
 
     def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
-        """A callback that tells what goes wrong; nothing that a visitor does is answered by a traceback."""
+        """Return a callback that reports errors to the visitor, never by a traceback."""
 
         @wraps(act)
         def called(_: object) -> None:
@@ -451,13 +446,13 @@ class Visitor:
         return called
 
     def holding(self) -> threading.RLock:
-        """The visitor's lock: one thing at a time happens to what it looks at."""
+        """Return the visitor's lock: one thing at a time happens to what it looks at."""
         return self._lock
 
     # keys
 
     def _commands(self) -> None:
-        """Hot keys; W, A, S, D, Q, E and the arrows move the camera, and space presses what has the focus."""
+        """Add the hot keys; W, A, S, D, Q, E and the arrows move the camera, and space presses the focused button."""
         gui = self.client.gui
         for label, key, act in (
             ("Next step", "N", lambda: self.player.move(1)),

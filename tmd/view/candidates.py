@@ -21,28 +21,37 @@ class RefusedCandidate:
 
 
 def candidates(
-    plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[RejectedProposal] = ()
+    plans: Sequence[RankedPlan],
+    verdicts: Sequence[str] = (),
+    refusals: Sequence[RejectedProposal] = (),
+    *,
+    narrow: bool = False,
 ) -> str:
-    """Ranked plans as a fragment of HTML: a table of energies, then each clause's, then the refusals.
+    """Render ranked plans as a fragment of HTML: a table of energies, then each clause's, then the refusals.
 
     Args:
         plans: The plans, least energy first.
         verdicts: For each plan why it does not work, empty for one that does.
         refusals: Templates that could not be used.
+        narrow: Whether the fragment must fit into a panel of the studio: a column for each plan instead of each factor.
     """
-    template = templates().get_template("candidates.html.j2")
-    return template.render(
-        plans=plans,
-        verdicts=[verdicts[i] if i < len(verdicts) else "" for i in range(len(plans))],
-        factors={name: title(name) for name in factors_of(plans)},
-        meanings={name: meaning(name) for name in factors_of(plans)},
-        clauses=max((len(plan.choices) for plan in plans), default=0),
-        refused=grouped(refusals),
+    names = factors_of(plans)
+    return (
+        templates()
+        .get_template("candidates_narrow.html.j2" if narrow else "candidates.html.j2")
+        .render(
+            plans=plans,
+            verdicts=[verdicts[i] if i < len(verdicts) else "" for i in range(len(plans))],
+            factors={name: title(name) for name in names},
+            meanings={name: meaning(name) for name in names},
+            title_of=title,
+            refused=grouped(refusals),
+        )
     )
 
 
 def factors_of(plans: Sequence[RankedPlan]) -> list[str]:
-    """The factors that are not 0 in every plan, those that weigh most first."""
+    """Return the factors that are not 0 in every plan, those that weigh most first."""
     weight: defaultdict[str, float] = defaultdict(float)
     for plan in plans:
         for name, value in plan.factors.items():
@@ -51,7 +60,7 @@ def factors_of(plans: Sequence[RankedPlan]) -> list[str]:
 
 
 def grouped(refusals: Sequence[RejectedProposal]) -> list[RefusedCandidate]:
-    """Refusals by clause and reason, the most frequent reasons of a clause first."""
+    """Group refusals by clause and reason, the most frequent reasons of a clause first."""
     found: dict[tuple[int, str], list[str]] = {}
     for refusal in refusals:
         found.setdefault((refusal.clause, refusal.reason), []).append(refusal.source)

@@ -17,8 +17,8 @@ from tmd.view.meaning import meanings
 
 VERB, OBJECT = "verb", "object"
 _SHORTEST_SLIP, _ALIKE = 4, 0.8
+# Maximum number of words that do not count within a phrase: "the cup of hot coffee".
 _WIDER = 3
-"""Maximum number of words that do not count within a phrase: "the cup of hot coffee"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class TextPhrase:
 
 
 def phrases(text: str, clause: Clause) -> list[TextPhrase]:
-    """The verb's words and each object's, as far as they are found in the clause's piece of the text, in order.
+    """Return the verb's words and each object's, as far as they are found in the clause's piece of the text, in order.
 
     What the parser read from other words than are written there (a missing object, say) has none.
     """
@@ -54,7 +54,7 @@ def phrases(text: str, clause: Clause) -> list[TextPhrase]:
 
 
 def _verb(tokens: Sequence[Token], verb: str) -> list[int]:
-    """The verb's word and its particle's; nothing where the verb was written in another way."""
+    """Return the verb's word and its particle's; nothing where the verb was written in another way."""
     stem, *particles = verb.split("_")
     words = builtin()
     stems = [(words.verb(token.text) or (token.text,))[0] for token in tokens]
@@ -69,13 +69,13 @@ def _verb(tokens: Sequence[Token], verb: str) -> list[int]:
 
 
 def _is_slip(written: str, meant: str) -> bool:
-    """Whether the parser may have read a word as another: it corrects typing errors."""
+    """Return whether the parser may have read a word as another: it corrects typing errors."""
     shorter = min(len(written), len(meant))
     return shorter >= _SHORTEST_SLIP and SequenceMatcher(None, written, meant).ratio() >= _ALIKE
 
 
 def _objects(tokens: Sequence[Token], clause: Clause, used: Collection[int]) -> Iterator[tuple[str, str, list[int]]]:
-    """Each object with its words; lazily, because what one has taken the next cannot have."""
+    """Yield each object with its words; lazily, because what one has taken the next cannot have."""
     for name in clause.objects:
         free = {i: _forms(tokens[i].text) for i in range(len(tokens)) if i not in used}
         yield OBJECT, name, _words_of(free, [word for word in name.split("_") if word])
@@ -86,7 +86,7 @@ def _forms(word: str) -> frozenset[str]:
 
 
 def _words_of(free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[int]:
-    """The narrowest run of free places with all of ``words``; with their head alone where there is none."""
+    """Return the narrowest run of free places with all of ``words``; with their head alone where there is none."""
     corrected = {
         place: forms | {w for w in words for form in forms if _is_slip(form, w)} for place, forms in free.items()
     }
@@ -100,7 +100,7 @@ def _words_of(free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[
 
 
 def _run_from(start: int, free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[int]:
-    """The places from ``start`` on that have ``words``, in any order, with little between them."""
+    """Return the places from ``start`` on that have ``words``, in any order, with little between them."""
     left, taken = list(words), []
     for place in range(start, start + len(words) + _WIDER):
         word = next((w for w in left if w in free.get(place, ())), None)
@@ -111,7 +111,7 @@ def _run_from(start: int, free: Mapping[int, frozenset[str]], words: Sequence[st
 
 
 def _runs(places: Sequence[int]) -> list[list[int]]:
-    """Places next to each other as one run."""
+    """Return runs of consecutive places."""
     runs: list[list[int]] = []
     for place in sorted(places):
         if runs and place == runs[-1][-1] + 1:
@@ -121,15 +121,15 @@ def _runs(places: Sequence[int]) -> list[list[int]]:
     return runs
 
 
+# Stands under words that name nothing in the environment.
 NOTHING = "nothing here"
-"""Stands under words that name nothing in the environment."""
 SKIPPED = "skipped"
 UNSEEN = "not demonstrated"
 
 
 @dataclass(frozen=True, slots=True)
 class Lit:
-    """Lit words: where they stand, what they are (``verb``, ``object``, ``skipped``), and what stands under them."""
+    """Lit words: their place, their kind (``verb``, ``object``, ``skipped``), and the label below them."""
 
     span: Span
     kind: str
@@ -138,18 +138,18 @@ class Lit:
 
 
 def lit_choice(parsed: Parsed, plan: RankedPlan, world: World) -> str:
-    """The text of a grounded sentence, with what each phrase means in ``plan``, as HTML."""
+    """Return the text of a grounded sentence, with what each phrase means in ``plan``, as HTML."""
     return lit_sentence(parsed, meanings(parsed, plan, world))
 
 
 def lit_sentence(
     parsed: Parsed, meant: Sequence[Mapping[str, Sequence[str]]] | None = None, unseen: Collection[str] = ()
 ) -> str:
-    """The text as a fragment of HTML.
+    """Return the text as a fragment of HTML.
 
     Args:
         parsed: The text and its clauses.
-        meant: For every clause what its language-objects were grounded to; nothing is told of that without it.
+        meant: For every clause the objects that its language-objects were grounded to; without it, they are left out.
         unseen: The verbs that no demonstration has.
     """
     spans = _clipped([clause.span for clause in parsed.clauses])
@@ -164,7 +164,7 @@ def lit_sentence(
 
 
 def _clause(number: int, words: Sequence[str]) -> str:
-    """A clause; its number stays on the line of the first word."""
+    """Return a clause; its number stays on the line of the first word."""
     first = f'<span class="tmd-number">{number + 1}</span>{words[0]}'
     if words[0].startswith((f'<span class="tmd-{VERB}', f'<span class="tmd-{OBJECT}')):
         first = f'<span class="tmd-together">{first}</span>'
@@ -188,7 +188,7 @@ def _clause_words(
 
 
 def _reading(name: str, meant: Sequence[str]) -> str:
-    """How the language-object was read."""
+    """Describe the reading of a language-object."""
     return f"object: {name}" + ("" if tuple(meant) == (name,) else f", which is {' + '.join(meant)}")
 
 
@@ -197,7 +197,7 @@ def _skipped(parsed: Parsed) -> list[Lit]:
 
 
 def _clipped(spans: Sequence[Span]) -> dict[int, Span]:
-    """The clauses' pieces of the text without overlaps: each begins where the one before has ended."""
+    """Return the clauses' pieces of the text without overlaps: each begins where the one before has ended."""
     found: dict[int, Span] = {}
     done = 0
     for number, span in sorted(enumerate(spans), key=lambda item: (item[1], item[0])):
@@ -209,7 +209,7 @@ def _clipped(spans: Sequence[Span]) -> dict[int, Span]:
 
 
 def _free(lit: Sequence[Lit]) -> list[Lit]:
-    """In order, and without what overlaps something before it."""
+    """Sort lit words, and drop those that overlap earlier ones."""
     found: list[Lit] = []
     for words in sorted(lit, key=lambda words: words.span):
         if words.span.start < words.span.end and (not found or words.span.start >= found[-1].span.end):

@@ -1,4 +1,4 @@
-"""What the steps of a text ask for, in words, where in a plan it comes to hold, and what of a plan is doubtful."""
+"""Goals of a text in words, when a plan reaches them, and doubts about the plan."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from tmd.veil.world import World
 from tmd.view.meaning import meanings
 from tmd.view.wording import Wording
 
+# A note on a step without a goal begins with this where its instructions were guessed.
 GUESS = "a guess"
-"""A note on a step without a goal begins with this where its instructions were guessed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class ShownGoal:
 
     Attributes:
         goal: The goal.
-        words: What it says; empty where there is none.
+        words: The goal in words; empty without a goal.
         since: After how many steps of the plan it comes to hold, for good if it holds in the end; ``None`` for never.
         until: Where it was reached and does not hold in the end, the number of the step that undid it.
         reached: Whether it holds when its own part of the plan is done.
@@ -38,7 +38,7 @@ class ShownGoal:
 
     @property
     def asked(self) -> bool:
-        """Whether there is something that a state shows."""
+        """Return whether there is something that a state shows."""
         return self.goal.formula not in (None, TRUE)
 
     @property
@@ -51,7 +51,7 @@ class ShownGoal:
 
     @property
     def standing(self) -> str:
-        """When it holds: *already so*, *holds after step 3*, *already so since step 3, until step 7*, *not reached*."""
+        """Time when it holds: *already so*, *holds after step 3*, *already so since step 3, until step 7*, …."""
         if not self.asked:
             return ""
         if not self.reached:
@@ -71,7 +71,7 @@ class ShownGoal:
 
 
 def in_words(goals: Iterable[StepGoal], problem: Problem) -> list[ShownGoal]:
-    """The goals in words."""
+    """Return the goals in words."""
     wording = Wording(problem)
     return [ShownGoal(goal, _words(goal.formula, wording)) for goal in goals]
 
@@ -81,7 +81,7 @@ def _words(formula: Formula | None, wording: Wording) -> str:
 
 
 def followed(goals: Sequence[StepGoal], problem: Problem, plan: Iterable[Instruction]) -> list[ShownGoal]:
-    """The goals in words, each with where in ``plan`` it comes to hold.
+    """Return the goals in words, each with where in ``plan`` it comes to hold.
 
     Args:
         goals: The goals.
@@ -107,17 +107,17 @@ def _placed(shown: ShownGoal, states: Sequence[State], problem: Problem) -> Show
 
 
 def all_reached(goals: Iterable[ShownGoal]) -> bool:
-    """Whether every goal was reached, and nothing was guessed."""
+    """Return whether every goal was reached, and nothing was guessed."""
     return all(shown.reached if shown.asked else not shown.goal.note.startswith(GUESS) for shown in goals)
 
 
 def outcome(verdict: Verdict, goals: Sequence[ShownGoal], goal: Formula = TRUE) -> str:
-    """What a plan is good for, in a word or two: to be executable is not yet to reach what was asked for.
+    """Return the outcome of a plan in a few words; an executable plan need not reach its goals.
 
     Args:
         verdict: What the validator says of it.
-        goals: What was said, as :func:`followed`.
-        goal: The goal of the problem, where nothing was said.
+        goals: The goals of the text, as :func:`followed` returns them.
+        goal: The goal of the problem, for a plan without a text.
     """
     if not verdict.valid:
         return "✗ does not work"
@@ -127,7 +127,7 @@ def outcome(verdict: Verdict, goals: Sequence[ShownGoal], goal: Formula = TRUE) 
 
 
 def doubts(parsed: Parsed, plan: RankedPlan, world: World) -> list[str]:
-    """What whoever trusts a plan should know, a line each: what was named and is not touched, and what it leaves so."""
+    """Return the doubts about a plan, a line each: objects that it does not touch, and facts that it leaves."""
     wording = Wording(world.task.problem)
     left = [f"left at the end, not asked for: {wording.fact(atom)}" for atom in left_behind(plan, world)]
     return [
@@ -137,7 +137,7 @@ def doubts(parsed: Parsed, plan: RankedPlan, world: World) -> list[str]:
 
 
 def left_behind(plan: RankedPlan, world: World) -> list[GroundAtom]:
-    """What a plan leaves on, open or in a hand: what it made so, nobody asked for, and one step with that thing ends.
+    """Return the facts that a plan made true, nobody asked for, and one step with the same object ends.
 
     A step with that thing is one that names it, or a part of the same whole, and nothing else.
     """
@@ -162,13 +162,13 @@ def left_behind(plan: RankedPlan, world: World) -> list[GroundAtom]:
 
 
 def _requires(formula: Formula, atom: GroundAtom, state: State, problem: Problem) -> bool:
-    """Whether a goal that holds in a state would not without an atom."""
+    """Return whether a goal that holds in a state would not without an atom."""
     objects = universe(problem)
     return holds(formula, state, objects) and not holds(formula, state - {atom}, objects)
 
 
 def not_touched(parsed: Parsed, plan: RankedPlan, world: World) -> list[tuple[str, str]]:
-    """The nouns of which a plan touches nothing, each with what it would mean; not where nothing was to be done."""
+    """Return the nouns of which a plan touches nothing, with likely meanings, where something was to be done."""
     idle = {goal.clause for goal in plan.goals if goal.already or goal.formula in (None, TRUE)}
     found: dict[tuple[str, str], None] = {}
     for clause, meant in enumerate(meanings(parsed, plan, world)):

@@ -41,7 +41,7 @@ def grounding_record(
     environment_file: str | None,
     made_with: Mapping[str, object],
 ) -> GroundingRecord:
-    """Everything that is known of the plans.
+    """Return everything that is known of the plans.
 
     Args:
         grounded: The plans.

@@ -1,4 +1,4 @@
-"""The templates of this package, and the style that all of its pieces share."""
+"""The HTML templates of all pages and panels, and the style that their pieces share."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _DATA = Path(__file__).parent / "data"
 
 
 def style() -> str:
-    """The style sheet of the fragments: CSS that begins no selector but with ``.tmd-``.
+    """Return the style sheet of the fragments: CSS that begins no selector but with ``.tmd-``.
 
     Colours are custom properties of ``.tmd``, with a light and a dark theme; a page that has a theme of its own
     sets ``data-theme`` of an element around them to ``light`` or ``dark``.
@@ -23,22 +23,31 @@ def style() -> str:
 
 @cache
 def data(name: str) -> str:
-    """A file of this package."""
+    """Return the text of a file of this package."""
     return (_DATA / name).read_text(encoding="utf-8")
 
 
 @cache
 def templates() -> Environment:
-    """The templates; whatever they are given is escaped, unless it is marked as HTML."""
+    """Return the templates; values are escaped, unless they are marked as HTML."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     found = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, loader=FileSystemLoader(_DATA)
     )
     found.filters["number"] = number
+    found.filters["one"] = lambda value: f"{value:.1f}"
+    found.filters["signed"] = lambda value: f"{value:+.1f}".replace("-", "−") if round(value, 1) else "0.0"
+    found.filters["short"] = lambda value: f"{value:.3g}".replace("-", "−")
+    found.filters["p"] = lambda value: "< 0.001" if value < 0.001 else f"{value:.3f}"
     return found
 
 
+def macro(template: str, name: str, *values: object) -> str:
+    """Render one macro of a template."""
+    return str(getattr(templates().get_template(template).module, name)(*values))
+
+
 def number(value: float) -> str:
-    """An energy: two decimals, a true minus, and 0 without either."""
+    """Format an energy: two decimals, a true minus, and 0 without either."""
     return f"{value:.2f}".replace("-", "−") if round(value, 2) else "0"

@@ -1,4 +1,4 @@
-"""What the nouns of a text came to mean: the objects that a plan uses for them."""
+"""Meanings of the nouns of a text: the objects that a plan uses for them."""
 
 from __future__ import annotations
 
@@ -11,18 +11,16 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
+# For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing. In
+# brackets stands what a noun would mean here most likely, where the plan has nothing to do with it: ``(milk1)``.
 Meaning: TypeAlias = Mapping[str, tuple[str, ...]]
-"""For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing.
-
-In brackets stands what a noun would mean here most likely, where the plan has nothing to do with it: ``(milk1)``.
-"""
 
 
 def meanings(parsed: Parsed, plan: RankedPlan, world: World) -> list[Meaning]:
-    """What each clause's nouns mean in a ranked plan.
+    """Return the meanings of each clause's nouns in a ranked plan.
 
     A clause may have several of the plan's choices (*when you have taken the cup, …* is two steps) or none (*leave the
-    door open* asks for nothing to be done), and they need not stand in the order of the clauses.
+    door open* asks for nothing to be done), and they need not be in the order of the clauses.
     """
     owners = [goal.clause for goal in plan.goals] or list(range(len(plan.choices)))
     served: dict[int, list[Instruction]] = {}
@@ -40,7 +38,7 @@ def meanings(parsed: Parsed, plan: RankedPlan, world: World) -> list[Meaning]:
 
 
 def meanings_in(clauses: Sequence[Clause], served: Sequence[Iterable[Instruction]], world: World) -> list[Meaning]:
-    """What each clause's nouns mean, given the instructions that serve it; they are executed one after the other."""
+    """Return the meanings of each clause's nouns, given the instructions that serve it, clause after clause."""
     found: list[Meaning] = []
     state = world.task.init
     for number, clause in enumerate(clauses):
@@ -51,7 +49,7 @@ def meanings_in(clauses: Sequence[Clause], served: Sequence[Iterable[Instruction
 
 
 def meaning(clause: Clause, instructions: Iterable[Instruction], world: World, state: Bits) -> Meaning:
-    """What a clause's nouns mean in ``state``, given the instructions that serve it."""
+    """Return the meanings of a clause's nouns in ``state``, given the instructions that serve it."""
     instructions = tuple(instructions)
     used = dict.fromkeys(argument for instruction in instructions for argument in instruction.args)
     used.update(dict.fromkeys(world.profiles.wholes[name] for name in list(used) if name in world.profiles.wholes))
@@ -62,13 +60,13 @@ def meaning(clause: Clause, instructions: Iterable[Instruction], world: World, s
 
 
 def _touched(instructions: Iterable[Instruction], world: World, state: Bits) -> list[str]:
-    """The constants, substances say, of the facts that the instructions change."""
+    """Return the constants, substances say, of the facts that the instructions change."""
     changed = world.task.names(after(instructions, world, state) ^ state)
     return sorted({argument for atom in changed for argument in atom.args} & world.profiles.constants)
 
 
 def _grounded(nouns: Iterable[str], used: Mapping[str, None], world: World, state: Bits) -> tuple[str, ...]:
-    """For each noun an object that is used, else a substance that is, else the likeliest object it may mean."""
+    """Return for each noun an object that is used, else a substance that is, else the likeliest object."""
     found: dict[str, None] = {}
     for noun in nouns:
         objects = world.mentions.meant(Clause("", (noun,)), used, state)
@@ -81,7 +79,7 @@ def _grounded(nouns: Iterable[str], used: Mapping[str, None], world: World, stat
 
 
 def after(instructions: Iterable[Instruction], world: World, state: Bits) -> Bits:
-    """The state after the instructions, up to the first that the world does not know."""
+    """Return the state after the instructions, up to the first that the world does not know."""
     for instruction in instructions:
         operator = world.task.by_instruction.get(instruction)
         if operator is None:

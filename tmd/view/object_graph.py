@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from html import escape
 
 from tmd.pddl.model import GroundAtom, Problem, State
 from tmd.veil.world import World
+from tmd.view.markup import macro
 from tmd.world.compile import AT, PART_OF
 
 
@@ -45,25 +45,25 @@ class Anatomy:
     changing: frozenset[str]
 
     def whole(self, name: str) -> str:
-        """The object that ``name`` is a part of, or ``name`` itself."""
+        """Return the object that ``name`` is a part of, or ``name`` itself."""
         return self.wholes.get(name, name)
 
     def vertices(self, name: str) -> tuple[str, ...]:
-        """The object ``name`` and its parts."""
+        """Return the object ``name`` and its parts."""
         return (name, *self.parts.get(name, ()))
 
     def short(self, name: str) -> str:
-        """The name of a part without that of its whole: ``door`` for ``fridge1_door``."""
+        """Return the name of a part without that of its whole: ``door`` for ``fridge1_door``."""
         whole = self.whole(name)
         return name.removeprefix(f"{whole}_") if whole != name else name
 
     def things(self, atom: GroundAtom) -> list[str]:
-        """The objects that a fact is about, wholes for parts, each once; constants are none."""
+        """Return the objects that a fact is about, wholes for parts, each once; constants are none."""
         return list(dict.fromkeys(self.whole(a) for a in atom.args if a in self.classes and a not in self.constants))
 
 
 def anatomy(problem: Problem) -> Anatomy:
-    """The object graphs of a problem; parts are what its static ``part_of`` facts say."""
+    """Return the object graphs of a problem; parts are what its static ``part_of`` facts say."""
     changing = frozenset(effect.atom.predicate for action in problem.domain.actions for effect in action.effects)
     static = sorted(atom for atom in problem.init if atom.predicate not in changing)
     wholes = {atom.args[0]: atom.args[1] for atom in static if atom.predicate == PART_OF and len(atom.args) == 2}
@@ -82,7 +82,7 @@ def anatomy(problem: Problem) -> Anatomy:
 
 
 def _edges(static: Iterable[GroundAtom], wholes: Mapping[str, str]) -> dict[str, tuple[Edge, ...]]:
-    """The static facts between two parts of one object; what holds both ways says only that they belong together."""
+    """Return the static facts between two parts of one object, without those that hold both ways."""
     pairs = {(atom.predicate, *atom.args[:2]) for atom in static if len(atom.args) >= 2 and atom.predicate != PART_OF}
     words: dict[tuple[str, str], list[str]] = {}
     for predicate, tail, head in sorted(pairs):
@@ -97,7 +97,7 @@ def _edges(static: Iterable[GroundAtom], wholes: Mapping[str, str]) -> dict[str,
 
 @dataclass(frozen=True, slots=True)
 class Aspect:
-    """A fact as it is told of one of its objects.
+    """Fact as seen from one of its objects.
 
     Attributes:
         atom: The fact.
@@ -113,7 +113,7 @@ class Aspect:
 
 
 def aspects(anatomy: Anatomy, name: str, facts: Iterable[GroundAtom]) -> list[Aspect]:
-    """Those of ``facts`` that are about the vertex ``name`` and may change, states first, then relations."""
+    """Return those of ``facts`` that are about the vertex ``name`` and may change, states first, then relations."""
     found = [_aspect(anatomy, name, a) for a in facts if name in a.args and a.predicate in anatomy.changing]
     return sorted(
         found, key=lambda a: (a.other != "", not a.outward, a.other in anatomy.constants, a.other, a.words, a.atom)
@@ -121,7 +121,7 @@ def aspects(anatomy: Anatomy, name: str, facts: Iterable[GroundAtom]) -> list[As
 
 
 def _aspect(anatomy: Anatomy, name: str, atom: GroundAtom) -> Aspect:
-    """What the fact says, without the two ends; ``(at cup1 shelf1 on)`` is *on*."""
+    """Return the words of a fact without its two ends; ``(at cup1 shelf1 on)`` is *on*."""
     place = atom.args.index(name)
     other = _other_end(anatomy, atom, place)
     rest = [arg for index, arg in enumerate(atom.args) if index != place and index != other]
@@ -130,7 +130,7 @@ def _aspect(anatomy: Anatomy, name: str, atom: GroundAtom) -> Aspect:
 
 
 def _other_end(anatomy: Anatomy, atom: GroundAtom, place: int) -> int | None:
-    """The argument that the fact relates the one at ``place`` to: another object, or a constant that stands first."""
+    """Return the argument that the fact relates the one at ``place`` to: an object, or a constant that comes first."""
     for index, arg in enumerate(atom.args):
         if index != place and arg not in anatomy.constants:
             return index
@@ -140,10 +140,10 @@ def _other_end(anatomy: Anatomy, atom: GroundAtom, place: int) -> int | None:
     return furniture[0] if furniture else None
 
 
+# Width in pixels of a character of the graph's type, 11 pixels high.
 CHARACTER = 6.7
-"""Width in pixels of a character of the graph's type, 11 pixels high."""
+# Height of a line of text in pixels.
 LINE = 16
-"""Height of a line of text in pixels."""
 PAD = 7
 GAP_X, GAP_Y = 26, 12
 
@@ -174,7 +174,7 @@ class VertexBox:
 
 
 def place(root: str, sizes: Mapping[str, tuple[int, int]], edges: Sequence[Edge]) -> dict[str, VertexBox]:
-    """A box for every vertex.
+    """Return a box for every vertex.
 
     What an edge leads to stands right of where it comes from. The object itself stands last, unless it leads on.
 
@@ -199,7 +199,7 @@ def place(root: str, sizes: Mapping[str, tuple[int, int]], edges: Sequence[Edge]
 
 
 def _gap(column: Sequence[str], later: Sequence[Sequence[str]], edges: Sequence[Edge]) -> int:
-    """Room for the words on the edges that leave a column."""
+    """Return the room for the words on the edges that leave a column."""
     words = [len(edge.words) for edge in edges if edge.tail in column and any(edge.head in c for c in later)]
     return GAP_X + round(max(words, default=0) * CHARACTER)
 
@@ -215,7 +215,7 @@ def _columns(root: str, names: Sequence[str], edges: Sequence[Edge]) -> list[lis
 
 
 def _depths(root: str, names: Sequence[str], edges: Sequence[Edge]) -> dict[str, int]:
-    """The longest way to each vertex; a cycle ends it after as many steps as there are vertices."""
+    """Return the longest way to each vertex; a cycle ends it after as many steps as there are vertices."""
     depth = dict.fromkeys(names, 0)
     for _ in names:
         for edge in edges:
@@ -232,23 +232,23 @@ def _mean_of_tails(name: str, edges: Sequence[Edge], rank: Mapping[str, int]) ->
 
 
 def _natural(name: str) -> tuple[tuple[bool, int, str], ...]:
-    """Numbers in a name count as numbers: ``burner2`` stands before ``burner10``."""
+    """Return a sort key with numbers as numbers: ``burner2`` before ``burner10``."""
     return tuple(
         (piece.isdigit(), int(piece) if piece.isdigit() else 0, piece) for piece in re.split(r"([0-9]+)", name)
     )
 
 
+# Longer lines are cut; the whole is shown when the pointer rests on it.
 LONGEST = 36
-"""Longer lines are cut; the whole is shown when the pointer rests on it."""
+# An object with more parts than this is drawn without those that nothing happens to.
 MOST_VERTICES = 60
-"""An object with more parts than this is drawn without those that nothing happens to."""
 _MARGIN = 8
 _SIGNS = {"added": "+ ", "removed": "− ", "": ""}
 
 
 @dataclass(frozen=True, slots=True)
 class GraphChanges:
-    """What to mark: facts that came about, and facts that ceased to hold or are about to.
+    """Facts to mark: those that came to hold, and those that ended or are about to.
 
     A removed fact that no longer holds in the state drawn is shown as well, struck out.
     """
@@ -282,7 +282,7 @@ def object_graph(world: World, state: State, name: str, changes: GraphChanges | 
 
 
 def draw(graph: Anatomy, state: State, name: str, changes: GraphChanges | None = None) -> str:
-    """As :func:`object_graph`, for many drawings of one environment.
+    """Draw an object as :func:`object_graph` does, for many drawings of one environment.
 
     Raises:
         KeyError: There is no such object.
@@ -294,13 +294,15 @@ def draw(graph: Anatomy, state: State, name: str, changes: GraphChanges | None =
     edges = [edge for edge in graph.edges.get(root, ()) if edge.tail in lines and edge.head in lines]
     sizes = {v: (max(len(_cut(_signed(line))) for line in found), len(found)) for v, found in lines.items()}
     boxes = place(root, sizes, edges)
-    inner = "".join(_edge(edge, boxes) for edge in edges)
-    inner += "".join(_vertex(boxes[v], found, v == root) for v, found in lines.items())
-    return _svg(root, max(b.right for b in boxes.values()), max(b.bottom for b in boxes.values()), inner)
+    curves = [_Curve(edge, boxes[edge.tail], boxes[edge.head]) for edge in edges]
+    vertices = [(v == root, boxes[v], _placed(boxes[v], found)) for v, found in lines.items()]
+    right, bottom = max(b.right for b in boxes.values()), max(b.bottom for b in boxes.values())
+    size = right + 2 * _MARGIN, bottom + 2 * _MARGIN, -_MARGIN
+    return macro("object_graph.html.j2", "graph", root, size, curves, vertices)
 
 
 def _all_lines(graph: Anatomy, state: State, root: str, changes: GraphChanges) -> dict[str, list[_Line]]:
-    """For every vertex its name, then its facts."""
+    """Return for every vertex its name, then its facts."""
     facts = state | frozenset(changes.removed)
     known = {vertex: aspects(graph, vertex, facts) for vertex in graph.vertices(root)}
     shared = {(a.atom.predicate, a.other) for a in known[root] if not a.outward}
@@ -334,50 +336,41 @@ def _cut(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
 
 
-def _svg(name: str, right: int, bottom: int, inner: str) -> str:
-    width, height = right + 2 * _MARGIN, bottom + 2 * _MARGIN
-    return (
-        f'<svg class="tmd-graph" role="img" aria-label="{escape(name)}" width="{width}" height="{height}" '
-        f'viewBox="{-_MARGIN} {-_MARGIN} {width} {height}">{inner}</svg>'
-    )
+def _placed(box: VertexBox, lines: Sequence[_Line]) -> list[tuple[int, int, str, str, str, str]]:
+    """Return each line of a vertex: x, y, its class, the whole text if it is cut, its sign, the text."""
+    found = []
+    for place, line in enumerate(lines):
+        shown, sign = _cut(_signed(line)), _SIGNS[line.mark]
+        whole = line.text if shown != _signed(line) else ""
+        kind = line.mark or ("name" if place == 0 else "")
+        found.append((box.x + PAD, box.y + LINE * (place + 1) - 3, kind, whole, sign, shown[len(sign) :]))
+    return found
 
 
-def _vertex(box: VertexBox, lines: list[_Line], is_root: bool) -> str:
-    shape = f'<rect x="{box.x}" y="{box.y}" width="{box.width}" height="{box.height}" rx="4"/>'
-    texts = "".join(_text(box.x + PAD, box.y + LINE * (place + 1) - 3, line, place) for place, line in enumerate(lines))
-    return f'<g class="{"root" if is_root else "part"}">{shape}{texts}</g>'
+@dataclass(frozen=True, slots=True)
+class _Curve:
+    """Curve of an edge from one box to another: to the right, or, where that is not possible, below both."""
 
+    edge: Edge
+    tail: VertexBox
+    head: VertexBox
 
-def _text(x: int, y: int, line: _Line, place: int) -> str:
-    shown = _cut(_signed(line))
-    whole = f"<title>{escape(line.text)}</title>" if shown != _signed(line) else ""
-    kind = f' class="{line.mark}"' if line.mark else ' class="name"' if place == 0 else ""
-    sign = _SIGNS[line.mark]
-    said = f"{sign}<tspan>{escape(shown[len(sign) :])}</tspan>" if line.mark == "removed" else escape(shown)
-    return f'<text x="{x}" y="{y}"{kind}>{whole}{said}</text>'
+    @property
+    def back(self) -> bool:
+        return self.head.x <= self.tail.right
 
+    @property
+    def path(self) -> str:
+        tail, head = self.tail, self.head
+        if self.back:
+            low = max(tail.bottom, head.bottom) + 6
+            return f"M{tail.x + tail.width // 2} {tail.bottom}V{low}H{head.x + head.width // 2}V{head.bottom}"
+        bend = (head.x - tail.right) // 2
+        first, second = f"{tail.right + bend} {tail.middle}", f"{head.x - bend} {head.middle}"
+        return f"M{tail.right} {tail.middle}C{first} {second} {head.x - 5} {head.middle}"
 
-def _edge(edge: Edge, boxes: Mapping[str, VertexBox]) -> str:
-    """A curve with an arrow head and its word."""
-    tail, head = boxes[edge.tail], boxes[edge.head]
-    x, y, to_x, to_y = tail.right, tail.middle, head.x, head.middle
-    if to_x <= x:
-        return _bow(edge, tail, head)
-    bend = (to_x - x) // 2
-    path = f'<path d="M{x} {y}C{x + bend} {y} {to_x - bend} {to_y} {to_x - 5} {to_y}"/>'
-    return f'<g class="edge">{path}{_arrow(to_x, to_y)}{_word(edge, x + bend, (y + to_y) // 2 - 3)}</g>'
-
-
-def _bow(edge: Edge, tail: VertexBox, head: VertexBox) -> str:
-    """An edge that leads back: below the boxes and around."""
-    low = max(tail.bottom, head.bottom) + 6
-    path = f'<path d="M{tail.x + tail.width // 2} {tail.bottom}V{low}H{head.x + head.width // 2}V{head.bottom}"/>'
-    return f'<g class="edge back">{path}<title>{escape(edge.words)}</title></g>'
-
-
-def _arrow(x: int, y: int) -> str:
-    return f'<path class="head" d="M{x} {y}l-6 -3.5v7z"/>'
-
-
-def _word(edge: Edge, x: int, y: int) -> str:
-    return f'<text x="{x}" y="{y}" text-anchor="middle">{escape(edge.words)}</text>'
+    @property
+    def middle(self) -> tuple[int, int]:
+        """The place of its words."""
+        tail, head = self.tail, self.head
+        return tail.right + (head.x - tail.right) // 2, (tail.middle + head.middle) // 2 - 3

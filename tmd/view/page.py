@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from base64 import b64encode
 from collections import defaultdict
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from hashlib import sha256
 
 from tmd import __version__
 from tmd.language.clause import Clause, print_clause
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula
 from tmd.records.run import MARKS, RanStep
@@ -18,16 +20,16 @@ from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
+from tmd.view.object_graph import Anatomy, GraphChanges, anatomy, draw
 from tmd.view.pictures import Strip, Tile
 from tmd.view.run_record import Ran
-from tmd.view.steps import ShownStep, shown_steps
-from tmd.view.subject import Said, Subject
+from tmd.view.subject import PlannedStep, Said, Subject
 from tmd.view.wording import Wording
 
+# A plan with more steps than this has them folded.
 FEW = 60
-"""A plan with more steps than this has them folded."""
+# Characters that a text may have, and a page may not.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")
-"""What may stand in a text, and not in a page."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +47,7 @@ class Page:
 
 @dataclass(frozen=True, slots=True)
 class _Seen:
-    """What a robot did for a step of the plan, with its picture."""
+    """Executed step of a robot, with its picture."""
 
     step: RanStep
     picture: str
@@ -98,7 +100,7 @@ def render(subject: Subject) -> Page:
 
 
 def _ticks(goals: Sequence[ShownGoal]) -> dict[int, list[tuple[str, str]]]:
-    """For the steps after which a goal holds, or does not any more, a sign and the goal in words."""
+    """Map steps to a sign and the words of each goal that holds, or ends, after them."""
     found: defaultdict[int, list[tuple[str, str]]] = defaultdict(list)
     for shown in goals:
         if shown.since:
@@ -109,7 +111,7 @@ def _ticks(goals: Sequence[ShownGoal]) -> dict[int, list[tuple[str, str]]]:
 
 
 def _candidates(subject: Subject, verdict: Verdict) -> str:
-    """The table of all plans; the first is the one that is shown."""
+    """Return the table of all plans; the first is the one that is shown."""
     if not subject.plans and not subject.refusals:
         return ""
     others = [validate(subject.problem, plan.instructions).reason for plan in subject.plans[1:]]
@@ -126,7 +128,7 @@ def _clause_rows(said: Said) -> list[_ClauseRow]:
 
 
 def _reading(clause: Clause, name: str) -> str:
-    """What a pronoun, or an object that was left out, was taken for."""
+    """Return the reading of a pronoun, or of an object that was left out."""
     read = clause.meant(name)
     return "" if read == (name,) else " + ".join(read)
 
@@ -138,7 +140,7 @@ def _notes(clause: Clause) -> tuple[str, ...]:
 
 
 def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[_Seen]]:
-    """For every step of the plan what the robot did for it."""
+    """Map each step of the plan to the executed steps of the robot for it."""
     if subject.ran is None:
         return {}
     ran: Ran = subject.ran
@@ -150,7 +152,7 @@ def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[_Seen]]:
 
 
 def _picture(strip: Strip | None, place: int) -> str:
-    """The style that shows one picture of the sheet, at whatever size; empty where there is none."""
+    """Return the style that shows one picture of the sheet at any size; empty where there is none."""
     if strip is None or place >= len(strip.tiles):
         return ""
     tile: Tile = strip.tiles[place]
@@ -160,3 +162,113 @@ def _picture(strip: Strip | None, place: int) -> str:
         f"aspect-ratio:{strip.tile_width}/{strip.tile_height};background-size:{size};"
         f"background-position:{100 * tile.x / across:.4f}% {100 * tile.y / down:.4f}%"
     )
+
+
+# Characters of drawings on a page; the steps after that have none.
+BUDGET = 6_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Drawing:
+    """An object before and after a step; ``after`` is empty where the step cannot be done."""
+
+    name: str
+    before: str
+    after: str
+
+
+@dataclass(frozen=True, slots=True)
+class ShownStep:
+    """A step as it is shown.
+
+    Attributes:
+        number: Its place in the plan, from 1.
+        planned: The step.
+        added: The facts that hold after it and did not before, sorted.
+        removed: The facts that held before it and do not after, sorted.
+        drawings: The objects that it names, as far as something about them changes.
+        others: Further objects that change.
+        broken: Why it cannot be done; empty where it can.
+        reached: Whether the plan gets there at all.
+        drawn: Whether there was room for drawings.
+    """
+
+    number: int
+    planned: PlannedStep
+    added: tuple[GroundAtom, ...] = ()
+    removed: tuple[GroundAtom, ...] = ()
+    drawings: tuple[Drawing, ...] = ()
+    others: tuple[Drawing, ...] = ()
+    broken: str = ""
+    reached: bool = True
+    drawn: bool = True
+
+
+@dataclass
+class _Sheet:
+    """Drawings of a page, up to a limit of characters."""
+
+    graph: Anatomy
+    left: int = BUDGET
+    full: bool = field(default=False, init=False)
+
+    def draw(self, names: Sequence[str], before: State, after: State | None) -> tuple[Drawing, ...]:
+        """Return the named objects, each only once the sheet is full."""
+        found = []
+        for name in names:
+            if self.full:
+                break
+            drawing = self._drawing(name, before, after)
+            self.left -= len(drawing.before) + len(drawing.after)
+            self.full = self.left < 0
+            found.append(drawing)
+        return tuple(found)
+
+    def _drawing(self, name: str, before: State, after: State | None) -> Drawing:
+        if after is None:
+            return Drawing(name, draw(self.graph, before, name), "")
+        first = draw(self.graph, before, name, GraphChanges(removed=before - after))
+        return Drawing(name, first, draw(self.graph, after, name, GraphChanges(added=after - before)))
+
+
+def shown_steps(
+    problem: Problem, steps: Sequence[PlannedStep], budget: int = BUDGET
+) -> tuple[list[ShownStep], Verdict]:
+    """Return every step of a plan, and whether the plan works.
+
+    Args:
+        problem: Where it begins.
+        steps: The plan.
+        budget: How many characters the drawings may have.
+    """
+    verdict = validate(problem, [step.instruction for step in steps])
+    sheet = _Sheet(anatomy(problem), budget)
+    return list(_shown(problem, steps, verdict, sheet)), verdict
+
+
+def _shown(problem: Problem, steps: Sequence[PlannedStep], verdict: Verdict, sheet: _Sheet) -> Iterator[ShownStep]:
+    state = problem.init
+    for number, step in enumerate(steps, start=1):
+        if verdict.step is None or number < verdict.step:
+            after = apply(step.instruction, state, problem)
+            yield _done(number, step, state, after, sheet)
+            state = after
+        elif number == verdict.step:
+            drawings = sheet.draw(_named(sheet.graph, step.instruction), state, None)
+            yield ShownStep(number, step, drawings=drawings, broken=verdict.reason, drawn=not sheet.full)
+        else:
+            yield ShownStep(number, step, reached=False)
+
+
+def _done(number: int, step: PlannedStep, before: State, after: State, sheet: _Sheet) -> ShownStep:
+    added, removed = sorted(after - before), sorted(before - after)
+    changed = dict.fromkeys(thing for atom in (*added, *removed) for thing in sheet.graph.things(atom))
+    named = [name for name in _named(sheet.graph, step.instruction) if name in changed] or list(changed)
+    drawings = sheet.draw(named, before, after)
+    others = sheet.draw([name for name in changed if name not in named], before, after)
+    return ShownStep(number, step, tuple(added), tuple(removed), drawings, others, drawn=not sheet.full)
+
+
+def _named(graph: Anatomy, instruction: Instruction) -> list[str]:
+    """Return the objects among the arguments, wholes for parts."""
+    return graph.things(GroundAtom(instruction.name, instruction.args))

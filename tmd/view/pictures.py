@@ -7,17 +7,17 @@ import struct
 from base64 import b64encode
 from dataclasses import dataclass
 
+# How :func:`tmd.robot.video.captions.filmstrip` lays a sheet out; a test holds the two together.
 _COLUMNS, _GAP = 4, 10
-"""How :func:`tmd.robot.video.captions.filmstrip` lays a sheet out; a test holds the two together."""
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _HEADER = struct.Struct(">8x4x4sII")
+# Pixels along an edge; no sheet is larger.
 _LARGEST = 50_000
-"""Pixels along an edge; no sheet is larger."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """Where on the sheet one picture is, in pixels."""
+    """Place of one picture on the sheet, in pixels."""
 
     x: int
     y: int
@@ -45,7 +45,7 @@ class Strip:
 
 
 def read_strip(data: bytes, count: int) -> Strip | None:
-    """A sheet of ``count`` pictures.
+    """Return a sheet of ``count`` pictures.
 
     Args:
         data: The PNG file.

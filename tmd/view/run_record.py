@@ -1,4 +1,4 @@
-"""What a robot made of a plan, as the page shows it."""
+"""Execution of a plan by a robot, as the page shows it."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ class Ran:
     steps: tuple[RanStep, ...] = ()
 
     def of(self, number: int, last: int) -> list[tuple[int, RanStep]]:
-        """The steps that belong to place ``number`` of a plan of ``last``, each with its place in the run."""
+        """Return the steps that belong to place ``number`` of a plan of ``last``, each with its place in the run."""
         return [(i, s) for i, s in enumerate(self.steps) if min(max(s.number, 1), last) == number]
 
 
 def ran(record: RunRecord) -> Ran:
-    """A whole run."""
+    """Return a whole run."""
     return Ran(record.status, record.reason or "", record.repairs, record.seconds, record.steps)
 
 
 def ran_events(events: Iterable[RunEvent]) -> Ran:
-    """The lines of a log; that of a run that was killed has no end."""
+    """Return the lines of a log; that of a run that was killed has no end."""
     told = list(events)
     steps = tuple(event for event in told if isinstance(event, StepEvent))
     end = next((event for event in reversed(told) if isinstance(event, EndEvent)), None)

@@ -1,4 +1,4 @@
-"""What a file holds that is to be shown: a grounded text, a run, a plan, a demonstration."""
+"""Subjects of pages read from files: a grounded text, a run, a plan, a demonstration."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject, title
 def demonstrated_subject(
     demonstration: Demonstration, world: World, lexicon: Lexicon, made: Iterable[tuple[str, str]] = ()
 ) -> Subject:
-    """A demonstration, with its text parsed, its instructions by segment, and its goal if it has one.
+    """Return a demonstration, with its text parsed, its instructions by segment, and its goal if it has one.
 
     Raises:
         TmdError: The goal is not a condition of the environment.
@@ -65,7 +65,7 @@ def demonstrated_subject(
 
 
 def _meanings(clauses: Iterable[Clause], segments: Iterable[Segment], world: World) -> Iterable[Meaning]:
-    """What each clause's nouns mean, among what was used for the segment that it stands in."""
+    """Yield the meanings of each clause's nouns among the objects used for the segment that it is in."""
     states = [(world.task.init, Segment(0, 0, ()))]
     for segment in segments:
         states.append((states[-1][0], segment))
@@ -75,8 +75,8 @@ def _meanings(clauses: Iterable[Clause], segments: Iterable[Segment], world: Wor
         yield meaning(clause, segment.instructions, world, state)
 
 
+# Standard input or output.
 STANDARD = "-"
-"""Standard input or output."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,11 +103,11 @@ class ViewRequest:
 
 @dataclass(frozen=True, slots=True)
 class FoundSubject:
-    """What is to be shown.
+    """Subject of a page, and its circumstances.
 
     Attributes:
         subject: The subject of the page.
-        beside: Where the page goes if nobody says.
+        beside: The default file of the page.
         remarks: Lines for standard error.
         locations: Where the steps of a plan file stand.
         of_text: Whether there is a text that should have a plan.
@@ -122,7 +122,7 @@ class FoundSubject:
     asks: bool = False
 
     def ending(self, verdict: Verdict) -> ExitCode:
-        """How the program ends, given what the validator says of the plan."""
+        """Return the exit code, given the validator's verdict on the plan."""
         if self.of_text and not (self.subject.steps or self.subject.plans):
             return ExitCode.NOT_GROUNDED
         if self.asks:
@@ -130,24 +130,24 @@ class FoundSubject:
         return ExitCode.OK if verdict.valid else ExitCode.INVALID_PLAN
 
     def complaint(self, verdict: Verdict) -> str:
-        """Why the plan does not work, for standard error; empty where it does, or where there is none."""
+        """Return why the plan does not work, for standard error; empty where it does, or where there is none."""
         if verdict.valid or not self.subject.steps:
             return ""
         place = f"{self.locations[verdict.step - 1]}: " if verdict.step and self.locations else ""
         return f"invalid: {place}{verdict.reason}\n"
 
 
+# The lines of a file that are not blank, with their numbers.
 Lines = Sequence[tuple[int, str]]
-"""The lines of a file that are not blank, with their numbers."""
 
 
 def made_rows(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
-    """What decides the outcome, as names and values; what was left open is left out."""
+    """Return the settings as names and values, without those that are ``None``."""
     return tuple((name.replace("_", " "), str(value)) for name, value in values.items() if value is not None)
 
 
 def grounding_found(roots: Roots, asked: ViewRequest, value: Mapping[str, Any]) -> FoundSubject:
-    """What ``tmd ground --json`` printed.
+    """Read a record of ``tmd ground --json``.
 
     Raises:
         TmdError: It is damaged, or its environment is not there.
@@ -182,7 +182,7 @@ def _grounding_subject(
 
 
 def run_found(roots: Roots, asked: ViewRequest, first: Mapping[str, Any], lines: Lines) -> FoundSubject:
-    """What ``tmd run --json`` printed, or a log of ``tmd run``.
+    """Read a record of ``tmd run --json``, or a log of ``tmd run``.
 
     Raises:
         TmdError: It is damaged, or its environment or filmstrip is not there.
@@ -209,7 +209,7 @@ def run_found(roots: Roots, asked: ViewRequest, first: Mapping[str, Any], lines:
 def _run_subject(
     told: RunRequest, corpus: Corpus, world: World, rows: tuple[tuple[str, str], ...], done: Ran, strip: Strip | None
 ) -> Subject:
-    """A run of a plan file."""
+    """Return a run of a plan file."""
     said = None if told.text is None else Said(parse(told.text, corpus.lexicon))
     what = "A plan that the robot carried out" if told.text is None else told.text
     steps = tuple(PlannedStep(order.instruction) for order in told.plan)
@@ -218,7 +218,7 @@ def _run_subject(
 
 
 def _strip(asked: ViewRequest, recorded: str | None, count: int) -> Strip | None:
-    """The filmstrip of a run: the one that was named, else what lies beside the log."""
+    """Return the filmstrip of a run: the one that was named, else what lies beside the log."""
     if asked.strip is not None:
         found = _picture(asked.strip, count)
         if found is None:
@@ -240,7 +240,7 @@ def _picture(path: Path, count: int) -> Strip | None:
 
 
 def demonstration_found(roots: Roots, asked: ViewRequest, lines: Lines) -> FoundSubject:
-    """One demonstration of a corpus.
+    """Read one demonstration of a corpus.
 
     Raises:
         TmdError: There is none of that name, a line is wrong, or the environment is not there.
@@ -266,12 +266,12 @@ def _chosen(asked: ViewRequest, read: Sequence[Demonstration]) -> Demonstration:
 
 
 def _file_name(text: str) -> str:
-    """An identifier as the name of a file."""
+    """Return an identifier as the name of a file."""
     return "".join(c if c.isalnum() or c in "-_." else "_" for c in text).lstrip(".")[:100] or "demonstration"
 
 
 def _bundled_beside(asked: ViewRequest, environment: str) -> str | None:
-    """The environment in the same problems as the corpus: ``<domain>/environments/`` beside ``<domain>/<task>/``."""
+    """Return the environment's file near the corpus: ``<domain>/environments/`` beside ``<domain>/<task>/``."""
     directory = asked.path.resolve().parent.parent / "environments"
     paths = [directory / f"{Path(environment).name}{suffix}" for suffix in (".yaml", ".pddl")]
     found = next((str(path) for path in paths if path.is_file()), None)
@@ -281,7 +281,7 @@ def _bundled_beside(asked: ViewRequest, environment: str) -> str | None:
 def _scene(
     roots: Roots, asked: ViewRequest, domain: str | None, environment: str, file: str | None
 ) -> tuple[Corpus, World]:
-    """The environment: the one that was named now, else the file that was named then, else the bundled one."""
+    """Return the environment: the one that was named now, else the file that was named then, else the bundled one."""
     if asked.environment is not None:
         return roots.world(asked.environment, asked.domain or _domain_of(asked.environment, domain))
     if file is not None:
@@ -294,7 +294,7 @@ def _scene(
 
 
 def _domain_of(environment: str, recorded: str | None) -> str | None:
-    """The domain that was recorded, for an environment that does not say its own."""
+    """Return the domain that was recorded, for an environment that does not say its own."""
     return recorded if environment.endswith(".pddl") else None
 
 
@@ -302,13 +302,13 @@ def _beside(asked: ViewRequest) -> Path:
     return asked.path.with_suffix(".html")
 
 
+# Plans with more steps are refused: such a page cannot be read.
 MAX_STEPS = 10_000
-"""Plans with more steps are refused: nobody reads such a page."""
 _KINDS = "what tmd ground --json or tmd run --json printed, a log of tmd run, a plan file, or demonstrations"
 
 
 def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
-    """What a file holds: its content says what kind of file it is.
+    """Read a file, whose content says what kind of file it is.
 
     Raises:
         TmdError: It is of no kind that is known, or something in it or around it is wrong.
@@ -376,7 +376,7 @@ def _only(asked: ViewRequest, *meant: str) -> None:
 
 
 def _object(asked: ViewRequest, text: str) -> dict[str, Any]:
-    """The JSON object in a text."""
+    """Return the JSON object in a text."""
     value = json_value(text, asked.name, hint=f"give {_KINDS}")
     if not isinstance(value, dict):
         raise TmdError(f"{asked.name} is JSON, but no object", hint=f"give {_KINDS}")
@@ -387,7 +387,7 @@ _WHERE = "a plan file does not say where it belongs: --problem p.pddl, or --envi
 
 
 def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
-    """A plan file, in a problem or an environment."""
+    """Return a plan file, in a problem or an environment."""
     if (asked.problem is None) == (asked.environment is None):
         raise OptionError(f"for the plan {asked.name} give one of --problem and --environment", hint=_WHERE)
     plan = parse_plan(text, asked.name)

@@ -1,4 +1,4 @@
-"""What a page is about: a plan in an environment, and whatever is known of where it comes from."""
+"""Subject of a page: a plan in an environment, and its origin as far as it is known."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from tmd.view.meaning import Meaning, meanings, meanings_in
 from tmd.view.pictures import Strip
 from tmd.view.run_record import Ran
 
+# Characters of a text that a title shows.
 _TITLE = 90
-"""Characters of a text that a title shows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +25,7 @@ class PlannedStep:
 
     Attributes:
         instruction: What to do.
-        origin: ``clause 2``, ``segment 1``; empty where nobody said anything.
+        origin: ``clause 2``, ``segment 1``; empty without a text.
         words: The words of the text that it serves.
         latent: Whether they left it unsaid.
     """
@@ -61,14 +61,14 @@ class Subject:
         title: What the page is about, in a few words.
         problem: Where the plan begins, and what its goal is.
         steps: The plan.
-        said: What was said; ``None`` for a plan without a text.
+        said: The text; ``None`` for a plan without a text.
         plans: All ranked plans, the one shown first; empty where nothing was ranked.
         refusals: Templates that could not be used.
         ran: What a robot made of it.
         strip: The pictures of that.
         made: What decides all this, as names and values.
-        refused: Why there is no plan for what was said; empty where there is one, or where nobody knows.
-        doubts: What whoever trusts the plan should know.
+        refused: The reason why there is no plan for the text; empty where there is one, or where it is not known.
+        doubts: Reasons to doubt the plan.
     """
 
     title: str
@@ -85,19 +85,19 @@ class Subject:
 
     @property
     def goals(self) -> tuple[StepGoal, ...]:
-        """What the steps of the text ask for, of the plan that is shown."""
+        """Goals of the steps of the text, for the plan that is shown."""
         return self.plans[0].goals if self.plans else ()
 
 
 def title_of(text: str, environment: str) -> str:
-    """What a page about a text is called."""
+    """Return the title of a page about a text."""
     flat = " ".join(text.split())
     short = flat if len(flat) <= _TITLE else f"{flat[: _TITLE - 1].rstrip()}…"
     return f"{short} ({environment})"
 
 
 def text_subject(grounded: Grounded, made: Iterable[tuple[str, str]] = ()) -> Subject:
-    """What came of a text: its best plan beside the others, or why there is none."""
+    """Return the subject of a grounded text: its best plan beside the others, or why there is none."""
     return grounded_subject(
         title_of(grounded.parsed.text, grounded.world.name),
         grounded.world,
@@ -125,7 +125,7 @@ def grounded_subject(
     strip: Strip | None = None,
     refused: str = "",
 ) -> Subject:
-    """The best plan of a grounded text; without any plan the text alone."""
+    """Return the best plan of a grounded text; without any plan the text alone."""
     problem = world.task.problem
     meant = meanings(parsed, plans[0], world) if plans else meanings_in(parsed.clauses, (), world)
     words = [" ".join(clause.text.split()) for clause in parsed.clauses]

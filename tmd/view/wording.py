@@ -1,7 +1,7 @@
 """Facts, conditions and broken preconditions in plain words: those of the comments beside the domain's predicates.
 
-``(near ?r - robot ?x - thing)  ; x is within reach`` lets ``(near pr2 mug1)`` be told as *mug1 is within reach*. Where
-a comment does not speak of everything that a fact is about, the fact is told as it is written in PDDL.
+``(near ?r - robot ?x - thing)  ; x is within reach`` turns ``(near pr2 mug1)`` into *mug1 is within reach*. Where
+a comment does not mention all arguments of a fact, the fact is given as it is written in PDDL.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ from tmd.pddl.model import (
 from tmd.pddl.semantics import Binding, bind, bindings, holds, instantiate, schema_of
 from tmd.pddl.writer import format_formula
 
+# Names of parameters that are words of a sentence as well: a comment on one of them is not trusted.
 _WORDS = frozenset({"a", "i"})
-"""Names of parameters that are words of a sentence as well: a comment on one of them is not trusted."""
+# Maximum number of alternatives that are named; the others are counted.
 _SHOWN = 3
-"""Maximum number of alternatives told; of the others, how many there are."""
 
 
 class Wording:
@@ -52,13 +52,13 @@ class Wording:
         self._changing = frozenset(effect.atom.predicate for action in domain.actions for effect in action.effects)
 
     def fact(self, atom: GroundAtom) -> str:
-        """What ``atom`` says, without full stop: *mug1 is on counter1*."""
+        """Return ``atom`` in words, without full stop: *mug1 is on counter1*."""
         return self._told(atom.predicate, atom.args) or str(atom)
 
     def instruction(self, instruction: Instruction) -> str:
-        """What is done, by the comment above the action: *Go and stand before pot1*; its name where that says less.
+        """Return an instruction in words of the comment above the action: *Go and stand before pot1*; else its name.
 
-        Of the comment's first sentence, as much is told as speaks of all that it speaks of.
+        The first sentence of the comment is cut after the last parameter that it mentions.
         """
         action = self._actions.get(instruction.name)
         plain = " ".join((instruction.name.replace("_", " "), ", ".join(instruction.args))).strip()
@@ -72,7 +72,7 @@ class Wording:
         return self._filled(short, action.parameters, instruction.args) or plain
 
     def by_words(self, instructions: Iterable[Instruction]) -> dict[str, Instruction]:
-        """Instructions by their words; where two have the same, PDDL stands behind them."""
+        """Return instructions by their words; where two have the same words, PDDL follows them."""
         told: dict[str, list[Instruction]] = {}
         for instruction in instructions:
             told.setdefault(self.instruction(instruction), []).append(instruction)
@@ -83,10 +83,10 @@ class Wording:
         }
 
     def condition(self, condition: Formula) -> str:
-        """What ``condition`` says, without full stop: *there is some water in cup1, and cup1 is hot*.
+        """Return ``condition`` in words, without full stop: *there is some water in cup1, and cup1 is hot*.
 
-        Of many alternatives the first three are told: *mug1 is on counter1, counter2, table1 or 4 others*. An atom that
-        has no words is told as it is written, without brackets; what has variables, as it is written in PDDL.
+        Of many alternatives the first three are named: *mug1 is on counter1, counter2, table1 or 4 others*. An atom
+        without words is given as it is written, without brackets; a condition with variables, as it is written in PDDL.
         """
         match condition:
             case Atom(predicate, terms):
@@ -101,7 +101,7 @@ class Wording:
                 return format_formula(condition)
 
     def _all(self, parts: Sequence[Formula]) -> Iterable[str]:
-        """What each part says; denials of one thing are told at once: *not: there is some milk or tea in cup1*."""
+        """Return each part in words; denials of one predicate are joined: *not: there is some milk or tea in cup1*."""
         denied: dict[str, list[Formula]] = {}
         for part in parts:
             if isinstance(part, Not) and isinstance(part.part, Atom):
@@ -112,12 +112,12 @@ class Wording:
         return dict.fromkeys(f"not: {together[part]}" if part in together else self._inner(part) for part in parts)
 
     def _inner(self, part: Formula) -> str:
-        """What a part of a condition says, in brackets where it would not be told from its neighbours."""
+        """Return a part of a condition in words, in brackets where it needs them."""
         told = self.condition(part)
         return f"({told})" if isinstance(part, And | Or) and ", " in told else told
 
     def _among(self, parts: Sequence[Formula]) -> str:
-        """Alternatives that differ in one argument only, as one sentence; empty where they do not."""
+        """Return alternatives that differ in one argument only, as one sentence; empty where they do not."""
         atoms = [part for part in parts if isinstance(part, Atom)]
         if len(atoms) < max(len(parts), 2) or len({(atom.predicate, len(atom.terms)) for atom in atoms}) > 1:
             return ""
@@ -131,7 +131,7 @@ class Wording:
         return told if either in told else ""
 
     def broken(self, instruction: Instruction, state: State) -> str:
-        """The first part of the instruction's precondition that fails in ``state``; empty if all hold.
+        """Return the first part of the instruction's precondition that fails in ``state``; empty if all hold.
 
         Returns:
             *needs: mug1 is within reach* where something is missing, *not while both hands hold something* where
@@ -148,7 +148,7 @@ class Wording:
         return holds(part, state, self._objects, binding)
 
     def _wish(self, part: Formula, state: State, binding: Binding) -> str:
-        """What would have to be otherwise so that ``part``, which is false, holds."""
+        """Return the change that would make ``part``, which is false, hold."""
         match part:
             case And(parts):
                 return self._wish(next(p for p in parts if not self._holds(p, state, binding)), state, binding)
@@ -170,26 +170,26 @@ class Wording:
                 return self._as_written(part, binding)
 
     def _held(self, part: Formula, state: State, binding: Binding) -> int:
-        """How many conjuncts of ``part`` hold."""
+        """Count the conjuncts of ``part`` that hold."""
         return sum(self._holds(inner, state, binding) for inner in conjuncts(part))
 
     def _as_written(self, part: Formula, binding: Binding) -> str:
         return f"needs: {format_formula(part, binding)}"
 
     def _changeable(self, part: Formula) -> bool:
-        """Whether some instruction can change what ``part`` says."""
+        """Return whether some instruction can change what ``part`` says."""
         inner = part.part if isinstance(part, Not) else part
         return inner.predicate in self._changing if isinstance(inner, Atom) else not isinstance(inner, Equals)
 
     def _told(self, name: str, args: Sequence[str]) -> str:
-        """The comment of a predicate with ``args`` in it; empty where it does not speak of all of them."""
+        """Return the comment of a predicate with ``args`` in it; empty where it does not speak of all of them."""
         predicate = self._predicates.get(name)
         if predicate is None or len(args) != len(predicate.parameters):
             return ""
         return self._filled(re.split(r"[:;(]", predicate.comment)[0].strip(), predicate.parameters, args)
 
     def _filled(self, comment: str, parameters: Sequence[TypedName], args: Sequence[str]) -> str:
-        """A comment with ``args`` for parameters; empty where it does not speak of all that are no constants."""
+        """Return a comment with ``args`` for parameters; empty where it does not mention all that are not constants."""
         names = [parameter.name.removeprefix("?") for parameter in parameters]
         if not comment or _WORDS & set(names):
             return ""
@@ -203,24 +203,24 @@ class Wording:
 
 
 def _word(*names: str) -> re.Pattern[str]:
-    """Any of ``names`` as a word of its own, as it is declared (``?x``) or without the question mark."""
+    """Return a pattern of any of ``names`` as a whole word, as it is declared (``?x``) or without the question mark."""
     return re.compile(rf"(?<![\w'?-])\??(?P<name>{'|'.join(map(re.escape, names))})(?![\w-])")
 
 
 def _few(told: Sequence[str]) -> list[str]:
-    """The first of several, and how many others there are."""
+    """Return the first of several, and how many others there are."""
     rest = len(told) - _SHOWN
     return [*told[:_SHOWN], *([f"{rest} other{'s' if rest > 1 else ''}"] if rest > 0 else [])]
 
 
 def _either(names: Sequence[str]) -> str:
-    """Alternatives: *counter1, counter2 or table1*."""
+    """Return alternatives: *counter1, counter2 or table1*."""
     *most, last = _few(names)
     return f"{', '.join(most)} or {last}" if most else last
 
 
 def _chosen(comment: str, argument: str, others: Iterable[str]) -> str:
-    """``comment`` with a list of alternatives (*on, in or next to*) cut down to ``argument``, if it is one."""
+    """Return ``comment`` with a list of alternatives (*on, in or next to*) cut down to ``argument``, if it is one."""
     plain = argument.replace("_", " ")
     one = "|".join(sorted((re.escape(name.replace("_", " ")) for name in others), key=len, reverse=True))
     if not one:

@@ -1,5 +1,5 @@
-"""What is allowed in PDDL and hardly ever meant: warnings on domains and problems.
+"""Warnings on domains and problems that are legal PDDL and hardly ever meant.
 
-Begin with :mod:`tmd.check.lint.domain`; :mod:`~tmd.check.lint.reachable` says what may ever hold, told without
+Begin with :mod:`tmd.check.lint.domain`; :mod:`~tmd.check.lint.reachable` finds what may ever hold, without
 grounding.
 """

@@ -1,4 +1,4 @@
-"""What is allowed in a domain and hardly ever meant. All of it is warnings."""
+"""Warnings on domains that are legal PDDL and hardly ever meant."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from tmd.pddl.writer import format_formula
 
 
 def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
-    """The warnings for a domain that has no faults."""
+    """Return the warnings for a domain that has no faults."""
     found = list(_unused_predicates(domain, source))
     for action in domain.actions:
         found += _contradictory_effects(action, source)
@@ -40,7 +40,7 @@ def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
 
 
 def spoken_of(domain: Domain) -> frozenset[str]:
-    """The predicates that some action reads or changes."""
+    """Return the predicates that some action reads or changes."""
     found: set[str] = set()
     for action in as_actions(domain).actions:
         found |= predicates_of(action.precondition)
@@ -62,7 +62,7 @@ def _unused_predicates(domain: Domain, source: Source) -> Iterator[TmdError]:
 
 
 def _contradictory_effects(action: ActionSchema, source: Source) -> Iterator[TmdError]:
-    """The same atom added and deleted under the same condition: adding wins."""
+    """Yield the same atom added and deleted under the same condition: adding wins."""
     added = {(e.atom, e.condition, e.parameters) for e in action.effects if e.positive}
     for effect in action.effects:
         if not effect.positive and (effect.atom, effect.condition, effect.parameters) in added:
@@ -76,7 +76,7 @@ def _contradictory_effects(action: ActionSchema, source: Source) -> Iterator[Tmd
 
 
 def said_twice(formula: Formula, what: str, source: Source) -> Iterator[TmdError]:
-    """The conjuncts of ``formula`` that stand in it twice, ``and`` within ``and`` spread out."""
+    """Yield the conjuncts of ``formula`` that stand in it twice, ``and`` within ``and`` spread out."""
     seen: set[Formula] = set()
     for part in conjuncts(formula):
         if part in seen:
@@ -96,7 +96,7 @@ def _effects_twice(action: ActionSchema, source: Source) -> Iterator[TmdError]:
 
 
 def _never_applies(action: ActionSchema, source: Source) -> Iterator[TmdError]:
-    """A precondition that no state satisfies, as far as one can tell by looking at it."""
+    """Yield a precondition that no state satisfies, as far as one can tell by looking at it."""
     parts = conjuncts(action.precondition)
     stated = set(parts)
     for part in parts:

@@ -1,4 +1,4 @@
-"""What is allowed in a problem and hardly ever meant: goals that hold already, or that nothing reaches."""
+"""Warnings on problems: goals that hold already, or that nothing reaches."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from tmd.planning.unsolvable import relaxed_literals, unreachable_reason
 
 
 def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
-    """The warnings for a problem that has no faults."""
+    """Return the warnings for a problem that has no faults."""
     found = possible(problem)
     unreachable = list(_unreachable_goals(found, source))
     if len(unreachable) > 1:
@@ -50,12 +50,12 @@ def _contradictory_goal(problem: Problem, source: Source) -> Iterator[TmdError]:
             )
 
 
+# Problems with more instances of actions are not ground while they are checked: that takes over half a second.
 _MOST_GROUND = 10_000
-"""Problems with more instances of actions are not ground while they are checked: that takes over half a second."""
 
 
 def lint_cases(problem: Problem) -> list[TmdError]:
-    """The condition that keeps ``problem`` from being ground, if there is one; with its place in the domain."""
+    """Return the condition that keeps ``problem`` from being ground, if there is one; with its place in the domain."""
     objects = universe(problem)
     actions = [a for a in problem.domain.actions if may_be_too_large(a.precondition, objects)]
     if not actions or _instances(problem) > _MOST_GROUND:
@@ -73,13 +73,13 @@ def lint_cases(problem: Problem) -> list[TmdError]:
 
 
 def _instances(problem: Problem) -> int:
-    """At most how many instances the actions have."""
+    """Return at most how many instances the actions have."""
     objects = universe(problem)
     return sum(prod(len(objects.of(p.types)) for p in action.parameters) for action in problem.domain.actions)
 
 
 def _provably_unreachable(problem: Problem, source: Source) -> list[TmdError]:
-    """The proof that ``tmd plan`` gives: what relaxed reachability from the initial state never reaches."""
+    """Return the proof that ``tmd plan`` gives: what relaxed reachability from the initial state never reaches."""
     if _instances(problem) > _MOST_GROUND:
         return []
     try:
@@ -157,7 +157,7 @@ def _goal_holds(problem: Problem, source: Source) -> list[TmdError]:
 
 
 def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -> list[TmdError]:
-    """What of ``domain`` plays no part in any of the ``problems``: actions that never apply, and why."""
+    """Return warnings on actions of ``domain`` that never apply in any of the ``problems``, and why."""
     known = [possible(problem) for problem in problems]
     if not known:
         return []
@@ -173,7 +173,7 @@ def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -
         message = f'nothing makes "{lack.predicate}" true {every}, and action "{action.name}" needs it'
         message = message.replace("true in none", "true, in none")
         found.append(source.error(message, lack.location or action.location, hint, "never-produced"))
-        known = [_assuming(p, lack.predicate) for p in known]  # what only follows from this is not told
+        known = [_assuming(p, lack.predicate) for p in known]  # consequences of this are not reported
     for action in domain.actions:
         blocks = [p.blocked.get(action.name) for p in known]
         if any(block is None for block in blocks):
@@ -194,7 +194,7 @@ def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -
 
 
 def _never_made(domain: Domain, known: Sequence[Possible]) -> list[tuple[ActionSchema, Atom]]:
-    """The actions that never apply for lack of a predicate that nothing makes true, each with that atom."""
+    """Return the actions that never apply for lack of a predicate that nothing makes true, each with that atom."""
     found = []
     for action in domain.actions:
         lacks = [p.blocked.get(action.name) for p in known]
@@ -206,7 +206,7 @@ def _never_made(domain: Domain, known: Sequence[Possible]) -> list[tuple[ActionS
 def _that_frees_most(
     lacking: Sequence[tuple[ActionSchema, Atom]], known: Sequence[Possible]
 ) -> tuple[ActionSchema, Atom]:
-    """The one that lets most other actions apply once it may hold: the others only follow from it."""
+    """Return the one that lets most other actions apply once it may hold: the others only follow from it."""
     first = {lack.predicate: (action, lack) for action, lack in reversed(lacking)}
     if len(first) == 1:
         return lacking[0]

@@ -1,4 +1,4 @@
-"""What may ever hold and which actions may ever apply in a problem, told without grounding it.
+"""Atoms that may hold and actions that may apply in a problem, found without grounding it.
 
 An over-approximation in time linear in the problem: of each predicate the objects are kept that the initial state has
 at each of its places, and whether some possible action adds it. What is impossible here is impossible.
@@ -23,13 +23,13 @@ from tmd.pddl.model import (
     universe,
 )
 
+# The types of variables.
 Scope = Mapping[str, tuple[str, ...]]
-"""The types of variables."""
 
 
 @dataclass(slots=True)
 class Possible:
-    """What is possible in one problem.
+    """Possible atoms and actions of one problem.
 
     Attributes:
         problem: The problem.
@@ -55,7 +55,7 @@ class Possible:
         return self.objects.hierarchy
 
     def reaches(self, atom: GroundAtom) -> bool:
-        """Whether ``atom`` holds at the start, or some possible action may add it."""
+        """Return whether ``atom`` holds at the start, or some possible action may add it."""
         if atom in self.problem.init or atom.predicate in self.assumed:
             return True
         return any(self._may_add(effect.atom, scope, atom) for effect, scope in self.adding.get(atom.predicate, ()))
@@ -72,7 +72,7 @@ class Possible:
         return True
 
     def may_hold(self, atom: Atom, scope: Scope) -> bool:
-        """Whether some atom of this form holds at the start or may be added."""
+        """Return whether some atom of this form holds at the start or may be added."""
         if atom.predicate in self.assumed or self._in_init(atom, scope):
             return True
         return any(
@@ -92,7 +92,7 @@ class Possible:
         return True
 
     def _fits(self, predicate: str, place: int, types: tuple[str, ...]) -> bool:
-        """Whether the initial state has an object of ``types`` at that place of the predicate."""
+        """Return whether the initial state has an object of ``types`` at that place of the predicate."""
         key = predicate, place, types
         if key not in self._fitting:
             objects = self.objects
@@ -127,7 +127,7 @@ class Possible:
                 column[name] = None
 
     def lacks(self, action: ActionSchema) -> str | Atom | None:
-        """The first thing that keeps ``action`` from applying, as far as is known now."""
+        """Return the first thing that keeps ``action`` from applying, as far as is known now."""
         objects = self.objects
         for parameter in action.parameters:
             if not objects.of(parameter.types):
@@ -140,7 +140,7 @@ class Possible:
 
 
 def possible(problem: Problem, assumed: Iterable[str] = ()) -> Possible:
-    """What is possible in ``problem``, which has no faults, if any atom of the predicates ``assumed`` may hold."""
+    """Return the possible atoms and actions of a sound problem, if any atom of the predicates ``assumed`` may hold."""
     found = Possible(problem, universe(problem), assumed=frozenset(assumed))
     found.collect_init()
     waiting: dict[str, list[ActionSchema]] = {}
@@ -160,7 +160,7 @@ def possible(problem: Problem, assumed: Iterable[str] = ()) -> Possible:
 
 
 def types_of(parameters: Iterable[TypedName]) -> dict[str, tuple[str, ...]]:
-    """The types of each parameter."""
+    """Return the types of each parameter."""
     return {parameter.name: parameter.types for parameter in parameters}
 
 

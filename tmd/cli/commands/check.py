@@ -73,11 +73,11 @@ def _told(report: CheckReport, *, strict: bool, notes: bool, as_json: bool) -> E
 
 def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> ExitCode:
     """Print what is known of a verb, in English and in each of the domains."""
-    from tmd.check.explain import explain, explanation_json, explanation_text
+    from tmd.check.explain import explain, explanation_text
 
     found = explain(verb, [roots.corpus(roots.folder(name)) for name in names])
     if as_json:
-        emit_json(explanation_json(found))
+        emit_json(found.to_value())
     else:
         emit(explanation_text(found))
     return ExitCode.OK

@@ -1,4 +1,4 @@
-"""Where predictions go wrong: by the verb of the clause, and instruction by instruction."""
+"""Errors of predictions by the verb of the clause, and by instruction."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from tmd.evaluation.report.alignment import Mark, align, name
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
+from tmd.view.alignment import Mark, align, name
 
+# Stands for the verb where people did something for words in which no clause was found.
 NO_CLAUSE = "(no clause)"
-"""Stands for the verb where people did something for words in which no clause was found."""
+# Stands for the instruction that is not there, on either side.
 NOTHING = "(nothing)"
-"""Stands for the instruction that is not there, on either side."""
 
 
 @dataclass(slots=True)
 class VerbErrors:
-    """How the clauses of one verb fared.
+    """Errors in the clauses of one verb.
 
     Attributes:
         verb: The verb.
@@ -25,9 +25,9 @@ class VerbErrors:
         scores: The IED of each clause, 0 to 100; clauses for which nothing was done and nothing predicted count 100.
         matched: Steps that are as the person's.
         missed: Names of recorded instructions that were not predicted, with how often.
-        superfluous: Names of predicted instructions that stand beside none, with how often.
+        superfluous: Names of predicted instructions without a counterpart, with their counts.
         arguments: Names of instructions that were predicted with other arguments, with how often.
-        substituted: Recorded and predicted name of steps that stand beside each other and differ, with how often.
+        substituted: Recorded and predicted name of aligned steps that differ, with their counts.
     """
 
     verb: str
@@ -46,13 +46,13 @@ class VerbErrors:
 
     @property
     def recorded(self) -> int:
-        """How many steps the person did for them."""
+        """Number of steps that the person did for them."""
         return self.matched + self.missed.total() + self.arguments.total() + self.substituted.total()
 
 
 @dataclass(slots=True)
 class _Share:
-    """What of an alignment falls to one clause."""
+    """Share of an alignment that belongs to one clause."""
 
     steps: list[tuple[Mark, str, str]] = field(default_factory=list)
 
@@ -64,7 +64,7 @@ class _Share:
 
 
 def by_verb(lines: Iterable[PredictionRecord]) -> list[VerbErrors]:
-    """The verbs, most frequent first.
+    """Return the verbs, most frequent first.
 
     A clause belongs to the segment of the text that it shares most characters with. What was predicted for the
     clauses of a segment, one after the other, is aligned with what the person did for the segment. A predicted step
@@ -120,9 +120,9 @@ def _count(found: dict[str, VerbErrors], clauses: Sequence[PredictedClause], rec
 
 
 def belonging(text: str, clauses: Sequence[PredictedClause], segments: Sequence[SegmentRecord]) -> list[int | None]:
-    """For each clause the number of the segment it shares most characters with; ``None`` where it meets none.
+    """Return for each clause the number of the segment that shares most characters with it; ``None`` for no overlap.
 
-    Both are found by their words, one after the other, since both stand in the order of the text.
+    Both are found by their words, one after the other, since both are in the order of the text.
     """
     places = _places(text, [segment.text for segment in segments], overlap=False)
     found: list[int | None] = []
@@ -133,7 +133,7 @@ def belonging(text: str, clauses: Sequence[PredictedClause], segments: Sequence[
 
 
 def _places(text: str, pieces: Sequence[str], *, overlap: bool) -> list[range]:
-    """Where the pieces stand. An empty range where one is not found, or is empty."""
+    """Return the range of each piece in the text; an empty one where it is not found, or is empty."""
     found = []
     start = 0
     for piece in pieces:
@@ -147,7 +147,7 @@ def _places(text: str, pieces: Sequence[str], *, overlap: bool) -> list[range]:
 
 
 def by_instruction(lines: Iterable[PredictionRecord]) -> Counter[tuple[str, str]]:
-    """How often which recorded instruction stands beside which predicted one, by name.
+    """Count the pairs of recorded and predicted instructions that are aligned, by name.
 
     The whole sequences are aligned, as IED does. A substitution by the same instruction with other arguments has
     the same name twice, as a match has; :data:`NOTHING` stands where one is missing or superfluous.

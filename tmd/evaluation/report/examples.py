@@ -1,29 +1,28 @@
-"""Which predictions a report shows, and what it shows of each."""
+"""Best and worst predictions of a model, as a report shows them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tmd.evaluation.report.alignment import Mark, align
-from tmd.inference.energy import title
-from tmd.records.prediction import PredictedClause, PredictionRecord
+from tmd.records.prediction import PredictionRecord
+from tmd.view.alignment import Mark, align
 
+# How many of the best, and how many of the worst.
 SHOWN = 10
-"""How many of the best, and how many of the worst."""
+# Each mark has a sign, so that nothing hangs on colour.
 SYMBOLS = {Mark.MATCH: "✓", Mark.SUBSTITUTED: "≠", Mark.MISSING: "−", Mark.SUPERFLUOUS: "+"}
-"""Each mark has a sign, so that nothing hangs on colour."""
 
 
 @dataclass(frozen=True, slots=True)
 class ExampleStep:
-    """A line of the alignment as it is shown.
+    """Line of an alignment as it is shown.
 
     Attributes:
-        mark: What became of the step.
+        mark: The kind of the step.
         symbol: Its sign.
         predicted: The predicted instruction, empty if one is missing.
-        gold: What the person did, empty if the predicted one is superfluous.
+        gold: The recorded instruction, empty if the predicted one is superfluous.
         clause: The number of the clause it was predicted for, from 1; ``None`` where it is not known.
         latent: Whether it was left unsaid.
     """
@@ -37,56 +36,18 @@ class ExampleStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Bar:
-    """A weighed factor: ``width`` in percent of the longest bar of the prediction."""
-
-    name: str
-    value: float
-    width: float
-
-
-@dataclass(frozen=True, slots=True)
-class ShownClause:
-    """A clause with its energy.
-
-    Attributes:
-        number: Its number, from 1.
-        text: Its words.
-        verb: Its verb.
-        source: What was instantiated for it.
-        total: Its energy; ``None`` for models without one.
-        bars: The factors that are not 0.
-        zeros: How many are.
-    """
-
-    number: int
-    text: str
-    verb: str
-    source: str | None
-    total: float | None
-    bars: tuple[Bar, ...]
-    zeros: int
-
-
-@dataclass(frozen=True, slots=True)
-class Shown:
-    """A prediction as it is shown.
-
-    Attributes:
-        line: The prediction.
-        steps: It, aligned with what the person did.
-        clauses: What was done for each clause and at what energy.
-        whole: Whether the clauses' instructions are the prediction; if not, the model changed it afterwards.
-    """
+class ShownPrediction:
+    """Prediction as it is shown, aligned with the recorded instructions; ``longest`` is its largest weighed factor."""
 
     line: PredictionRecord
     steps: tuple[ExampleStep, ...]
-    clauses: tuple[ShownClause, ...]
-    whole: bool
+    longest: float
 
 
-def best_and_worst(lines: Sequence[PredictionRecord], count: int = SHOWN) -> tuple[list[Shown], list[Shown]]:
-    """The best by success, then IED, then END, then EED, best first; and of the others the worst, worst first.
+def best_and_worst(
+    lines: Sequence[PredictionRecord], count: int = SHOWN
+) -> tuple[list[ShownPrediction], list[ShownPrediction]]:
+    """Return the best by success, IED, END and EED, best first; and of the others the worst, worst first.
 
     What has no goal stands between what reached its goal and what did not.
     """
@@ -100,8 +61,8 @@ def _rank(line: PredictionRecord) -> tuple[int, float, float, float, str, str]:
     return success, -line.IED, -line.END, -line.EED, line.environment, str(line.id)
 
 
-def shown(line: PredictionRecord) -> Shown:
-    """What is shown of a prediction."""
+def shown(line: PredictionRecord) -> ShownPrediction:
+    """Return a prediction as it is shown."""
     origins = [
         (number, latent)
         for number, clause in enumerate(line.clauses, 1)
@@ -116,13 +77,4 @@ def shown(line: PredictionRecord) -> Shown:
         gold = "" if step.gold is None else line.gold[step.gold]
         steps.append(ExampleStep(step.mark, SYMBOLS[step.mark], predicted, gold, *origin))
     longest = max((abs(value) for clause in line.clauses for value in clause.factors.values()), default=0.0)
-    clauses = tuple(_clause(number, clause, longest) for number, clause in enumerate(line.clauses, 1))
-    return Shown(line, tuple(steps), clauses, whole)
-
-
-def _clause(number: int, clause: PredictedClause, longest: float) -> ShownClause:
-    bars = tuple(
-        Bar(title(name), value, round(100 * abs(value) / longest, 1)) for name, value in clause.factors.items() if value
-    )
-    total = sum(clause.factors.values()) if clause.factors else None
-    return ShownClause(number, clause.text, clause.verb, clause.source, total, bars, len(clause.factors) - len(bars))
+    return ShownPrediction(line, tuple(steps), longest)

@@ -1,6 +1,6 @@
-"""The charts of a report, as SVG that takes ink and typeface from the page it stands in.
+"""The charts of a report, as SVG that takes ink and typeface from its page.
 
-The colours are those of Okabe and Ito, which colour-blind people can tell apart; nothing is said by colour alone. The
+The colours are those of Okabe and Ito, which colour-blind people can distinguish; nothing depends on colour alone. The
 same numbers give the same bytes.
 """
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+# What the columns are called.
 LABELS = {
     SUCCESS: "success %",
     "IED": "IED",
@@ -27,11 +28,10 @@ LABELS = {
     "END": "END",
     EXECUTABLE: "executable %",
 }
-"""What the columns are called."""
 _INK = "#010203"
 _FAINT = "#040506"
+# Written by the charts, and replaced: the page knows whether it is light or dark.
 _COLOURS_OF_THE_PAGE = {_INK: "currentColor", _FAINT: "var(--rule)"}
-"""Written by the charts, and replaced: the page knows whether it is light or dark."""
 _BAR = "#0072b2"
 _SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 _SIDES = {"loss": "loss (0 to 1)", "objective": "objective"}
@@ -58,7 +58,7 @@ _STYLE: dict[Any, Any] = {
 
 
 def overall_bars(metrics: Metrics, models: Sequence[str], columns: Sequence[str]) -> str:
-    """A panel for each column, a bar with its standard error for each row: averages over tasks."""
+    """Return a panel for each column, a bar with its standard error for each row: averages over tasks."""
     rows = [metrics.models[model].average for model in models]
     floor = metrics.floor.average if metrics.floor else None
     with _figure("overall", 1, len(columns), 0.9 + 0.28 * len(models)) as (figure, axes):
@@ -70,7 +70,7 @@ def overall_bars(metrics: Metrics, models: Sequence[str], columns: Sequence[str]
 
 
 def task_bars(metrics: Metrics, models: Sequence[str], columns: Sequence[str]) -> str:
-    """The same for each task: a line of panels for each."""
+    """Return the same for each task: a line of panels for each."""
     tasks = tasks_of(metrics)
     height = (0.5 + 0.2 * len(models)) * len(tasks) + 0.5
     with _figure("tasks", len(tasks), len(columns), height) as (figure, axes):
@@ -87,7 +87,7 @@ def task_bars(metrics: Metrics, models: Sequence[str], columns: Sequence[str]) -
 
 
 def learning_curves(fits: Sequence[Fit], model: str) -> str | None:
-    """Loss and objective over the epochs, a line for each training set; ``None`` where no curve was kept."""
+    """Draw loss and objective over the epochs, a line for each training set; ``None`` without a curve."""
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
     curves = {world: [fit.worlds[world].points for fit in own if world in fit.worlds] for world in worlds}
@@ -109,7 +109,7 @@ def learning_curves(fits: Sequence[Fit], model: str) -> str | None:
 
 
 def _lines(axis: Axes, curves: Sequence[Sequence[CurvePoint]], side: str, colour: str, label: str) -> None:
-    """The curves of one kind of world, and where its rounds begin."""
+    """Draw the curves of one kind of world, and the beginnings of its rounds."""
     for number, curve in enumerate(curves):
         told = [(n, value) for n, point in enumerate(curve) if (value := getattr(point, side)) is not None]
         x, y = [n for n, _ in told], [value for _, value in told]
@@ -120,12 +120,12 @@ def _lines(axis: Axes, curves: Sequence[Sequence[CurvePoint]], side: str, colour
 
 
 def tasks_of(metrics: Metrics) -> list[str]:
-    """The tasks of a run, by name."""
+    """Return the tasks of a run, by name."""
     return sorted({task for row in metrics.models.values() for task in row.tasks})
 
 
 def _bars(axis: Axes, rows: Sequence[Means], column: str, floor: Means | None) -> None:
-    """Horizontal bars from 0 to 100, the first row at the top; none for a mean of nothing."""
+    """Draw horizontal bars from 0 to 100, the first row at the top; none for a mean of nothing."""
     told = [(place, row.mean(column), row.se(column)) for place, row in enumerate(rows)]
     bars = [(place, mean, error or 0.0) for place, mean, error in told if mean is not None]
     places, means, errors = [list(part) for part in zip(*bars, strict=True)] or ([], [], [])
@@ -148,7 +148,7 @@ def _name_rows(axis: Axes, models: Sequence[str]) -> None:
 
 
 def _round_edges(curves: Sequence[Sequence[CurvePoint]]) -> list[float]:
-    """Between which epochs a new round begins, if that is the same everywhere and rounds have several epochs."""
+    """Return the places between epochs where rounds of several epochs begin, if they are the same everywhere."""
     edges = [[n - 0.5 for n in range(1, len(curve)) if curve[n].round != curve[n - 1].round] for curve in curves]
     if not edges or any(edge != edges[0] for edge in edges) or len(edges[0]) >= len(curves[0]) - 1:
         return []
@@ -157,7 +157,7 @@ def _round_edges(curves: Sequence[Sequence[CurvePoint]]) -> list[float]:
 
 @contextmanager
 def _figure(name: str, rows: int, columns: int, height: float) -> Iterator[tuple[Figure, list[Axes]]]:
-    """A figure with its panels line by line, under the page's style and no other."""
+    """Yield a figure with its panels line by line, under the page's style and no other."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
@@ -170,7 +170,7 @@ def _figure(name: str, rows: int, columns: int, height: float) -> Iterator[tuple
 
 
 def _svg(figure: Figure, name: str) -> str:
-    """The figure as an element of a page: no size of its own, names that no other figure has."""
+    """Return the figure as an element of a page: without a fixed size, with unique names."""
     drawn = io.StringIO()
     figure.savefig(drawn, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     text = drawn.getvalue()

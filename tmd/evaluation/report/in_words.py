@@ -1,4 +1,4 @@
-"""What the numbers of a run say, in sentences made from them: which row leads, by how much, and how in the paper."""
+"""Results of a run in sentences: the leading row, its lead, and the same in the paper."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from tmd.evaluation.report.reference_row import ALPHA, FULL
 from tmd.evaluation.runs.summary import EMPTY
 from tmd.records.metrics import SUCCESS, Metrics
 
+# The rows of Table II that the paper's own model is measured against.
 BASELINES = ("chance", "templates", "tree", "no_nl", "nearest")
-"""The rows of Table II that the paper's own model is measured against."""
 _WORDS = {SUCCESS: "success"}
+# Points below which two means read alike on the page.
 _LEAST = 0.05
-"""Points below which two means read alike on the page."""
 
 
 def in_words(metrics: Metrics) -> list[str]:
-    """The sentences, by success first; none where no row predicts anything."""
+    """Return the sentences, by success first; none where no row predicts anything."""
     rows = [row for row in metrics.models if row != EMPTY]
     if not rows:
         return []
@@ -33,7 +33,7 @@ def in_words(metrics: Metrics) -> list[str]:
 
 
 def _leader(metrics: Metrics, rows: Sequence[str], metric: str) -> list[str]:
-    """Which row leads in a metric, averaged over tasks, and how far the next is behind."""
+    """Return a sentence on the leading row of a metric, averaged over tasks, and its lead."""
     means = {row: mean for row in rows if (mean := metrics.models[row].average.mean(metric)) is not None}
     order = sorted(means, key=lambda row: -means[row])
     word = _WORDS.get(metric, metric)
@@ -51,7 +51,7 @@ def _leader(metrics: Metrics, rows: Sequence[str], metric: str) -> list[str]:
 
 
 def _sure(metrics: Metrics, one: str, other: str, metric: str) -> str:
-    """Whether the test tells two rows apart; empty where they were not compared."""
+    """Return whether the test tells two rows apart; empty where they were not compared."""
     pairs = (pair for pair in metrics.significance.pairs if {pair.a, pair.b} == {one, other})
     tested = next((found for pair in pairs if (found := pair.of(metric)) is not None), None)
     if tested is None:
@@ -62,7 +62,7 @@ def _sure(metrics: Metrics, one: str, other: str, metric: str) -> str:
 
 
 def _as_in_the_paper(metrics: Metrics, rows: Sequence[str]) -> list[str]:
-    """Whether the paper's full model is ahead of the baselines here, as it is there."""
+    """Return whether the paper's full model is ahead of the baselines here, as it is there."""
     baselines = [row for row in BASELINES if row in rows]
     if FULL not in rows or not baselines:
         return []

@@ -8,12 +8,11 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from zlib import crc32
 
 from tmd import __version__
 from tmd.evaluation.report import paper_table
-from tmd.evaluation.report.alignment import Mark
 from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, VerbErrors, by_instruction, by_verb
 from tmd.evaluation.report.examples import SHOWN, SYMBOLS, best_and_worst
 from tmd.evaluation.report.figures import LABELS, learning_curves, overall_bars, task_bars, tasks_of
@@ -22,37 +21,36 @@ from tmd.evaluation.report.reference_row import ALPHA, differing, reference
 from tmd.evaluation.runs.finished_run import Run
 from tmd.evaluation.runs.summary import EMPTY, average
 from tmd.evaluation.runs.trial_records import Trials, films
+from tmd.inference.energy import title
 from tmd.records.fit import Fit
 from tmd.records.metrics import SUCCESS, Means, Metrics, Pair
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
-
+from tmd.view.alignment import Mark
+from tmd.view.markup import data, templates
 
 FOLDER = "pages"
 
 
 def page_name(model: str, example: str | int) -> str:
-    """The file of the page on a prediction: it can stand in an address as it is, and no other prediction has it."""
+    """Return the file name of the page on a prediction; it is unique, and safe in an address."""
     plain = f"{model}-{example}"
     safe = re.sub(r"[^A-Za-z0-9_.-]", "_", plain)[:120]
     return f"{safe}.html" if safe == plain else f"{safe}-{crc32(plain.encode('utf-8', 'replace')):08x}.html"
 
 
 def linked_pages(run: Path) -> frozenset[str]:
-    """The pages that are there, by file name."""
+    """Return the pages that are there, by file name."""
     return frozenset(path.name for path in (run / FOLDER).glob("*.html"))
 
 
+# How many verbs the table of verbs shows.
 _VERBS = 30
-"""How many verbs the table of verbs shows."""
+# How many weights the table of weights shows.
 _WEIGHTS = 40
-"""How many weights the table of weights shows."""
 
 
 @dataclass(frozen=True, slots=True)
 class LearnedWeights:
-    """What one row learned.
+    """Weights and curve that one row learned.
 
     Attributes:
         model: The row.
@@ -73,7 +71,7 @@ class LearnedWeights:
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Where one row goes wrong. ``cells`` are (count, share of the line) by recorded and predicted instruction."""
+    """Errors of one row. ``cells`` are (count, share of the line) by recorded and predicted instruction."""
 
     model: str
     verbs: list[VerbErrors]
@@ -84,13 +82,13 @@ class Errors:
 
 
 def differences(metrics: Metrics, row: str | None, order: Sequence[str]) -> list[Pair]:
-    """The differences of one row from all others, as ``row`` minus the other."""
+    """Return the differences of one row from all others, as ``row`` minus the other."""
     own = [pair.seen_from(row) for pair in metrics.significance.pairs if row is not None and row in (pair.a, pair.b)]
     return sorted(own, key=lambda pair: order.index(pair.b))
 
 
 def table_2(metrics: Metrics, rows: Sequence[str]) -> dict[str, Any] | None:
-    """Our numbers and the paper's for the rows and tasks that both have; ``None`` if there are none."""
+    """Return our numbers and the paper's for the rows and tasks that both have; ``None`` if there are none."""
     tasks = [task for task in paper_table.TASKS if all(task in metrics.models[model].tasks for model in rows)]
     if not tasks or not rows:
         return None
@@ -103,7 +101,7 @@ def table_2(metrics: Metrics, rows: Sequence[str]) -> dict[str, Any] | None:
 
 
 def learned(fits: Sequence[Fit], model: str) -> LearnedWeights:
-    """What one row learned, over its training sets."""
+    """Return the weights that one row learned, over its training sets."""
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
     names = list(dict.fromkeys(name for fit in own for found in fit.worlds.values() for name in found.weights))
@@ -122,7 +120,7 @@ def learned(fits: Sequence[Fit], model: str) -> LearnedWeights:
 
 
 def errors(run: Run, model: str) -> Errors:
-    """Where one row goes wrong."""
+    """Return the errors of one row."""
     lines = run.of(model)
     verbs = by_verb(lines)
     known = [verb for verb in verbs if verb.verb != NO_CLAUSE]
@@ -135,19 +133,18 @@ def errors(run: Run, model: str) -> Errors:
     return Errors(model, known[:_VERBS], rarer, unparsed, names, cells)
 
 
-_DATA = Path(__file__).parent / "data"
+# Data whose texts may not be passed on.
 _VEIL500 = "veil500"
-"""Data whose texts may not be passed on."""
+# How many instructions are named in a cell.
 _MENTIONED = 3
-"""How many instructions are named in a cell."""
 
 
 def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = frozenset()) -> str:
-    """The page.
+    """Return the page.
 
     Args:
         run: The run.
-        trials: What a robot did with its predictions; ``None`` where nobody asked for it.
+        trials: The robot's trials of its predictions; ``None`` where there are none.
         pages: The pages on single predictions that are there, by file name.
     """
     metrics, fits = run.metrics, list(run.fits.values())
@@ -156,10 +153,16 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
     order = [*paper, *others]
     chief = reference(metrics.models)
     shown = sorted((m for m in order if m != EMPTY), key=lambda m: m != chief)
-    page = _environment().get_template("report.html.j2")
+    page = templates().get_template("report.html.j2")
     return page.render(
         version=__version__,
-        style=(_DATA / "report.css").read_text(encoding="utf-8"),
+        style=data("report.css"),
+        title_of=paper_table.title,
+        factor_title=title,
+        page_name=page_name,
+        page_folder=FOLDER,
+        said=_said,
+        mentioned=_mentioned,
         metrics=metrics,
         paper=paper,
         others=others,
@@ -194,41 +197,18 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
 
 
 def _with_goal(metrics: Metrics) -> int | None:
-    """How many examples have a goal, where that needs saying: where some have none."""
+    """Return the number of examples with a goal; ``None`` where all have one."""
     rows = metrics.models.values()
     return max(row.goals for row in rows) if any(row.goals < row.n for row in rows) else None
 
 
-def _environment() -> Environment:
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    found = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, loader=FileSystemLoader(_DATA)
-    )
-    found.filters["one"] = lambda value: f"{value:.1f}"
-    found.filters["signed"] = _signed
-    found.filters["short"] = lambda value: f"{value:.3g}".replace("-", "−")
-    found.filters["p"] = lambda value: "< 0.001" if value < 0.001 else f"{value:.3f}"
-    found.filters["said"] = _said
-    found.filters["mentioned"] = _mentioned
-    found.globals["title_of"] = paper_table.title
-    found.globals["page_name"] = page_name
-    found.globals["page_folder"] = FOLDER
-    return found
-
-
-def _signed(value: float) -> str:
-    """With its sign, but for 0."""
-    return f"{value:+.1f}".replace("-", "−") if round(value, 1) else "0.0"
-
-
 def _said(value: object) -> str:
-    """A value of the configuration."""
+    """Return a value of the configuration."""
     return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
 
 
 def _mentioned(counts: Counter[str] | Counter[tuple[str, str]]) -> str:
-    """The most frequent ones: ``moveto × 3, grasp × 2``, and of pairs ``moveto → grasp × 2``; never broken inside."""
+    """List the most frequent ones: ``moveto × 3, grasp × 2``, and of pairs ``moveto → grasp × 2``."""
     most = sorted(((" → ".join((key,) if isinstance(key, str) else key), n) for key, n in counts.items()), key=_rank)
     return ", ".join(f"{key} × {count}".replace(" ", "\N{NO-BREAK SPACE}") for key, count in most[:_MENTIONED])
 

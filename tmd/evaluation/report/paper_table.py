@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+# The tasks of Table II, in its order.
 TASKS = ("coffee", "boiling_water", "ramen", "affogato")
-"""The tasks of Table II, in its order."""
+# The metrics of Table II, normalised to 100, larger is better.
 METRICS = ("IED", "EED")
-"""The metrics of Table II, normalised to 100, larger is better."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +30,7 @@ class PaperRow:
     average: tuple[float, float]
 
     def of(self, task: str) -> tuple[float, float]:
-        """IED and EED of one of :data:`TASKS`."""
+        """Return IED and EED of one of :data:`TASKS`."""
         return self.scores[TASKS.index(task)]
 
 
@@ -39,6 +39,7 @@ def _row(title: str, *numbers: float) -> PaperRow:
     return PaperRow(title, pairs[:-1], pairs[-1])
 
 
+# The rows of Table II by our short names, in its order.
 TABLE_2: dict[str, PaperRow] = {
     "chance": _row("Chance", 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2),
     "templates": _row("Predefined Templates", 14.3, 22.8, 21.5, 38.8, 32.8, 28.7, 14.0, 17.0, 20.7, 26.8),
@@ -49,8 +50,8 @@ TABLE_2: dict[str, PaperRow] = {
     "no_latent": _row("Our model, No latent nodes", 78.9, 73.8, 57.0, 58.4, 66.3, 53.9, 51.5, 51.2, 63.4, 59.3),
     "full": _row("Our full model", 76.5, 78.3, 54.5, 61.3, 67.3, 49.4, 53.5, 56.2, 63.0, 61.3),
 }
-"""The rows of Table II by our short names, in its order."""
 
+# Titles of rows that the paper does not have.
 OURS = {
     "paper": "Full model, weights set by hand",
     "paper_extended": "Extended model, weights set by hand",
@@ -63,17 +64,16 @@ OURS = {
     "bayes_risk_plans": "The least expected loss, among the plans of least energy alone",
     "empty": "Empty prediction",
 }
-"""Titles of rows that the paper does not have."""
 
 
 def title(model: str) -> str:
-    """What a row is called on a page: as in the paper where it is there, otherwise as in :data:`OURS`, or its name."""
+    """Return the title of a row: that of the paper, or of :data:`OURS`, or its name."""
     if model in TABLE_2:
         return TABLE_2[model].title
     return OURS.get(model, model)
 
 
 def in_order(models: Iterable[str]) -> tuple[list[str], list[str]]:
-    """The rows that the paper has, in its order, and the others, in their own."""
+    """Return the rows that the paper has, in its order, and the others, in their own."""
     given = list(models)
     return [name for name in TABLE_2 if name in given], [name for name in given if name not in TABLE_2]

@@ -1,4 +1,4 @@
-"""Which row the others are measured against, and which of them differ from it."""
+"""Reference row of a run, and the rows that differ from it."""
 
 from __future__ import annotations
 
@@ -7,14 +7,14 @@ from collections.abc import Iterable
 from tmd.evaluation.runs.summary import EMPTY
 from tmd.records.metrics import TESTED, Pair
 
+# The paper's full model: the others are measured against it.
 FULL = "full"
-"""The paper's full model: the others are measured against it."""
+# A corrected p below this is marked.
 ALPHA = 0.05
-"""A corrected p below this is marked."""
 
 
 def reference(models: Iterable[str]) -> str | None:
-    """The row that the others are measured against: ``full``, or the last one that predicts anything."""
+    """Return the row that the others are measured against: ``full``, or the last one that predicts anything."""
     rows = [name for name in models if name != EMPTY]
     if FULL in rows:
         return FULL
@@ -22,7 +22,7 @@ def reference(models: Iterable[str]) -> str | None:
 
 
 def differing(pairs: Iterable[Pair], against: str) -> frozenset[tuple[str, str]]:
-    """The rows that differ from one in a metric, with the metric: corrected p below :data:`ALPHA`."""
+    """Return the rows that differ from one in a metric, with the metric: corrected p below :data:`ALPHA`."""
     own = [pair.seen_from(against) for pair in pairs if against in (pair.a, pair.b)]
     tested = [(pair.b, metric, found) for pair in own for metric in TESTED if (found := pair.of(metric)) is not None]
     return frozenset((other, metric) for other, metric, found in tested if found.p_holm < ALPHA)

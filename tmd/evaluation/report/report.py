@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+# The page's name in the run's directory.
 REPORT = "report.html"
-"""The page's name in the run's directory."""
+# More columns than any screen has.
 _WIDEST = 1000
-"""More columns than any screen has."""
 
 
 def write_report(directory: Path) -> Path:
@@ -46,12 +46,12 @@ def print_table(metrics: Metrics, console: Console | None = None) -> None:
         found = table(metrics, narrow=True)
     try:
         shown.print(found)
-    except SystemExit:  # rich ends the program where nobody reads its output
+    except SystemExit:  # rich ends the program when its output is closed
         raise BrokenPipeError from None
 
 
 def table(metrics: Metrics, *, narrow: bool = False) -> Table:
-    """The models as rows, the metrics as columns, each mean with its standard error; the floor is marked.
+    """Return the models as rows, the metrics as columns, each mean with its standard error; the floor is marked.
 
     Success is the first metric, where any example has a goal. All rows together fit 80 columns in a ``narrow`` table.
     """
@@ -71,7 +71,7 @@ def table(metrics: Metrics, *, narrow: bool = False) -> Table:
 
 
 def _frame(metrics: Metrics, caption: str, *, narrow: bool) -> Table:
-    """The table without its numbers."""
+    """Return the table without its numbers."""
     from rich import box
     from rich.markup import escape
     from rich.table import Table
@@ -94,13 +94,13 @@ def _frame(metrics: Metrics, caption: str, *, narrow: bool) -> Table:
 
 
 def _cell(row: Means, metric: str, between: str) -> str:
-    """A mean with its standard error; a dash where there is none."""
+    """Return a mean with its standard error; a dash where there is none."""
     mean, error = row.mean(metric), row.se(metric)
     return "–" if mean is None else f"{mean:.1f}{between}±{error or 0.0:.1f}"
 
 
 def _star(here: bool, anywhere: bool) -> str:
-    """A mark, or its place where there are marks at all: the numbers stay below each other."""
+    """Return a mark, or its place where there are marks at all: the numbers stay below each other."""
     return ("*" if here else " ") if anywhere else ""
 
 

@@ -1,4 +1,4 @@
-"""Demonstrations in the making: what was done step by step, drafts, corrections, and saving what is finished.
+"""Demonstrations in progress: sessions, drafts, corrections, and the store of finished ones.
 
 Begin with :mod:`tmd.studio.demonstrations.session`.
 """

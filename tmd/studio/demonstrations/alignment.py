@@ -1,6 +1,6 @@
-"""Which clause each step of a demonstration serves, as a proposal that the person may change.
+"""Proposed clauses for the steps of a demonstration; the person may change them.
 
-Steps serve the clauses in the order of the text. How well a step fits a clause is said by the objects that both speak
+Steps serve the clauses in the order of the text. How well a step fits a clause depends on the objects that both speak
 of (:mod:`tmd.veil.clause_alignment`), and by what the library's demonstrations did for the clause's verb: which
 instructions, and with which of them they ended. The best division is found by dynamic programming. Clauses at the end
 may be without steps at no cost, for the person may not be there yet.
@@ -22,20 +22,20 @@ from tmd.veil.clause_alignment import cut_cost, fit, speaks_of
 from tmd.veil.library import Library
 from tmd.veil.world import World
 
+# What it counts that a verb's instructions are usual for it.
 _HABIT = 0.75
-"""What it counts that a verb's instructions are usual for it."""
+# What it counts that a verb usually ends so.
 _END = 0.5
-"""What it counts that a verb usually ends so."""
+# What it costs to leave a clause without steps and go on to the next.
 _PASSED_OVER = 1.5
-"""What it costs to leave a clause without steps and go on to the next."""
+# Number of instructions that a verb must have been shown with to count as much as all verbs together.
 _PRIOR = 5.0
-"""Number of instructions that a verb must have been shown with to count as much as all verbs together."""
 _NEVER = -1e9
 
 
 @dataclass(frozen=True)
 class Habits:
-    """What was done for each verb.
+    """Instructions that were carried out for each verb.
 
     Attributes:
         done: For each canonical verb how often each instruction was carried out.
@@ -65,27 +65,27 @@ class Habits:
         return found
 
     def verb(self, clause: Clause | None) -> str:
-        """The canonical verb of a clause."""
+        """Return the canonical verb of a clause."""
         if clause is None or self.library is None:
             return ""
         return self.library.lexicon.canonical_verb(clause.verb)
 
     def usual(self, verb: str, instruction: str) -> float:
-        """How much commoner it is for the verb: ln P(instruction | verb) / P(instruction); 0 where nothing is known."""
+        """Return ln P(instruction | verb) / P(instruction); 0 where nothing is known."""
         known = self.all_done.total()
         share = (self.all_done[instruction] + 0.5) / (known + 0.5 * (len(self.all_done) + 1))
         own = self.done.get(verb, Counter[str]())
         return math.log((own[instruction] + _PRIOR * share) / (own.total() + _PRIOR) / share)
 
     def ends(self, verb: str, instruction: str) -> float:
-        """How likely it is that the instruction was the last one for the verb."""
+        """Return the probability that the instruction was the last one for the verb."""
         share = (self.all_ended[instruction] + 0.5) / (self.all_done[instruction] + 1.0)
         ended = self.ended.get(verb, Counter[str]())[instruction] + _PRIOR * share
         return min(max(ended / (self.done.get(verb, Counter[str]())[instruction] + _PRIOR), 1e-3), 1 - 1e-3)
 
 
+# Nothing was ever shown.
 NO_HABITS = Habits()
-"""Nothing was ever shown."""
 
 
 def propose(
@@ -95,13 +95,13 @@ def propose(
     pinned: Mapping[int, int],
     habits: Habits = NO_HABITS,
 ) -> tuple[int, ...]:
-    """For each instruction the number of its clause, from 0, never falling.
+    """Return the number of the clause of each instruction, from 0, never falling.
 
     Args:
         clauses: The clauses of the text, at least one.
         instructions: What was done, from the environment's initial state on.
         world: The environment.
-        pinned: What the person said: for the number of an instruction, from 0, that of its clause; never falling.
+        pinned: The clauses that the person chose, from 0 and never falling, by the number of the instruction, from 0.
         habits: What was done for verbs before.
     """
     if len(clauses) == 1 or not instructions:
@@ -126,7 +126,7 @@ def propose(
 
 
 def _advanced(best: Sequence[float], ended: Sequence[float], cut: float) -> tuple[list[float], list[int]]:
-    """One step on: for each clause the best value, and the clause of the step before that leads there.
+    """Return for each clause the best value one step on, and the clause of the step before that leads there.
 
     Args:
         best: The same for the step before.

@@ -12,8 +12,8 @@ from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import short_enough
 
+# Longer texts are refused before anything else is done with them.
 MAX_CHARACTERS = 20_000
-"""Longer texts are refused before anything else is done with them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,7 @@ class ClauseSpan:
 
 
 def clean(text: str) -> str:
-    """The text with every control character as a blank, without blanks at its ends.
+    """Return the text with every control character as a blank, without blanks at its ends.
 
     Raises:
         TmdError: There is nothing in it, it is too long, or it is not Unicode.
@@ -47,7 +47,7 @@ def clean(text: str) -> str:
 
 
 def cut(text: str, lexicon: Lexicon | None) -> tuple[ClauseSpan, ...]:
-    """The pieces of a cleaned text, at least one, in its order: what each clause spans."""
+    """Return the pieces of a cleaned text, at least one, in its order: what each clause spans."""
     starts = {clause.span.start: clause for clause in reversed(parse(text, lexicon).clauses)}
     clauses = [starts[start] for start in sorted(starts)]
     if not clauses:
@@ -65,7 +65,7 @@ def _piece(text: str, start: int, end: int, clause: Clause) -> ClauseSpan:
 
 
 def _found_again(text: str, pieces: Sequence[ClauseSpan]) -> bool:
-    """Whether a reader that looks for each piece behind the one before it finds it where it is."""
+    """Return whether a reader that looks for each piece behind the one before it finds it where it is."""
     ends = [0, *(piece.end for piece in pieces)]
     return all(
         piece.text and text.find(piece.text, end) == piece.start for piece, end in zip(pieces, ends, strict=False)

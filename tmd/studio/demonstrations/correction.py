@@ -1,4 +1,4 @@
-"""Correcting a plan that was proposed: edits, what breaks after each, and what a planner puts in so that it works.
+"""Corrections of a proposed plan: edits, the first broken step after each, and repair by a planner.
 
 Steps are counted from 1, clauses from 0, as in a session. Between two edits a plan may be one that cannot be carried
 out; it becomes a session when it can. Everything may be called from any thread.
@@ -48,7 +48,7 @@ class Correction:
 
     Args:
         world: The environment.
-        text: What was said.
+        text: The request.
         proposed: The plan that was proposed for it, each instruction with its clause.
         lexicon: The words of the domain.
         steps: What it was made already; what was proposed by default.
@@ -105,7 +105,7 @@ class Correction:
             clause: The clause it serves; that of the step behind it, or of the last, where none is given.
 
         Raises:
-            TmdError: The instruction is none of this environment, or the place is none.
+            TmdError: The environment has no such instruction, or the plan no such place.
         """
         with self._lock:
             bind(self.world.task.problem, instruction)
@@ -119,7 +119,7 @@ class Correction:
         """Make a step the one of another number; those between move up or down.
 
         Raises:
-            TmdError: One of the two numbers is none.
+            TmdError: The plan has no step of one of the numbers.
         """
         with self._lock:
             self._known(step)
@@ -133,7 +133,7 @@ class Correction:
 
         Args:
             old: The object that is in the plan.
-            new: The one that shall be.
+            new: The object to take instead.
             step: Only in this step; in all where none is given.
 
         Returns:
@@ -166,7 +166,7 @@ class Correction:
             return self._history.redo()
 
     def broken(self) -> Break | None:
-        """The first step that does not apply; ``None`` where all do."""
+        """Return the first step that does not apply; ``None`` where all do."""
         return self._played(self.steps)[1]
 
     def repair(self) -> tuple[Instruction, ...]:
@@ -189,7 +189,7 @@ class Correction:
             return needed
 
     def session(self, habits: Habits = NO_HABITS) -> Session:
-        """The corrected plan as a session, with the plan that was proposed.
+        """Return the corrected plan as a session, with the plan that was proposed.
 
         Raises:
             TmdError: A step does not apply.
@@ -210,14 +210,14 @@ class Correction:
         )
 
     def _put_in(self, step: int, instructions: Sequence[Instruction], clause: int | None) -> None:
-        """Steps before the step of that number."""
+        """Insert instructions before the step of that number."""
         beside = self.steps[step - 1 : step] or self.steps[-1:]
         owner = clause if clause is not None else beside[0].clause if beside else 0
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
         self._history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
     def _played(self, steps: Sequence[DemonstratedStep]) -> tuple[Bits, Break | None]:
-        """The state before the first step that does not apply, and that step; or the last state."""
+        """Return the state before the first step that does not apply, and that step; or the last state."""
         task = self.world.task
         state = task.init
         for number, step in enumerate(steps, start=1):
@@ -229,7 +229,7 @@ class Correction:
         return state, None
 
     def _replaced(self, old: str, new: str) -> Mapping[str, str]:
-        """For ``old`` and its parts what stands for them."""
+        """Map ``old`` and its parts to ``new`` and its parts."""
         known = self.world.objects.types_of
         for name in (old, new):
             if name not in known:
@@ -244,7 +244,7 @@ class Correction:
 
 
 def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: Planner) -> tuple[Instruction, ...]:
-    """What the planner does in ``state`` so that ``instruction`` applies.
+    """Return the instructions that the planner needs in ``state`` so that ``instruction`` applies.
 
     Raises:
         TmdError: Nothing leads there, or nothing was found.
@@ -262,7 +262,7 @@ def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: 
 def steps_of(
     plan: RankedPlan, clauses: Sequence[Clause], text: str, lexicon: Lexicon | None = None
 ) -> list[DemonstratedStep]:
-    """The steps of a plan that was proposed for ``clauses``, each with the number of its piece of the text."""
+    """Return the steps of a plan that was proposed for ``clauses``, each with the number of its piece of the text."""
     pieces = cut(clean(text), lexicon)
     starts = [piece.start for piece in pieces]
     owners = [max((n for n, start in enumerate(starts) if start <= c.span.start), default=0) for c in clauses]

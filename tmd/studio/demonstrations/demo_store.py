@@ -1,4 +1,4 @@
-"""Saving a finished session as a demonstration: ``<problems>/<domain>/<task>/demonstrations.jsonl`` grows by a line.
+"""Store of demonstrations: a line of ``<problems>/<domain>/<task>/demonstrations.jsonl`` for each finished session.
 
 The file is replaced as a whole, and one writer at a time has it, whatever thread or process that is. Before anything is
 written the demonstration is played, and its line is read back.
@@ -26,22 +26,23 @@ from tmd.veil.demonstration import (
     read_demonstrations,
 )
 from tmd.veil.world import World
+from tmd.view.meaning import after
 
+# The task of demonstrations for which none was named.
 SHOWN = "shown"
-"""The task of demonstrations whose task nobody named."""
 FILE = "demonstrations.jsonl"
 _LOCK = f".{FILE}.lock"
+# Seconds that a writer waits for another.
 _WAIT = 10.0
-"""Seconds that a writer waits for another."""
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,59}")
 _NUMBER = re.compile(r"[0-9]{1,9}")
 _TAKEN = frozenset({"environments", "learned"})
+# Characters that a name or a date may have.
 _LONGEST = 200
-"""Characters that a name or a date may have."""
 
 
 class Archive:
-    """Where the demonstrations of one domain go. Threads may share it.
+    """Store of the demonstrations of one domain. Threads may share it.
 
     Args:
         corpus: The domain's environments and demonstrations.
@@ -53,7 +54,7 @@ class Archive:
         self.wait = wait
 
     def file(self, task: str) -> Path:
-        """The corpus of a task.
+        """Return the corpus of a task.
 
         Raises:
             TmdError: The task cannot have that name.
@@ -69,7 +70,7 @@ class Archive:
         """Make sure that what is shown in ``world`` could be saved: everybody must find the environment again.
 
         Raises:
-            TmdError: It is none of the domain's.
+            TmdError: The domain does not have it.
         """
         directory = self.corpus.directory / "environments"
         if world.name not in self.corpus.environments():
@@ -92,17 +93,17 @@ class Archive:
         when: str | None = None,
         goal: str | None = None,
     ) -> Demonstration:
-        """Append what was demonstrated.
+        """Return append what was demonstrated.
 
         Args:
             session: The demonstration; all its steps, wherever it is looked at.
             task: The task it is an example of.
-            who: Who showed it; not told by default.
-            when: When; not told by default.
-            goal: What the text asks for, as a closed PDDL condition; not told by default.
+            who: The name of the person; not recorded by default.
+            when: The time; not recorded by default.
+            goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
         Returns:
-            The demonstration as it stands in the file now.
+            The demonstration as the file has it now.
 
         Raises:
             TmdError: There are no steps and no plan that is corrected, the task cannot have that name, the environment
@@ -129,7 +130,7 @@ class Archive:
             return read_demonstrations(file)[-1]
 
     def _check(self, found: Demonstration, line: str, file: Path, number: int) -> None:
-        """What is written must be read as what it is, be executable, and reach its goal.
+        """Check that a demonstration reads back as it is, is executable, and reaches its goal.
 
         Raises:
             TmdError: It is not.
@@ -150,19 +151,16 @@ def demonstration(
     when: str | None = None,
     goal: str | None = None,
 ) -> Demonstration:
-    """What was shown in ``session``, as a demonstration."""
+    """Return a session as a demonstration."""
     world = session.world
-    end = world.task.init
-    for segment in segments:
-        for instruction in segment.instructions:
-            end = world.task.by_instruction[instruction].apply(end)
+    end = after((i for segment in segments for i in segment.instructions), world, world.task.init)
     whole = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
     ends = _end_state(world, end)
     return Demonstration(name, task, world.name, session.text, segments, ends, whole, who, when, goal)
 
 
 def _end_state(world: World, end: Bits) -> tuple[str, ...]:
-    """What became otherwise, but for what the facts say of constants of the domain, such as the robot."""
+    """Return the facts that changed, without those whose first argument is a constant, such as the robot."""
 
     def own(bits: Bits) -> list[GroundAtom]:
         return [a for a in world.task.names(bits) if a.args and a.args[0] not in world.profiles.constants]
@@ -172,7 +170,7 @@ def _end_state(world: World, end: Bits) -> tuple[str, ...]:
 
 
 def _next_id(stem: str, before: list[Demonstration]) -> str:
-    """The stem with the number after the highest that is used."""
+    """Return the stem with the number after the highest that is used."""
     used = [d.id.removeprefix(f"{stem}-") for d in before if d.id.startswith(f"{stem}-")]
     highest = max((int(number) for number in used if _NUMBER.fullmatch(number)), default=0)
     return f"{stem}-{highest + 1:02d}"

@@ -1,25 +1,26 @@
-"""What was demonstrated or corrected and not saved yet: a small file for each visitor, written after each action.
+"""Unsaved demonstrations and corrections: a small file for each visitor, written after each action.
 
-A draft lies in a directory of its user, not of the corpus, so that it is kept where the corpus cannot be written. Who
-works on it holds a lock that ends with the process: after a crash a draft is nobody's, and is offered again.
+Drafts lie in a directory of the user, not of the corpus, so that they are kept where the corpus cannot be written. A
+visitor holds a lock that ends with the process: after a crash the same visitor can come back to the draft.
 """
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import secrets
 import threading
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Annotated, ClassVar, Literal, TypeAlias, TypeVar
 from zlib import crc32
+
+from pydantic import AfterValidator
 
 from tmd.diagnostics import TmdError
 from tmd.files import make_directory, write_text
+from tmd.json_record import JsonRecord
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.lock import Lock, try_lock
 from tmd.pddl.plan_file import parse_instruction
@@ -29,18 +30,15 @@ from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 
+# The environment variable that names the directory of all drafts.
 VARIABLE = "TMD_STUDIO_STATE"
-"""The environment variable that names the directory of all drafts."""
-_FORM = 1
-"""The number of this form of draft."""
 _VISITOR = re.compile(r"[A-Za-z0-9_-]{1,64}")
+# Maximum number of bytes of a draft.
 _LARGEST = 1_000_000
-"""Bytes that no draft has."""
-_Kept = TypeVar("_Kept")
 
 
 def place(corpus: Corpus) -> Path:
-    """The directory for the drafts of a domain's studio.
+    """Return the directory for the drafts of a domain's studio.
 
     It is below ``$TMD_STUDIO_STATE``, or ``$XDG_STATE_HOME/tmd/studio``, or ``~/.local/state/tmd/studio``. Each corpus
     has its own.
@@ -53,66 +51,106 @@ def place(corpus: Corpus) -> Path:
     return root / f"{corpus.folder.name}-{mark:08x}"
 
 
-@dataclass(frozen=True, slots=True)
-class Draft:
-    """A session as it is kept.
+def _checked(line: str) -> str:
+    return str(parse_instruction(line))
+
+
+_Line: TypeAlias = Annotated[str, AfterValidator(_checked)]
+# An instruction with its clause.
+_Step: TypeAlias = tuple[_Line, int]
+
+
+class _Kept(JsonRecord):
+    WHAT = "a draft of this version"
+    REMAKE = "begin again"
+    SUFFIX: ClassVar[str]
+
+    draft: Literal[1]
+    environment: str
+
+
+class Draft(_Kept):
+    """A demonstration that is not saved.
 
     Attributes:
-        visitor: Whose it is.
         environment: The name of its environment.
         task: The task it would be saved under.
-        text: What was to be done.
-        instructions: What was done.
+        text: The text that is demonstrated.
+        instructions: The instructions carried out so far.
         marks: The steps whose clause the person chose: the step's number, from 1, and the clause's, from 0.
-        proposed: The plan that is corrected, each instruction with its clause; ``None`` where there is none.
+        proposed: The plan that is corrected, if one is.
     """
 
-    visitor: str
-    environment: str
+    SUFFIX = ".json"
+
     task: str
     text: str
-    instructions: tuple[str, ...]
-    marks: tuple[tuple[int, int], ...] = ()
-    proposed: tuple[tuple[str, int], ...] | None = None
+    instructions: tuple[_Line, ...]
+    marks: tuple[tuple[int, int], ...]
+    proposed: tuple[_Step, ...] | None
+
+    @staticmethod
+    def of(session: Session, task: str) -> Draft:
+        """Return the draft of a session."""
+        return Draft(
+            draft=1,
+            environment=session.world.name,
+            task=task,
+            text=session.text,
+            instructions=tuple(map(str, session.instructions)),
+            marks=tuple(session.pins.items()),
+            proposed=None if session.proposed is None else _pairs(session.proposed),
+        )
 
     def resume(self, world: World, lexicon: Lexicon | None = None, habits: Habits = NO_HABITS) -> Session:
-        """The session again. Steps can be undone one by one; what had been undone is forgotten.
+        """Return the session. Its steps can be undone one by one.
 
         Raises:
             TmdError: The environment has changed, so that an instruction does not apply any more.
         """
-        proposed = self.proposed
         return Session(
             world,
             self.text,
             lexicon,
             instructions=map(parse_instruction, self.instructions),
             pins=dict(self.marks),
-            proposed=None if proposed is None else _steps(proposed),
+            proposed=None if self.proposed is None else _steps(self.proposed),
             habits=habits,
         )
 
 
-@dataclass(frozen=True, slots=True)
-class CorrectionDraft:
-    """A correction as it is kept, while it is not done.
+class CorrectionDraft(_Kept):
+    """A correction that is not done.
 
     Attributes:
         environment: The name of its environment.
-        text: What was said.
-        proposed: The plan that is corrected, each instruction with its clause.
-        steps: What it was made, in the same form.
-        goal: What must hold at the end, as it was typed.
+        text: The request.
+        proposed: The plan that is corrected.
+        steps: The plan as it is now.
+        goal: The condition on the end, as it was typed.
     """
 
-    environment: str
+    SUFFIX = ".correction.json"
+
     text: str
-    proposed: tuple[tuple[str, int], ...]
-    steps: tuple[tuple[str, int], ...]
-    goal: str = ""
+    proposed: tuple[_Step, ...]
+    steps: tuple[_Step, ...]
+    goal: str
+
+    @staticmethod
+    def of(correction: Correction, goal: str) -> CorrectionDraft:
+        """Return the draft of a correction."""
+        return CorrectionDraft(
+            draft=1,
+            environment=correction.world.name,
+            text=correction.text,
+            proposed=_pairs(correction.proposed),
+            steps=_pairs(correction.steps),
+            goal=goal,
+        )
 
     def resume(self, world: World, lexicon: Lexicon | None = None) -> Correction:
-        """The correction again; undo leads to the plan that was proposed.
+        """Return the correction; undo leads to the plan that was proposed.
 
         Raises:
             TmdError: The environment has changed, so that it has no such instruction any more.
@@ -120,12 +158,7 @@ class CorrectionDraft:
         return Correction(world, self.text, _steps(self.proposed), lexicon, _steps(self.steps))
 
 
-@dataclass(frozen=True, slots=True)
-class Offered:
-    """The drafts that nobody works on, the newest first; and what is wrong with those that cannot be read."""
-
-    drafts: tuple[Draft, ...]
-    complaints: tuple[str, ...]
+_Form = TypeVar("_Form", Draft, CorrectionDraft)
 
 
 class Drafts:
@@ -141,247 +174,105 @@ class Drafts:
         self._guard = threading.RLock()
 
     def enter(self, visitor: str | None = None) -> str:
-        """Somebody came: their draft is theirs until they leave or the process ends.
+        """Hold the drafts of a visitor until :meth:`leave`, or the end of the process.
 
         Args:
-            visitor: Letters, digits, ``_`` and ``-``, at most 64; a name that nobody has, where none is given.
+            visitor: Letters, digits, ``_`` and ``-``, at most 64; by default a name that nobody has.
 
         Returns:
             The visitor's name.
 
         Raises:
-            TmdError: Somebody is here by that name, or it cannot be one.
+            TmdError: A visitor of that name is here, or it cannot be one.
             OutputError: The directory cannot be written to.
         """
         name = visitor or secrets.token_hex(8)
         with self._guard:
-            if name in self._held:
+            file = self._file(name, ".lock")
+            make_directory(self.directory)
+            lock = None if name in self._held else try_lock(file)
+            if lock is None:
                 raise TmdError(f"'{name}' is here already", hint="close the other window first")
-            self._held[name] = self._lock(name)
+            self._held[name] = lock
         return name
 
     def leave(self, visitor: str) -> None:
-        """Somebody went; their draft, if there is one, is offered again."""
+        """Release the drafts of a visitor."""
         with self._guard:
             lock = self._held.pop(visitor, None)
             if lock is not None:
                 lock.release(remove=not self.kept(visitor))
 
-    def keep(self, visitor: str, session: Session, task: str) -> None:
-        """Write down what ``session`` is now. The whole file is replaced.
+    def keep(self, visitor: str, draft: Draft | CorrectionDraft) -> None:
+        """Write a draft, in place of the visitor's last one of the same form.
 
         Raises:
             TmdError: The visitor did not enter.
             OutputError: It cannot be written; the draft of the action before is still there.
         """
-        self._write(visitor, self._file(visitor), _to_json(session, task))
-
-    def keep_correction(self, visitor: str, correction: Correction, goal: str = "") -> None:
-        """Write down what a correction is now, and what must hold at its end; errors as those of :meth:`keep`."""
-        content = {
-            "draft": _FORM,
-            "environment": correction.world.name,
-            "text": correction.text,
-            "proposed": _pairs(correction.proposed),
-            "steps": _pairs(correction.steps),
-            "goal": goal,
-        }
-        self._write(visitor, self._correction_file(visitor), content)
-
-    def _write(self, visitor: str, file: Path, content: Mapping[str, Any]) -> None:
         with self._guard:
-            if visitor not in self._held:
-                raise TmdError(f"'{visitor}' is not here", hint="enter first")
-            write_text(file, json.dumps(content, ensure_ascii=False) + "\n")
+            self._require(visitor)
+            write_text(self._file(visitor, draft.SUFFIX), draft.to_line())
 
-    def discard(self, visitor: str) -> None:
-        """Forget a visitor's draft: it was saved, or is not wanted.
+    def discard(self, visitor: str, form: type[Draft | CorrectionDraft]) -> None:
+        """Remove a visitor's draft.
 
         Raises:
             TmdError: The visitor did not enter.
         """
-        self._forget(visitor, self._file(visitor))
-
-    def discard_correction(self, visitor: str) -> None:
-        """Forget a visitor's correction: it is done, or not wanted; errors as those of :meth:`discard`."""
-        self._forget(visitor, self._correction_file(visitor))
-
-    def _forget(self, visitor: str, file: Path) -> None:
-        with self._guard:
-            if visitor not in self._held:
-                raise TmdError(f"'{visitor}' is not here", hint="enter first")
-            with suppress(OSError):
-                file.unlink(missing_ok=True)
+        with self._guard, suppress(OSError):
+            self._require(visitor)
+            self._file(visitor, form.SUFFIX).unlink(missing_ok=True)
 
     def kept(self, visitor: str) -> bool:
-        """Whether something is kept by that name; nothing is by one that nobody can have."""
+        """Return whether a visitor of that name has a draft."""
         if not _VISITOR.fullmatch(visitor):
             return False
-        return self._file(visitor).exists() or self._correction_file(visitor).exists()
+        return any(self._file(visitor, form.SUFFIX).exists() for form in (Draft, CorrectionDraft))
 
-    def of(self, visitor: str) -> Draft | None:
-        """The draft of somebody who entered, if there is one; a damaged one is set aside.
-
-        Raises:
-            TmdError: It was damaged; tells where it is now.
-        """
-        return self._found(self._file(visitor), _read)
-
-    def correction_of(self, visitor: str) -> CorrectionDraft | None:
-        """The correction of somebody who entered, if there is one; a damaged one is set aside.
+    def of(self, visitor: str, form: type[_Form]) -> _Form | None:
+        """Return the draft of a visitor, if there is one; a damaged one is set aside.
 
         Raises:
-            TmdError: It was damaged; tells where it is now.
+            TmdError: It was damaged; the message names its new place.
         """
-        return self._found(self._correction_file(visitor), _read_correction)
-
-    def _found(self, file: Path, read: Callable[[Path], _Kept]) -> _Kept | None:
+        file = self._file(visitor, form.SUFFIX)
         with self._guard:
             if not file.exists():
                 return None
             try:
-                return read(file)
-            except (OSError, ValueError, TypeError, KeyError, RecursionError, TmdError) as error:
-                raise TmdError(self._set_aside(file, error)) from None
+                if file.stat().st_size > _LARGEST:
+                    raise ValueError("it is too large")
+                return form.from_text(file.read_text(encoding="utf-8"), file.name)
+            except (OSError, ValueError, TmdError) as error:
+                raise TmdError(_set_aside(file, error)) from None
 
-    def offered(self) -> Offered:
-        """The drafts that nobody works on. Damaged ones are set aside and told of, once."""
-        found: list[tuple[int, Draft]] = []
-        complaints: list[str] = []
-        with self._guard:
-            for file in sorted(self.directory.glob("*.json")):
-                lock = None if file.stem in self._held or not _VISITOR.fullmatch(file.stem) else self._try(file.stem)
-                if lock is None:
-                    continue
-                try:
-                    draft = self.of(file.stem)
-                    if draft is not None:
-                        found.append((file.stat().st_mtime_ns, draft))
-                except (OSError, TmdError) as error:
-                    complaints.append(str(error))
-                lock.release(remove=not file.exists())
-        found.sort(key=lambda pair: (-pair[0], pair[1].visitor))
-        return Offered(tuple(draft for _, draft in found), tuple(complaints))
+    def _require(self, visitor: str) -> None:
+        if visitor not in self._held:
+            raise TmdError(f"'{visitor}' is not here", hint="enter first")
 
-    def take(self, visitor: str, draft: Draft) -> Draft:
-        """Make an offered draft the visitor's own.
-
-        Raises:
-            TmdError: Somebody else took it first, or it is gone; or the visitor did not enter.
-            OutputError: The directory cannot be written to.
-        """
-        with self._guard:
-            if visitor not in self._held:
-                raise TmdError(f"'{visitor}' is not here", hint="enter first")
-            lock = self._lock(draft.visitor) if draft.visitor not in self._held else None
-            if lock is None:
-                raise TmdError("somebody else works on this draft now", hint="choose another")
-            try:
-                found = self.of(draft.visitor)
-                if found is None:
-                    raise TmdError("this draft is gone", hint="choose another")
-                self._file(draft.visitor).replace(self._file(visitor))
-            finally:
-                lock.release(remove=not self._file(draft.visitor).exists())
-            return replace(found, visitor=visitor)
-
-    def _file(self, visitor: str) -> Path:
+    def _file(self, visitor: str, suffix: str) -> Path:
         if not _VISITOR.fullmatch(visitor):
             raise TmdError("this cannot be the name of a visitor", hint="use letters, digits, _ and -, at most 64")
-        return self.directory / f"{visitor}.json"
-
-    def _correction_file(self, visitor: str) -> Path:
-        return self._file(visitor).with_suffix(".correction.json")
-
-    def _try(self, visitor: str) -> Lock | None:
-        return try_lock(self._file(visitor).with_suffix(".lock"))
-
-    def _lock(self, visitor: str) -> Lock:
-        file = self._file(visitor)
-        make_directory(self.directory)
-        lock = try_lock(file.with_suffix(".lock"))
-        if lock is None:
-            raise TmdError(f"'{visitor}' is here already", hint="close the other window first")
-        return lock
-
-    def _set_aside(self, file: Path, error: Exception) -> str:
-        """Rename a damaged draft; what to tell of it."""
-        number = 1
-        while (aside := file.with_name(f"{file.name}.damaged-{number}")).exists():
-            number += 1
-        reason = f"the draft of '{file.stem}' is damaged ({' '.join(str(error).split())[:200]})"
-        try:
-            file.replace(aside)
-        except OSError:
-            return f"{reason}, and {file} cannot be moved"
-        return f"{reason}; it is kept as {aside}"
+        return self.directory / f"{visitor}{suffix}"
 
 
-def _to_json(session: Session, task: str) -> dict[str, Any]:
-    proposed = session.proposed
-    return {
-        "draft": _FORM,
-        "environment": session.world.name,
-        "task": task,
-        "text": session.text,
-        "instructions": [str(instruction) for instruction in session.instructions],
-        "marks": [list(pair) for pair in session.pins.items()],
-        "proposed": None if proposed is None else _pairs(proposed),
-    }
+def _set_aside(file: Path, error: Exception) -> str:
+    """Rename a damaged draft, and return a message about it."""
+    number = 1
+    while (aside := file.with_name(f"{file.name}.damaged-{number}")).exists():
+        number += 1
+    reason = f"the draft of '{file.name.partition('.')[0]}' is damaged ({' '.join(str(error).split())[:200]})"
+    try:
+        file.replace(aside)
+    except OSError:
+        return f"{reason}, and {file} cannot be moved"
+    return f"{reason}; it is kept as {aside}"
 
 
-def _pairs(steps: Iterable[DemonstratedStep]) -> list[list[str | int]]:
-    return [[str(step.instruction), step.clause] for step in steps]
+def _pairs(steps: Iterable[DemonstratedStep]) -> tuple[_Step, ...]:
+    return tuple((str(step.instruction), step.clause) for step in steps)
 
 
-def _steps(pairs: Iterable[tuple[str, int]]) -> tuple[DemonstratedStep, ...]:
-    return tuple(DemonstratedStep(parse_instruction(instruction), clause) for instruction, clause in pairs)
-
-
-def _loaded(file: Path) -> dict[str, Any]:
-    if file.stat().st_size > _LARGEST:
-        raise ValueError("it is too large")
-    data = json.loads(file.read_bytes())
-    if not isinstance(data, dict) or data["draft"] != _FORM:
-        raise ValueError("it is not a draft of this version")
-    return data
-
-
-def _read(file: Path) -> Draft:
-    """The draft in ``file``.
-
-    Raises:
-        OSError, ValueError, TypeError, KeyError, RecursionError, TmdError: It is none.
-    """
-    data = _loaded(file)
-    proposed = data["proposed"]
-    environment, task, text = texts = [data[key] for key in ("environment", "task", "text")]
-    found = Draft(
-        file.stem,
-        environment,
-        task,
-        text,
-        tuple(data["instructions"]),
-        tuple((step, clause) for step, clause in data["marks"]),
-        None if proposed is None else tuple((instruction, clause) for instruction, clause in proposed),
-    )
-    lines = [*found.instructions, *(instruction for instruction, _ in found.proposed or ())]
-    numbers = [n for pair in found.marks for n in pair] + [clause for _, clause in found.proposed or ()]
-    _check(texts, lines, numbers)
-    return found
-
-
-def _read_correction(file: Path) -> CorrectionDraft:
-    """The correction in ``file``; errors as those of :func:`_read`."""
-    data = _loaded(file)
-    environment, text, goal = texts = [data[key] for key in ("environment", "text", "goal")]
-    proposed, steps = (tuple((line, clause) for line, clause in data[key]) for key in ("proposed", "steps"))
-    _check(texts, [line for line, _ in proposed + steps], [clause for _, clause in proposed + steps])
-    return CorrectionDraft(environment, text, proposed, steps, goal)
-
-
-def _check(texts: Iterable[object], lines: Sequence[str], numbers: Iterable[object]) -> None:
-    if not all(isinstance(said, str) for said in [*texts, *lines]) or not all(isinstance(n, int) for n in numbers):
-        raise TypeError("a value is of the wrong kind")
-    for line in lines:
-        parse_instruction(line)
+def _steps(pairs: Sequence[_Step]) -> tuple[DemonstratedStep, ...]:
+    return tuple(DemonstratedStep(parse_instruction(line), clause) for line, clause in pairs)

@@ -1,4 +1,4 @@
-"""Undo and redo: what somebody made, version by version."""
+"""Undo and redo over the versions of an immutable value."""
 
 from __future__ import annotations
 
@@ -8,11 +8,7 @@ _Version = TypeVar("_Version")
 
 
 class History(Generic[_Version]):
-    """The versions of an immutable thing, one of them current.
-
-    Args:
-        first: The first version.
-    """
+    """The versions of an immutable value, one of them current."""
 
     def __init__(self, first: _Version) -> None:
         self._versions = [first]
@@ -20,32 +16,22 @@ class History(Generic[_Version]):
 
     @property
     def current(self) -> _Version:
-        """The version that counts."""
+        """The current version."""
         return self._versions[self._at]
 
     def add(self, version: _Version) -> None:
-        """A new version; what had been undone is forgotten."""
+        """Make a new version current, in place of all that were undone."""
         self._versions[self._at + 1 :] = [version]
         self._at += 1
 
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is an earlier version."""
-        return self._at > 0
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether something was undone."""
-        return self._at + 1 < len(self._versions)
-
     def undo(self) -> bool:
-        """Back to the version before; false if there is none."""
-        moved = self.can_undo
+        """Go back to the version before; return false if there is none."""
+        moved = self._at > 0
         self._at -= moved
         return moved
 
     def redo(self) -> bool:
-        """To the version after; false if there is none."""
-        moved = self.can_redo
+        """Go to the version after; return false if there is none."""
+        moved = self._at + 1 < len(self._versions)
         self._at += moved
         return moved

@@ -19,13 +19,12 @@ from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
 from tmd.studio.demonstrations.clause_spans import ClauseSpan, clean, cut
 from tmd.studio.demonstrations.history import History
-from tmd.studio.object_info import About, about
 from tmd.veil.demonstration import Segment
 from tmd.veil.world import World
 from tmd.view.wording import Wording
 
+# Longer demonstrations are refused: the longest of the bundled ones has about thirty steps.
 MAX_STEPS = 500
-"""Longer demonstrations are refused: the longest of the bundled ones has about thirty steps."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +34,7 @@ class DemonstratedStep:
     Attributes:
         instruction: What was done.
         clause: The number of the clause that it serves, from 0.
-        marked: Whether the person said so; otherwise it is a proposal.
+        marked: Whether the person chose the clause; otherwise it is a proposal.
     """
 
     instruction: Instruction
@@ -45,7 +44,7 @@ class DemonstratedStep:
 
 @dataclass(frozen=True, slots=True)
 class StateChanges:
-    """What an instruction changed: facts that it made true, and facts that it made false, sorted."""
+    """Facts that an instruction made true, and facts that it made false, sorted."""
 
     added: tuple[GroundAtom, ...]
     removed: tuple[GroundAtom, ...]
@@ -53,7 +52,7 @@ class StateChanges:
 
 @dataclass(frozen=True, slots=True)
 class _Version:
-    """What undo goes back to: the steps, the states before and after each, and what the person marked."""
+    """Version of a session: its steps, the states before and after each, and the marked clauses."""
 
     steps: tuple[DemonstratedStep, ...]
     states: tuple[Bits, ...]
@@ -68,7 +67,7 @@ class Session:
         text: What is to be done.
         lexicon: The words of the domain.
         instructions: What was done already.
-        pins: What the person said about it: for the number of a step, from 1, that of its clause, from 0.
+        pins: The clauses that the person chose, from 0, by the number of the step, from 1.
         proposed: The plan that is corrected, if one is.
         habits: What was done for verbs before; proposals of clauses are better with it.
 
@@ -76,7 +75,6 @@ class Session:
         world: The environment.
         text: The text, without control characters.
         clauses: The pieces of the text that steps serve, at least one.
-        proposed: As above.
 
     Raises:
         TmdError: The text is empty or too long, or an instruction does not apply.
@@ -123,7 +121,7 @@ class Session:
 
     @property
     def pins(self) -> dict[int, int]:
-        """What the person marked: for the number of a step, from 1, that of its clause, from 0."""
+        """Numbers of the clauses that the person marked, from 0, by the number of the step, from 1."""
         return {number + 1: clause for number, clause in sorted(self._history.current.pins.items())}
 
     @property
@@ -141,16 +139,6 @@ class Session:
     def states(self) -> tuple[Bits, ...]:
         """The states before the first step and after each, as bits of the environment's task."""
         return self._history.current.states
-
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is something to take back."""
-        return self._history.can_undo
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether something was taken back."""
-        return self._history.can_redo
 
     def do(self, instruction: Instruction) -> DemonstratedStep:
         """Carry out ``instruction`` in the state that is looked at; steps behind it go, until this is undone.
@@ -220,7 +208,7 @@ class Session:
             self._cursor = at
 
     def changes(self, step: int) -> StateChanges:
-        """What a step changed.
+        """Return the facts that a step changed.
 
         Raises:
             TmdError: There is no such step.
@@ -231,16 +219,8 @@ class Session:
             names = self.world.task.names
             return StateChanges(tuple(names(after & ~before)), tuple(names(before & ~after)))
 
-    def about(self, name: str) -> About:
-        """What is so of an object in the state that is looked at.
-
-        Raises:
-            TmdError: There is no such object.
-        """
-        return about(name, self.world, self.state)
-
     def segments(self) -> tuple[Segment, ...]:
-        """The pieces of the text with what serves each, as a demonstration has them."""
+        """Return the pieces of the text with what serves each, as a demonstration has them."""
         steps, proposed = self.steps, self.proposed
         return tuple(
             Segment(piece.start, piece.end, _own(steps, n), None if proposed is None else _own(proposed, n))
@@ -258,7 +238,7 @@ class Session:
         return _Version(steps, states, MappingProxyType(dict(pins)))
 
     def _known_pins(self, pins: Mapping[int, int], count: int) -> dict[int, int]:
-        """Pins as they are kept, from 0; those that cannot be are left out."""
+        """Return the pins that are possible, with steps counted from 0."""
         found: dict[int, int] = {}
         for step, clause in sorted(pins.items()):
             if 0 < step <= count and max(found.values(), default=0) <= clause < len(self.clauses):
@@ -270,7 +250,7 @@ class Session:
             raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
 
     def _applied(self, instruction: Instruction, state: Bits, step: int) -> Bits:
-        """The state after ``instruction``.
+        """Return the state after ``instruction``.
 
         Raises:
             TmdError: It does not apply.
@@ -285,13 +265,13 @@ class Session:
 
 
 def _first(version: _Version, steps: int) -> _Version:
-    """The version as it was after so many steps."""
+    """Return the version as it was after so many steps."""
     pins = {number: clause for number, clause in version.pins.items() if number < steps}
     return _Version(version.steps[:steps], version.states[: steps + 1], MappingProxyType(pins))
 
 
 def _in_order(steps: Iterable[DemonstratedStep], clauses: int) -> tuple[DemonstratedStep, ...]:
-    """The steps with clauses that there are, never falling."""
+    """Return the steps with clauses that there are, never falling."""
     found: list[DemonstratedStep] = []
     for step in steps:
         clause = min(max(step.clause, found[-1].clause if found else 0), clauses - 1)

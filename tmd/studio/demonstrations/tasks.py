@@ -13,7 +13,7 @@ from tmd.veil.demonstration import read_demonstrations
 
 @dataclass(frozen=True, slots=True)
 class TaskText:
-    """Something to do.
+    """Text of a task in an environment.
 
     Attributes:
         task: The task it is an example of; empty for the text of a problem.
@@ -27,9 +27,9 @@ class TaskText:
 
 
 def task_texts(corpus: Corpus) -> tuple[TaskText, ...]:
-    """The texts of a domain, by environment, then by task: always the same, in the same order.
+    """Return the texts of a domain, by environment, then by task: always the same, in the same order.
 
-    Of the demonstrations it is the first of each task in each environment, so all that is said can be done there.
+    Of the demonstrations it is the first of each task in each environment, so each text can be carried out there.
     ``pNN-*.pddl`` with its ``.nl`` names its environment at the end of its name. What cannot be read is left out.
     """
     found: dict[tuple[str, str], TaskText] = {}

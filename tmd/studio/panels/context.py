@@ -1,4 +1,4 @@
-"""What the panels ask of the browser window that they stand in."""
+"""Interface of a browser window for its panels."""
 
 from __future__ import annotations
 
@@ -42,10 +42,10 @@ class PanelContext(Protocol):
         """The words of the environment."""
 
     def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
-        """A callback that tells what goes wrong."""
+        """Return a callback that reports errors to the visitor."""
 
     def holding(self) -> threading.RLock:
-        """The lock: one thing at a time happens to what is looked at."""
+        """Return the lock: one thing at a time happens to what is looked at."""
 
     def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
         """Show a message at the top of the panel."""
@@ -57,7 +57,7 @@ class PanelContext(Protocol):
         """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
 
     def shows(self, panel: Played) -> bool:
-        """Whether the steps of no other panel are looked at."""
+        """Return whether the steps of no other panel are looked at."""
 
     def keep_link(self) -> None:
         """Let the window's address say what is looked at."""
@@ -75,7 +75,7 @@ class PanelContext(Protocol):
         """Run something that shows one thing after the other, until :meth:`stop`."""
 
     def is_playing(self) -> bool:
-        """Whether something is being played."""
+        """Return whether something is being played."""
 
     def stop(self) -> None:
         """Stop playing."""
@@ -87,7 +87,7 @@ class PanelContext(Protocol):
         """Correct a plan for a text in the panel for that."""
 
     def saved(self, demonstration: Demonstration) -> None:
-        """A demonstration was saved: plan its text again, and say whether that uses it."""
+        """Plan the text of a saved demonstration again, and report whether the plan uses it."""
 
     def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
         """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""

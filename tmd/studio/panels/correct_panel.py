@@ -8,6 +8,7 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.studio.demonstrations.correction import Correction
+from tmd.studio.demonstrations.drafts import CorrectionDraft
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
@@ -30,11 +31,7 @@ _EDITS = ("Delete", "Earlier", "Later", "Undo", "Redo")
 
 
 class CorrectPanel:
-    """Edits a plan that was proposed, and hands it to the panel where demonstrations are saved.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Panel that edits a proposed plan, and passes it to the panel where demonstrations are saved."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
@@ -65,7 +62,7 @@ class CorrectPanel:
         guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
-        """Another environment: nothing is corrected there; what is not done is kept."""
+        """Close the correction in another environment; an unfinished one is kept."""
         self._correction = None
         self._all.visible = False
         self._text.content = fragment(PLAN_FIRST)
@@ -80,7 +77,7 @@ class CorrectPanel:
             visitor.show_tab("Correct")
             visitor.tell("The plan is under Correct: click on a step, drag it, delete it, or put another behind it.")
 
-        before = visitor.studio.drafts.correction_of(visitor.identity)
+        before = self._draft()
         if before is None:
             go()
             return
@@ -102,14 +99,16 @@ class CorrectPanel:
 
     # what is not done yet
 
+    def _draft(self) -> CorrectionDraft | None:
+        return self._visitor.studio.drafts.of(self._visitor.identity, CorrectionDraft)
+
     def _look_for_draft(self) -> None:
-        visitor = self._visitor
-        self._resume.visible = visitor.studio.drafts.correction_of(visitor.identity) is not None
+        self._resume.visible = self._draft() is not None
 
     def resume(self) -> None:
         """Go on with the correction that is not done."""
         visitor = self._visitor
-        draft = visitor.studio.drafts.correction_of(visitor.identity)
+        draft = self._draft()
         if draft is None:
             raise TmdError("there is no correction that is not done")
         if draft.environment != visitor.setting.name:
@@ -118,21 +117,20 @@ class CorrectPanel:
         visitor.tell("Here is the correction that is not done.")
 
     def come_back(self) -> None:
-        """The page was loaded again: go on with the correction, if there is one."""
-        visitor = self._visitor
-        if self._correction is None and visitor.studio.drafts.correction_of(visitor.identity) is not None:
+        """Resume the correction after the page was loaded again, if there is one."""
+        if self._correction is None and self._draft() is not None:
             self.resume()
 
     def _keep(self) -> None:
-        """Write the correction down; one that changes nothing is none."""
+        """Keep the correction as a draft, if it changes anything."""
         visitor, correction = self._visitor, self._correction
         if correction is None:
             return
         goal = self._goal.value.strip()
         if goal or correction.steps != correction.proposed:
-            visitor.studio.drafts.keep_correction(visitor.identity, correction, goal)
+            visitor.studio.drafts.keep(visitor.identity, CorrectionDraft.of(correction, goal))
         else:
-            visitor.studio.drafts.discard_correction(visitor.identity)
+            visitor.studio.drafts.discard(visitor.identity, CorrectionDraft)
 
     def _going(self) -> Correction:
         if self._correction is None:
@@ -180,7 +178,7 @@ class CorrectPanel:
         self._visitor.tell(f"{count} step{'' if count == 1 else 's'} changed.")
 
     def _instructions(self) -> None:
-        """What can be inserted, whether it applies there or not: the planner may make it possible."""
+        """Offer the instructions with an object; the planner may make possible those that do not apply."""
         name = chosen(self._with)
         groups = self._visitor.studio.offers(self._visitor.setting.name)
         state = self._visitor.setting.world.task.init
@@ -213,8 +211,8 @@ class CorrectPanel:
         self._visitor.take_over(session, goal, self._done)
 
     def _done(self) -> None:
-        """The panel where demonstrations are saved has the correction now."""
-        self._visitor.studio.drafts.discard_correction(self._visitor.identity)
+        """Discard the draft of the correction, which was taken over."""
+        self._visitor.studio.drafts.discard(self._visitor.identity, CorrectionDraft)
         self.entered()
 
     # showing
@@ -227,12 +225,10 @@ class CorrectPanel:
         self._at = min(self._at, len(steps))
         used = sorted(set(steps[self._at - 1].instruction.args)) if self._at else []
         self._old.options = (NOTHING, *used)
-        task = visitor.setting.world.task
-        states = [task.init]
-        for step in steps[: broken.step - 1 if broken else None]:
-            states.append(task.by_instruction[step.instruction].apply(states[-1]))
-        states += [states[-1]] * (len(steps) + 1 - len(states))
-        self._reel.become(states)
+        works = broken.step - 1 if broken else len(steps)
+        self._reel.follow(step.instruction for step in steps[:works])
+        states = self._reel.states
+        self._reel.become([*states, *[states[-1]] * (len(steps) - works)])
         visitor.watch(self._reel, self._at, self, [step.instruction for step in steps])
         why = [] if broken is None else [f"✗ {broken.why}"]
         lines = [(str(step.instruction), f"clause {step.clause + 1}", False) for step in steps]

@@ -11,6 +11,7 @@ from tmd.planning.backends import IN_PROCESS, make
 from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.demonstrations.correction import what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
+from tmd.studio.demonstrations.drafts import Draft
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, refused, step_list
@@ -25,18 +26,14 @@ OWN = "(own words)"
 NONE = "(no object)"
 NOTHING = "(nothing)"
 GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
+# Number of the instructions that apply with a hot key: 1 to 9.
 NUMBERED = 9
-"""Number of the instructions that apply with a hot key: 1 to 9."""
+# Maximum number of instructions of an action with a button each; the object itself comes before its parts.
 _FEW = 4
-"""Maximum number of instructions of an action with a button each; the object itself comes before its parts."""
 
 
 class DemonstratePanel:
-    """Shows, marks, takes back, saves.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Panel that demonstrates: it carries out, marks, undoes and saves."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
@@ -86,7 +83,7 @@ class DemonstratePanel:
             put(self._text, self._examples.value)
 
     def entered(self) -> None:
-        """Another environment."""
+        """Show the objects and examples of another environment."""
         visitor = self._visitor
         self._examples.options = (OWN, *self._texts())
         put(self._examples, OWN)
@@ -96,7 +93,7 @@ class DemonstratePanel:
     # beginning and ending
 
     def begin(self) -> None:
-        """A new demonstration of the text."""
+        """Begin a new demonstration of the text."""
         visitor = self._visitor
 
         def go() -> None:
@@ -106,7 +103,7 @@ class DemonstratePanel:
         self._over("Begin anew?", "Throw it away, and begin", go)
 
     def take(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
-        """Go on with a plan that was corrected, and with the goal that it shall reach, if one was said."""
+        """Go on with a corrected plan, and with its goal, if one was given."""
 
         def go() -> None:
             taken()
@@ -120,7 +117,7 @@ class DemonstratePanel:
 
     def _over(self, title: str, yes: str, act: Callable[[], None]) -> None:
         """Do what ends a demonstration that was not saved, if there is one, only if the visitor says so."""
-        draft = self._visitor.studio.drafts.of(self._visitor.identity)
+        draft = self._draft()
         if draft is None or not draft.instructions:
             act()
             return
@@ -158,7 +155,7 @@ class DemonstratePanel:
             session = self._going()
             goal = self._goal.value.strip() or None
             saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
-            visitor.studio.drafts.discard(visitor.identity)
+            visitor.studio.drafts.discard(visitor.identity, Draft)
             self._close()
         visitor.saved(saved)
 
@@ -167,7 +164,7 @@ class DemonstratePanel:
         visitor = self._visitor
         with visitor.holding():
             self._going()
-            visitor.studio.drafts.discard(visitor.identity)
+            visitor.studio.drafts.discard(visitor.identity, Draft)
             self._close()
         visitor.tell("Thrown away.", aloud=True)
 
@@ -178,13 +175,16 @@ class DemonstratePanel:
 
     # drafts
 
+    def _draft(self) -> Draft | None:
+        return self._visitor.studio.drafts.of(self._visitor.identity, Draft)
+
     def _look_for_draft(self) -> None:
-        self._resume.visible = self._visitor.studio.drafts.of(self._visitor.identity) is not None
+        self._resume.visible = self._draft() is not None
 
     def resume(self) -> None:
         """Go on with what was not saved."""
         visitor = self._visitor
-        draft = visitor.studio.drafts.of(visitor.identity)
+        draft = self._draft()
         if draft is None:
             raise TmdError("there is no demonstration that was not saved")
         if draft.environment != visitor.setting.name:
@@ -196,8 +196,8 @@ class DemonstratePanel:
         visitor.tell(f"Here is what was not saved: {len(session.steps)} steps.")
 
     def come_back(self) -> None:
-        """The page was loaded again: go on with what was not saved, if there is something."""
-        if self._session is None and self._visitor.studio.drafts.of(self._visitor.identity) is not None:
+        """Resume the unsaved demonstration after the page was loaded again, if there is one."""
+        if self._session is None and self._draft() is not None:
             self.resume()
 
     # doing
@@ -271,7 +271,7 @@ class DemonstratePanel:
         if session is None:
             return
         visitor = self._visitor
-        visitor.studio.drafts.keep(visitor.identity, session, self._task.value)
+        visitor.studio.drafts.keep(visitor.identity, Draft.of(session, self._task.value))
         # All at once: who presses a button as soon as the new list shows must not press one of the old state.
         with visitor.client.atomic():
             self._reel.become(session.states)

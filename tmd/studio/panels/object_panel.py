@@ -18,18 +18,14 @@ if TYPE_CHECKING:
     from viser import GuiDropdownHandle
 
 NOTHING = "(nothing)"
+# Maximum number of object graphs drawn at once.
 DRAWN = 24
-"""Maximum number of object graphs drawn at once."""
+# Those that domains know; what one does not have is refused.
 RELATIONS = ("on", "in", "next_to")
-"""Those that domains know; what one does not have is refused."""
 
 
 class ObjectPanel:
-    """Shows one object of the state that is seen.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Panel of one object of the state that is shown."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
@@ -63,7 +59,7 @@ class ObjectPanel:
             self._visitor.select(name)
 
     def entered(self) -> None:
-        """Another environment."""
+        """Show the objects and examples of another environment."""
         self._which.options = self._place.options = (NOTHING, *self._names())
         put(self._which, NOTHING)
         put(self._place, NOTHING)
@@ -82,7 +78,7 @@ class ObjectPanel:
         return EditedEnvironment(visitor.setting.path, visitor.studio.corpus.folder)
 
     def _offer(self) -> None:
-        """The states that the object can be given."""
+        """Offer the states that the object can be given."""
         edited, name = self._edited(), self._visitor.selected
         self._offered = name
         found = edited.changes(name) if edited is not None and name is not None else []
@@ -136,7 +132,7 @@ class ObjectPanel:
         visitor.tell(f"Saved as the environment {name}.", aloud=True)
 
     def _all(self) -> str:
-        """The object graphs of an environment of which there is no picture."""
+        """Return the object graphs of an environment of which there is no picture."""
         visitor = self._visitor
         if visitor.setting.look is not None:
             return ""

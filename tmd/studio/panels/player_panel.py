@@ -1,4 +1,4 @@
-"""The player above the tabs: one slider and one row of buttons for whatever steps are looked at, and the caption."""
+"""The player above the tabs: a slider and a row of buttons for the steps of a panel, and the caption."""
 
 from __future__ import annotations
 
@@ -14,11 +14,7 @@ BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
 
 
 class PlayerPanel:
-    """Steps through, and plays, what a panel shows.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Panel that steps through, and plays, the plan of another panel."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

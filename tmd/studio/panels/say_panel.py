@@ -7,143 +7,41 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from difflib import SequenceMatcher
 from functools import partial
 from html import escape
-from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import RefusalKind, TmdError
 from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded, why_refused
-from tmd.inference.energy import meaning, title
-from tmd.inference.ranking import PlanStep, RankedPlan, RejectedProposal
+from tmd.inference.ranking import PlanStep
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.plan_file import format_plan
 from tmd.pddl.validator import Status, validate
 from tmd.pddl.writer import format_problem
-from tmd.readers.interface import Question, Reader, Usage
+from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
+from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext
-from tmd.studio.panels.html import changed, fragment, goal_list, judgement, step_list
+from tmd.studio.panels.html import changed, effort, fragment, goal_list, judgement, side_by_side, step_list
 from tmd.studio.panels.widgets import chosen, put
 from tmd.studio.view3d.playback import Reel
 from tmd.veil.demonstration import Demonstration
-from tmd.veil.world import World
-from tmd.view.candidates import factors_of, grouped
+from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
-from tmd.view.markup import number, style
+from tmd.view.markup import style
 from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
     from viser import GuiButtonHandle, GuiDropdownHandle
 
 
-_ENERGY = "The sum of the factors, each by its weight; the plan with the least is the first."
-
-
-def energies(
-    plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[RejectedProposal] = ()
-) -> str:
-    """What :func:`tmd.view.candidates.candidates` tells, as HTML that fits into a panel.
-
-    Args:
-        plans: The plans, least energy first.
-        verdicts: For each plan why it does not work, empty for one that does.
-        refusals: Templates that could not be used.
-    """
-    pieces = [_losers(plans, verdicts), _factors(plans), *_clauses(plans), _refused(refusals)]
-    return "".join(pieces)
-
-
-def _losers(plans: Sequence[RankedPlan], verdicts: Sequence[str]) -> str:
-    lines = []
-    for index, plan in enumerate(plans):
-        reasons = [f"does not work: {verdict}" for verdict in verdicts[index : index + 1] if verdict]
-        reasons += [plan.why] if index and plan.why else []
-        if reasons:
-            lines.append(f"<li><b>Plan {index + 1}</b> {escape('; '.join(reasons))}</li>")
-    return f"<h4>Why the others lost</h4><ul>{''.join(lines)}</ul>" if lines else ""
-
-
-def _factors(plans: Sequence[RankedPlan]) -> str:
-    if not plans:
-        return ""
-    head = "".join(f"<th scope='col'>plan {index}</th>" for index in range(1, len(plans) + 1))
-    rows = [("energy", _ENERGY, [f"<b>{number(plan.energy)}</b>" for plan in plans])]
-    rows += [
-        (title(name), meaning(name), [number(plan.factors.get(name, 0.0)) for plan in plans])
-        for name in factors_of(plans)
-    ]
-    rows.append(("steps", "", [str(len(plan.steps)) for plan in plans]))
-    body = "".join(
-        f"<tr><th scope='row' title='{escape(told)}'>{escape(name)}</th>"
-        f"{''.join(f'<td>{value}</td>' for value in values)}</tr>"
-        for name, told, values in rows
-    )
-    means = "".join(
-        f"<li><b>{escape(title(name))}</b> {escape(meaning(name))}</li>" for name in factors_of(plans) if meaning(name)
-    )
-    return (
-        f"<h4>Energies by factor</h4><table class='numbers'><thead><tr><td></td>{head}</tr></thead>"
-        f"<tbody>{body}</tbody></table>"
-        f"<details><summary>What the factors count</summary><p>{_ENERGY}</p><ul>{means}</ul></details>"
-    )
-
-
-def _clauses(plans: Sequence[RankedPlan]) -> list[str]:
-    return [
-        f"<details><summary>Plan {index} by clause</summary><ol>{_choices(plan)}</ol></details>"
-        for index, plan in enumerate(plans, start=1)
-    ]
-
-
-def _choices(plan: RankedPlan) -> str:
-    lines = []
-    owners = [goal.clause for goal in plan.goals] or range(len(plan.choices))
-    for owner, choice in zip(owners, plan.choices, strict=True):
-        parts = [f"{title(name)} {number(value)}" for name, value in choice.factors.items() if round(value, 2)]
-        source = choice.source if choice.source is not None else "no template"
-        told = f"<b>{number(choice.energy)}</b> {escape(', '.join(parts))}<br>from {escape(source)}"
-        lines.append(f"<li value='{owner + 1}'>{told}</li>")
-    return "".join(lines)
-
-
-def _refused(refusals: Sequence[RejectedProposal]) -> str:
-    rows = grouped(refusals)
-    if not rows:
-        return ""
-    lines = "".join(
-        f"<li>Clause {row.clause + 1}: {escape(row.reason)} <span class='quiet'>({len(row.sources)}, for example "
-        f"{escape(row.sources[0])})</span></li>"
-        for row in rows
-    )
-    word = "reason" if len(rows) == 1 else "reasons"
-    return (
-        f"<details><summary>{len(rows)} {word} why templates could not be used here</summary><ul>{lines}</ul></details>"
-    )
-
-
-def effort(usage: Usage | None) -> str:
-    """Return the effort of a language model, as HTML; empty where none was asked."""
-    if usage is None:
-        return ""
-    replies = len(usage.digests)
-    lines = (
-        f"{usage.prompt_tokens:,} tokens sent, {usage.completion_tokens:,} received",
-        f"{usage.seconds:.1f} s",
-        f"{replies} {'reply' if replies == 1 else 'replies'}, {usage.cached} from the cache",
-    )
-    rows = "".join(f"<li>{line}</li>" for line in lines)
-    return f"<h4>Read by the language model {escape(usage.model)}</h4><ul>{rows}</ul>"
-
-
+# How many plans are ranked.
 TOP = 3
-"""How many plans are ranked."""
 OWN = "(own words)"
 RULES, LLM = "rules", "language model"
 _FILES = ("plan", "problem", "page")
@@ -175,11 +73,7 @@ class Request:
 
 
 class SayPanel:
-    """Says, plans, steps and plays.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Panel that plans a text, and shows the plans."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
@@ -226,7 +120,7 @@ class SayPanel:
             self._files.on_click(guarded(self._download))
 
     def _add_settings(self) -> None:
-        """Add the fields that say how a text is read. The key is none of them: the page never has it."""
+        """Add the settings of the reader. The key is not among them: the page never has it."""
         gui, guarded = self._visitor.client.gui, self._visitor.guarded
         model, url = os.environ.get(MODEL, ""), os.environ.get(URL, "")
         self._reader: GuiDropdownHandle[str] = gui.add_dropdown("Reader", (RULES, LLM))
@@ -243,13 +137,13 @@ class SayPanel:
             put(self._text, self._examples.value)
 
     def entered(self) -> None:
-        """Another environment: its examples, and no plan yet."""
+        """Show the examples of another environment, and no plan."""
         self._examples.options = (OWN, *self._texts())
         put(self._examples, OWN)
         self._clear()
 
     def _clear(self) -> None:
-        """No plan; the picture shows the beginning."""
+        """Remove all plans; the picture shows the beginning."""
         self._grounded, self._request, self._waiting, self._plans, self._reels = None, None, None, [], []
         self._button.disabled = False
         self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
@@ -267,7 +161,7 @@ class SayPanel:
                 return  # it was pressed twice
             visitor.stop()
             self._clear()  # what is refused must not leave another sentence's plan below it
-            text = visitor.studio.checked_text(self._text.value)
+            text = clean(self._text.value)
             self._plan(Request(text, self._chosen_reader()))
 
     def _plan(self, request: Request) -> None:
@@ -319,7 +213,7 @@ class SayPanel:
         """Ground again what a question was asked about, knowing the answer."""
         with self._visitor.holding():
             if self._grounded is not grounded:
-                return  # it was pressed twice, or something else was said
+                return  # it was pressed twice, or another text was planned
             self._visitor.stop()
             self._clear()
             self._plan(request)
@@ -331,7 +225,7 @@ class SayPanel:
             put(self._text, link.say)
             self._waiting, self._step = link, link.step
             problem = visitor.setting.world.task.problem
-            works = (Status.VALID, Status.GOAL_NOT_REACHED)  # an environment has no goal of its own
+            works = (Status.VALID, Status.GOAL_NOT_REACHED)  # an environment has no goal
             if kept and validate(problem, [step.instruction for step in kept]).status in works:
                 self._plans, self._reels = [kept], [self._played(kept)]
                 self._which.options = ("1",)
@@ -340,10 +234,10 @@ class SayPanel:
                 visitor.tell("Here is the plan that you looked at; it is planned again in the background.")
             else:
                 visitor.tell("Planning …")
-        self._behind(lambda: self._plan_again(link, Request(visitor.studio.checked_text(link.say))))
+        self._behind(lambda: self._plan_again(link, Request(clean(link.say))))
 
     def _behind(self, act: Callable[[], None]) -> None:
-        """Do something in the background, and tell what goes wrong."""
+        """Do something in the background, and report errors."""
         threading.Thread(target=self._visitor.guarded(act), args=(None,), daemon=True).start()
 
     def _plan_again(self, link: PageLink, request: Request) -> None:
@@ -363,7 +257,7 @@ class SayPanel:
         took = time.perf_counter() - begun
         with visitor.holding():
             if self._waiting is not link:
-                return  # something else was said meanwhile
+                return  # another text was planned meanwhile
             before, step = self._plans, self._step
             found = [plan.steps for plan in grounded.plans]
             place = found.index(before[0]) if before and before[0] in found else link.plan - 1
@@ -375,7 +269,7 @@ class SayPanel:
         visitor.keep_link()
 
     def looked_at(self) -> tuple[int, int, str]:
-        """The number of the plan that is shown, the step, and the sentence, for the window's address."""
+        """Return the number of the plan that is shown, the step, and the sentence, for the window's address."""
         if self._waiting is not None:
             return self._waiting.plan, self._step, self._waiting.say
         if self._grounded is None:
@@ -383,7 +277,7 @@ class SayPanel:
         return (self._number() + 1 if self._reels else 1), self._step, self._grounded.parsed.text
 
     def listed(self) -> tuple[PlanStep, ...]:
-        """The plan that is shown; empty for none."""
+        """Return the plan that is shown; empty for none."""
         return self._plans[self._number()] if self._plans else ()
 
     def saved(self, demonstration: Demonstration) -> None:
@@ -399,7 +293,7 @@ class SayPanel:
             visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
 
     def learned(self) -> None:
-        """All was learned: plan the text that was saved last again, and say whether it is what was shown."""
+        """Plan the text that was saved last again, and report whether the plan is the one that was shown."""
         visitor = self._visitor
         with visitor.holding():
             saved, self._saved = self._saved, None
@@ -416,12 +310,12 @@ class SayPanel:
             visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
 
     def _again(self, saved: Demonstration) -> Grounded:
-        """The text of a demonstration, planned where it was shown; a language model is not asked."""
+        """Return the text of a demonstration, planned where it was shown; a language model is not asked."""
         studio = self._visitor.studio
         return studio.teacher.ground(saved.text, studio.setting(saved.environment).world, top=TOP)
 
     def _tell(self, grounded: Grounded, took: float, more: str | None = None) -> None:
-        """Say what came of it: how many plans there are, with ``more`` about them, or why there is none."""
+        """Report the number of plans, with ``more`` about them, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
             more = more or (_ASKED if grounded.question is not None else None)
@@ -445,13 +339,9 @@ class SayPanel:
             visitor.tell(f"No plan: {grounded.reason}.", hint, fault=True)
 
     def _played(self, plan: Sequence[PlanStep]) -> Reel:
-        """The states that a plan leads through."""
-        task = self._visitor.setting.world.task
-        states = [task.init]
-        for step in plan:
-            states.append(task.by_instruction[step.instruction].apply(states[-1]))
+        """Return the states that a plan leads through."""
         reel = Reel(self._visitor.setting)
-        reel.become(states)
+        reel.follow(step.instruction for step in plan)
         return reel
 
     def _show(
@@ -480,7 +370,7 @@ class SayPanel:
         world_words = Wording(world.task.problem)
         self._energies.content = fragment(
             side_by_side(grounded.plans, world, world_words)
-            + energies(grounded.plans, lines, grounded.rejected)
+            + candidates(grounded.plans, lines, grounded.rejected, narrow=True)
             + effort(grounded.usage)
         )
         if not found:
@@ -580,7 +470,7 @@ class SayPanel:
         self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded, words=words)
 
     def _only_there(self, reel: Reel) -> set[int]:
-        """The numbers of the steps that change nothing but what is so of the robot: where it is, what it has found."""
+        """Return the numbers of the steps that only change facts about constants, such as the robot."""
         world = self._visitor.setting.world
         constants, states = world.profiles.constants, reel.states
         return {
@@ -642,7 +532,7 @@ def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
 
 
 def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callable[[Instruction], str] = str) -> str:
-    """Whether the plans for a text are what was shown for it; ``said`` tells an instruction in words."""
+    """Return whether the plans for a text are what was shown for it; ``said`` puts an instruction into words."""
     plans = _plans(grounded)
     if not plans:
         return f"The same sentence has no plan yet: {grounded.reason}."
@@ -657,7 +547,7 @@ def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callabl
 
 
 def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[Instruction] | None:
-    """What a plan has beside all of ``shown``, in its order; ``None`` where it has not all of it."""
+    """Return the other instructions of a plan that has all of ``shown`` in order; ``None`` where it has not."""
     rest, more = list(shown), []
     for instruction in plan:
         if rest and rest[0] == instruction:
@@ -665,38 +555,6 @@ def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[I
         else:
             more.append(instruction)
     return None if rest else more
-
-
-def side_by_side(plans: Sequence[RankedPlan], world: World, wording: Wording) -> str:
-    """The first plan beside each other one, step by step, and the difference of the states that they end in."""
-    return "".join(
-        f"<details><summary>Plan 1 beside plan {number}</summary>{_beside_each_other(plans[0], plan, wording)}"
-        f"{_ends(plans[0], plan, number, world, wording)}</details>"
-        for number, plan in enumerate(plans[1:], start=2)
-    )
-
-
-def _beside_each_other(one: RankedPlan, other: RankedPlan, wording: Wording) -> str:
-    left, right = one.instructions, other.instructions
-    rows: list[tuple[str, str]] = []
-    for kind, a, b, c, d in SequenceMatcher(None, left, right, autojunk=False).get_opcodes():
-        told = (map(wording.instruction, part) for part in (left[a:b], right[c:d]))
-        sides = zip_longest(*told, fillvalue="")
-        rows += [(x, y) if kind == "equal" else (x and f"− {x}", y and f"+ {y}") for x, y in sides]
-    body = "".join(f"<tr><td>{escape(x)}</td><td>{escape(y)}</td></tr>" for x, y in rows)
-    return f"<table class='sides'><tbody>{body}</tbody></table>"
-
-
-def _ends(one: RankedPlan, other: RankedPlan, number: int, world: World, wording: Wording) -> str:
-    names = world.task.names
-    only = ((1, names(one.state & ~other.state)), (number, names(other.state & ~one.state)))
-    lines = [
-        f"<li>only after plan {plan}: {escape(wording.fact(atom))}</li>"
-        for plan, atoms in only
-        for atom in sorted(atoms)
-        if not atom.args or atom.args[0] not in world.profiles.constants
-    ]
-    return f"<p>At the end</p><ul>{''.join(lines)}</ul>" if lines else "<p>Both end alike.</p>"
 
 
 def _styled(content: str) -> str:

@@ -1,4 +1,4 @@
-"""Small things about the page's inputs."""
+"""Helpers for the page's inputs."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from tmd.diagnostics import TmdError
 if TYPE_CHECKING:
     from viser import GuiButtonGroupHandle, GuiDropdownHandle
 
+# Set by its name: the inputs' own types say that a program cannot set it.
 _VALUE = "value"
-"""Set by its name: the inputs' own types say that a program cannot set it."""
 
 
 def put(handle: object, value: object) -> None:
@@ -20,10 +20,10 @@ def put(handle: object, value: object) -> None:
 
 
 def chosen(handle: GuiDropdownHandle[str] | GuiButtonGroupHandle) -> str:
-    """What is chosen among the options of an input.
+    """Return the chosen option of an input.
 
     Raises:
-        TmdError: It is none of them: the page is out of date, or it was not sent by the page.
+        TmdError: The page is out of date, or did not send the value.
     """
     value = handle.value
     if value not in handle.options:

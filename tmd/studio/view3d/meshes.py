@@ -1,4 +1,4 @@
-"""From URDF to meshes for the browser: each link that moves or changes colour becomes one GLB file."""
+"""Meshes of a URDF for the browser: each link that moves or changes colour becomes one GLB file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _GREY = (0.7, 0.7, 0.72, 1.0)
 
 @dataclass(frozen=True, slots=True)
 class MeshPiece:
-    """What is seen of a link and of the links that are fixed to it.
+    """Visible mesh of a link and of the links that are fixed to it.
 
     Attributes:
         link: The link; its frame is the piece's.
@@ -33,7 +33,7 @@ class MeshPiece:
     mesh: trimesh.Trimesh
 
     def glb(self) -> bytes:
-        """As binary glTF."""
+        """Return as binary glTF."""
         buffer = io.BytesIO()
         self.mesh.export(buffer, file_type="glb")
         return buffer.getvalue()
@@ -42,11 +42,11 @@ class MeshPiece:
 def pieces(
     root: ET.Element, apart: Collection[str] = (), paint: Callable[[str], tuple[float, ...]] | None = None
 ) -> list[MeshPiece]:
-    """The pieces of a URDF.
+    """Return the pieces of a URDF.
 
     Args:
         root: The parsed ``<robot>``; mesh files by absolute paths.
-        apart: Links that are pieces of their own although they are fixed to others.
+        apart: Links that are separate pieces although they are fixed to others.
         paint: The colour of a link: red, green, blue and alpha from 0 to 1; those of the URDF without it.
 
     Returns:
@@ -67,7 +67,7 @@ def pieces(
 
 
 def _carrier(tree: Tree | None, name: str, apart: Collection[str]) -> tuple[str, Array]:
-    """The link whose piece a link is in, and where it is in that link's frame."""
+    """Return the link whose piece a link is in, and where it is in that link's frame."""
     frame = np.eye(4)
     while tree is not None and name in tree.links and tree.links[name].kind == "fixed" and name not in apart:
         frame = tree.links[name].origin @ frame

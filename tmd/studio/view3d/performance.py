@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from tmd.robot.sim.simulator import Simulator
     from tmd.robot.skills.results import ExecutedStep
 
+# Physics steps from one picture to the next: 15 a simulated second.
 EVERY = 16
-"""Physics steps from one picture to the next: 15 a simulated second."""
 
 
 class _StoppedError(Exception):
@@ -30,7 +30,7 @@ class _StoppedError(Exception):
 
 
 class _Audience:
-    """Shows what the simulation goes through.
+    """View of a running simulation.
 
     Args:
         stage: The simulation.
@@ -60,7 +60,7 @@ class _Audience:
         self._failed = 0
 
     def __call__(self, sim: Simulator) -> None:
-        """After every step of the simulation."""
+        """Show every 16th step of the simulation."""
         if self._ended.is_set():
             raise _StoppedError
         self._ticks += 1
@@ -80,11 +80,11 @@ class _Audience:
         self._scenery.move(objects, links, self._figure.links(self._stage.cell.robot.positions()))
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """An instruction begins."""
+        """Announce an instruction."""
         self._begun(title)
 
     def end(self, title: Title, step: ExecutedStep) -> None:
-        """It is over: what it changed is seen."""
+        """Show the colours that an instruction changed."""
         for place, colour in self._look.still.colours(step.state).items():
             self._scenery.paint(place, colour)
 

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from threading import Lock
 
-from tmd.pddl.model import State
+from tmd.pddl.model import Instruction, State
 from tmd.pddl.task import Bits
 from tmd.robot.video.symbolic_renderer import Picture
 from tmd.studio.environment_view import Setting
 
+# Drawing is quick, and who draws keeps notes in what all visitors of a setting share.
 _DRAWING = Lock()
-"""Drawing is quick, and who draws keeps notes in what all visitors of a setting share."""
 
 
 class Reel:
@@ -37,12 +37,20 @@ class Reel:
         self.states = tuple(states)
         del self._pictures[max(same, 1) :]
 
+    def follow(self, plan: Iterable[Instruction]) -> None:
+        """Hold the states that the instructions of a plan lead through; each of them must apply."""
+        task = self.setting.world.task
+        states = [task.init]
+        for instruction in plan:
+            states.append(task.by_instruction[instruction].apply(states[-1]))
+        self.become(states)
+
     def facts(self, step: int) -> State:
-        """What holds after so many steps."""
+        """Return the facts after a number of steps."""
         return self.setting.world.task.decode(self.states[step])
 
     def picture(self, step: int) -> Picture | None:
-        """How it looks then; ``None`` where there is nothing to see."""
+        """Return the picture after a number of steps; ``None`` where there is nothing to see."""
         look = self.setting.look
         if look is None:
             return None

@@ -16,12 +16,12 @@ from tmd.robot.sim.pose import Pose
 from tmd.robot.video.symbolic_renderer import HANDS
 from tmd.studio.view3d.meshes import MeshPiece, pieces
 
+# Metres: how high it is lifted.
 _TORSO = 0.15
-"""Metres: how high it is lifted."""
+# Radians: it looks down a little.
 _NOD = 0.35
-"""Radians: it looks down a little."""
+# From where the posture of an arm that holds something is sought.
 _OUT = (0.0, 0.3, 0.0, -1.2, 0.0, -0.6, 0.0)
-"""From where the posture of an arm that holds something is sought."""
 
 
 class Figure:
@@ -41,12 +41,12 @@ class Figure:
         self.pieces: tuple[MeshPiece, ...] = tuple(pieces(root, paint=robot_colour))
 
     def links(self, positions: Mapping[str, float]) -> dict[str, Pose]:
-        """Where each piece is in the world, or in the robot's frame where the base joints are not given."""
+        """Return the pose of each piece in the world, or in the robot's frame without positions of the base joints."""
         frames = self._tree.forward(positions, self._tree.links, {self._tree.root: np.eye(4)})
         return {piece.link: Pose.from_matrix(frames[piece.link]) for piece in self.pieces}
 
     def posture(self, held: int) -> dict[str, float]:
-        """Joint positions of the robot that stands there with so many things in its hands: the right one first."""
+        """Return the joint positions of the robot with a number of things in its hands, the right one first."""
         positions = {TORSO: _TORSO, HEAD[1]: _NOD}
         for index, side in enumerate(("right", "left")):
             joints, arm = self._arms[side]

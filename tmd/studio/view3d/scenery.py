@@ -1,4 +1,4 @@
-"""What one visitor sees: the room, its objects and the robot, drawn into the browser's 3D view."""
+"""3D view of one visitor: the room, its objects and the robot."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ if TYPE_CHECKING:
         SceneNodeHandle,
     )
 
+# Of the selected object, which has lines and a label as well.
 ORANGE = (230, 159, 0)
-"""Of what is selected; told from the others by its lines and its label as well."""
+# Metres: the height of the robot's eyes.
 _EYE = 1.35
-"""Metres: the height of the robot's eyes."""
+# Radians: how far the view of the whole room looks down.
 _ELEVATION = 0.66
-"""Radians: how far the view of the whole room looks down."""
+# How much of the view the room takes.
 _FILL = 0.94
-"""How much of the view the room takes."""
+# Metres: the distances that the room may be seen from.
 _LEAST, _MOST = 2.0, 60.0
-"""Metres: the distances that the room may be seen from."""
+# The root link of an object's URDF.
 _ROOT = "root"
-"""The root link of an object's URDF."""
 
 
 class Scenery:
@@ -167,7 +167,7 @@ class Scenery:
         ]
 
     def first_hit(self, eye: Sequence[float], ray: Sequence[float]) -> tuple[str, str] | None:
-        """The object, and the link of it, that is seen first from ``eye`` along ``ray``; the robot is looked through.
+        """Return the object and its link that are seen first from ``eye`` along ``ray``, looking through the robot.
 
         As clicks are: what is found is what a click there points at.
         """
@@ -184,12 +184,12 @@ class Scenery:
         return found
 
     def eyes(self, picture: Picture) -> tuple[Vector, Vector]:
-        """Where the robot's camera is, and what it looks at."""
+        """Return the place of the robot's camera, and the point that it looks at."""
         robot = picture.robot
         return robot.apply((0.2, 0.0, _EYE)), robot.apply((0.9, 0.0, 1.0))
 
     def overview(self, fov: float, aspect: float, covered: float = 0.0) -> tuple[Vector, Vector]:
-        """The nearest place, from the open side of the room, from where everything is seen; and what to look at.
+        """Return the nearest place, from the open side of the room, from where everything is seen; and what to look at.
 
         Args:
             fov: Radians that are seen from the lower to the upper edge of the view.
@@ -214,7 +214,7 @@ class Scenery:
         return _vector(eye), _vector(eye + distance * forward)
 
     def _corners(self, name: str) -> NDArray[np.float64]:
-        """The corners of an object's box in the world."""
+        """Return the corners of an object's box in the world."""
         model, pose = self._look.still.blueprints[name].model, self._look.first.poses[name]
         box = [(model.low[i], model.high[i]) for i in range(3)]
         return np.array([pose.apply((x, y, z)) for x in box[0] for y in box[1] for z in box[2]])
@@ -226,7 +226,7 @@ def _vector(values: NDArray[np.float64]) -> Vector:
 
 
 def _distance(mesh: Trimesh, start: NDArray[np.float64], way: NDArray[np.float64]) -> float:
-    """How many times ``way`` it is from ``start`` to the surface; infinite where that is not met (Möller, Trumbore)."""
+    """Return the distance from ``start`` to the surface in units of ``way``; infinite without a hit."""
     low, high = mesh.bounds
     with np.errstate(divide="ignore", invalid="ignore"):
         ends = np.array([(low - start) / way, (high - start) / way])
@@ -245,7 +245,7 @@ def _distance(mesh: Trimesh, start: NDArray[np.float64], way: NDArray[np.float64
 
 
 def _edges(low: tuple[float, ...], high: tuple[float, ...]) -> NDArray[np.float64]:
-    """The twelve edges of a box: (12, 2, 3)."""
+    """Return the twelve edges of a box: (12, 2, 3)."""
     corners = [[(low, high)[(index >> axis) & 1][axis] for axis in range(3)] for index in range(8)]
     pairs = [(one, one | 1 << axis) for one in range(8) for axis in range(3) if not one & 1 << axis]
     return np.array([[corners[one], corners[other]] for one, other in pairs])

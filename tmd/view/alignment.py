@@ -1,4 +1,4 @@
-"""What was predicted beside what the person did, step by step."""
+"""Alignment of two sequences of instructions, step by step."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from enum import StrEnum
 
 
 class Mark(StrEnum):
-    """What became of a step. All but ``MATCH`` cost one in the edit distance of IED."""
+    """Kind of an aligned step. All but ``MATCH`` cost one in the edit distance of IED."""
 
     MATCH = "match"
     SUBSTITUTED = "substituted"
@@ -33,7 +33,7 @@ class AlignedStep:
 
 
 def words(instruction: str) -> tuple[str, ...]:
-    """The words of an instruction as it is written, ``keep(mug1, sink1, on)`` or ``keep Mug_1 On Sink``, in lower case.
+    """Return the lower-case words of an instruction, ``keep(mug1, sink1, on)`` or ``keep Mug_1 On Sink``.
 
     The first is the instruction's name.
     """
@@ -41,12 +41,12 @@ def words(instruction: str) -> tuple[str, ...]:
 
 
 def name(instruction: str) -> str:
-    """The name of an instruction as it is written."""
+    """Return the name of an instruction as it is written."""
     return next(iter(words(instruction)), "")
 
 
 def align(predicted: Sequence[str], gold: Sequence[str]) -> tuple[AlignedStep, ...]:
-    """A Levenshtein alignment: as few steps that do not match as possible.
+    """Return a Levenshtein alignment: as few steps that do not match as possible.
 
     Of several such alignments one that puts most instructions of the same name beside each other is taken, as it
     reads best; of those, the one that matches earliest.
@@ -69,10 +69,10 @@ def align(predicted: Sequence[str], gold: Sequence[str]) -> tuple[AlignedStep, .
     return tuple(steps)
 
 
+# One edit; more than any number of strangers, which are counted below it.
 _EDIT = 1 << 20
-"""One edit; more than any number of strangers, which are counted below it."""
+# A step that is not aligned with one of its name.
 _STRANGER = 1
-"""A step that stands beside nothing of its name."""
 _ALONE = _EDIT + _STRANGER
 
 
@@ -83,7 +83,7 @@ def _beside(a: tuple[str, ...], b: tuple[str, ...]) -> int:
 
 
 def _costs(mine: Sequence[tuple[str, ...]], theirs: Sequence[tuple[str, ...]]) -> list[list[int]]:
-    """``costs[i][j]``: the least cost of aligning what follows i and j."""
+    """Return ``costs[i][j]``: the least cost of aligning what follows i and j."""
     m = len(theirs)
     below = [_ALONE * (m - j) for j in range(m + 1)]
     costs = [below]
