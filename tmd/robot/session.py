@@ -112,14 +112,14 @@ class SimulationSession:
         Returns:
             How it went; listeners were told where in the plan each step stands.
         """
-        plan = [order.instruction for order in orders]
         robot = RobotPerformer(self.cell, self.skills)
         performer: Performer = robot if wrap is None else wrap(robot)
-        recorder = Recorder(performer, orders, (_Signs(self), *listeners))
+        recorder = Recorder(orders, (_Signs(self), *listeners))
         executor = Executor(
-            self.problem, self._observer, recorder, planner=planner, most_repairs=repairs, watch=recorder.watch
-        )
-        return executor.execute(plan)
+            self.problem, self._observer, performer, planner=planner, most_repairs=repairs,
+            begin=recorder.begin, watch=recorder.end,
+        )  # fmt: skip
+        return executor.execute([order.instruction for order in orders])
 
 
 class _Signs:

@@ -197,9 +197,6 @@ class Performer(Protocol):
         ...
 
 
-Watcher = Callable[[ExecutedStep], None]
-
-
 class Executor:
     """Executes plans and checks each step.
 
@@ -209,7 +206,8 @@ class Executor:
         performer: Does the instructions.
         planner: Which planner replans.
         most_repairs: How often.
-        watch: Is told each step when it is over.
+        begin: Called before each instruction, with the facts that it should bring about.
+        watch: Called with each finished step.
     """
 
     def __init__(
@@ -220,13 +218,15 @@ class Executor:
         *,
         planner: str = IN_PROCESS,
         most_repairs: int = MOST_REPAIRS,
-        watch: Watcher | None = None,
+        begin: Callable[[Instruction, Collection[GroundAtom]], None] = lambda instruction, gains: None,
+        watch: Callable[[ExecutedStep], None] = lambda step: None,
     ) -> None:
         self.problem = problem
         self.observer = observer
         self.performer = performer
         self.planner = planner
         self.most_repairs = most_repairs
+        self.begin = begin
         self.watch = watch
 
     def execute(self, plan: Sequence[Instruction]) -> Execution:
@@ -296,6 +296,7 @@ class Executor:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
         key = instruction, self.performer.situation()
+        self.begin(instruction, predicted - state)
         try:
             evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
@@ -317,8 +318,7 @@ class Executor:
             instruction, repair, failure, evidence, effects, tuple(mismatches), begin, self.performer.clock, now
         )
         self._steps.append(step)
-        if self.watch is not None:
-            self.watch(step)
+        self.watch(step)
         return step, now
 
     def _still_lost(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:

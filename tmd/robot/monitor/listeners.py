@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 from tmd.pddl.model import GroundAtom, Instruction
-from tmd.robot.monitor.executor import Performer
 from tmd.robot.skills.results import ExecutedStep
 
 
@@ -60,45 +59,29 @@ class Listener(Protocol):
 
 
 class Recorder:
-    """Stands between an executor and a performer, and tells listeners where in the plan the run is.
+    """Tells listeners where in the plan a run is.
 
-    Give it to :class:`tmd.robot.monitor.executor.Executor` as the performer, and :meth:`watch` as ``watch``.
+    Its methods are the callbacks ``begin`` and ``watch`` of :class:`tmd.robot.monitor.executor.Executor`.
 
     Args:
-        performer: Does the instructions.
         orders: The plan.
-        listeners: Who is told.
+        listeners: Receivers of all events, in this order.
     """
 
-    def __init__(self, performer: Performer, orders: Sequence[Order], listeners: Sequence[Listener]) -> None:
-        self._performer = performer
+    def __init__(self, orders: Sequence[Order], listeners: Sequence[Listener]) -> None:
         self._orders = tuple(orders)
         self._listeners = tuple(listeners)
         self._next = 0
         self._open = False
 
-    @property
-    def clock(self) -> int:
-        """The performer's."""
-        return self._performer.clock
-
-    def situation(self) -> Hashable:
-        """The performer's."""
-        return self._performer.situation()
-
-    def idle(self, instruction: Instruction) -> bool:
-        """The performer's."""
-        return self._performer.idle(instruction)
-
-    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
-        """Tell that it begins, and let it be done."""
+    def begin(self, instruction: Instruction, gains: Collection[GroundAtom]) -> None:
+        """Announce an instruction that should bring about ``gains``."""
         title = self._title(instruction, self._place(instruction))
         for listener in self._listeners:
             listener.begin(title, sorted(gains))
-        return self._performer.perform(instruction, gains, attempt)
 
-    def watch(self, step: ExecutedStep) -> None:
-        """Tell that a step is over."""
+    def end(self, step: ExecutedStep) -> None:
+        """Report a finished step."""
         place = None if step.repair else self._place(step.instruction)
         title = self._title(step.instruction, place)
         if place is not None:

@@ -9,68 +9,32 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 from math import hypot, pi, sin
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tmd.robot.parameters import ARM_MOTION
-from tmd.robot.pr2.collision import CollisionChecker, CollisionModel, Held, Ignored
-from tmd.robot.pr2.ik import ArmKinematics
+from tmd.robot.pr2.collision import CollisionChecker, Held, Ignored
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import plan, shorten
-from tmd.robot.pr2.trajectory_following import JointGroup, exact
+from tmd.robot.pr2.trajectory_following import exact
 from tmd.robot.pr2.urdf import ARM
 from tmd.robot.sim.pose import Pose, Quaternion
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
 
 Arm = tuple[float, ...]
 Base = tuple[float, float, float]
 
 STRIDES = np.array([0.04, 0.04, 0.06, 0.06, 0.12, 0.12, 0.25])
 """How far each joint may move between two checks: 2 to 4 cm at the hand."""
-_ENDLESS = (4, 6)
 _TRACK_WORK = 80
 """Microseconds of following a pose, about."""
 
 
-class ArmModel(CollisionModel, Protocol):
-    """What planning for an arm asks of a robot besides; base and torso may be given as if they were elsewhere."""
-
-    arm_kinematics: dict[str, ArmKinematics]
-    arm_joints: dict[str, tuple[str, ...]]
-    arm_groups: dict[str, JointGroup]
-
-    def torso(self) -> float:
-        """The height of the torso joint."""
-
-    def arm(self, side: str) -> tuple[float, ...]:
-        """The seven joint positions of an arm."""
-
-    def base_link(self, base: Base | None = None) -> Pose:
-        """The frame base_link for a pose of the base."""
-
-    def elsewhere(self, base: Base | None = None, torso: float | None = None) -> dict[str, float]:
-        """Joint positions of a base and a torso that would be elsewhere."""
-
-    def solve(
-        self,
-        side: str,
-        tool: Pose,
-        *,
-        base: Base | None = None,
-        torso: float | None = None,
-        seed: Sequence[float] | None = None,
-    ) -> list[tuple[float, ...]]:
-        """Arm positions that bring a tool frame to a pose of the world."""
-
-    def keeps_level(self, side: str) -> bool | None:
-        """Whether what a hand holds must stay upright on its way (True), should if it can (False), or need not."""
-
-    def tool_at(self, side: str, arm: Sequence[float], *, base: Base | None = None, torso: float | None = None) -> Pose:
-        """Where the tool frame would be in the world."""
-
-
 def plan_arm(
-    robot: ArmModel,
+    robot: Pr2,
     side: str,
     goal: Sequence[float],
     *,
@@ -104,7 +68,7 @@ def plan_arm(
 
 
 def _plan_arm(
-    robot: ArmModel,
+    robot: Pr2,
     side: str,
     goal: Sequence[float],
     ignore: Ignored,
@@ -164,7 +128,7 @@ class _Upright:
         last: Where it goes.
     """
 
-    def __init__(self, robot: ArmModel, side: str, first: Array, last: Array) -> None:
+    def __init__(self, robot: Pr2, side: str, first: Array, last: Array) -> None:
         self._kinematics = robot.arm_kinematics[side]
         self._torso = robot.torso()
         held = next(held for held in robot.helds() if held.side == side)
@@ -200,7 +164,7 @@ class _Upright:
 
 
 def plan_line(
-    robot: ArmModel,
+    robot: Pr2,
     side: str,
     start: Pose,
     end: Pose,
@@ -227,7 +191,7 @@ def plan_line(
     return plan_poses(robot, side, poses, ignore=ignore, arm=arm)
 
 
-def plan_level(robot: ArmModel, side: str, goal: Pose, *, ignore: Ignored = ()) -> list[Arm] | None:
+def plan_level(robot: Pr2, side: str, goal: Pose, *, ignore: Ignored = ()) -> list[Arm] | None:
     """A way of a hand in straight lines, on which what it holds leans no more than at its ends.
 
     Straight there; or back towards the robot, or up, or both, before and after that.
@@ -272,7 +236,7 @@ def _aside(base: Pose, pose: Pose, up: float, back: float) -> Pose:
 
 
 def plan_poses(
-    robot: ArmModel,
+    robot: Pr2,
     side: str,
     poses: Sequence[Pose],
     *,
@@ -342,7 +306,7 @@ def _along(
     return rows if len(poses) > 1 or checker.free(np.array(rows)) else None
 
 
-def _first_rows(robot: ArmModel, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:
+def _first_rows(robot: Pr2, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:
     """The arm as it is, if its tool is at ``pose``; else solutions that differ, nearest first."""
     now = robot.arm(side)
     tool = robot.tool_at(side, now, base=base, torso=torso)

@@ -10,16 +10,19 @@ from collections.abc import Iterator
 from heapq import heappop, heappush
 from itertools import pairwise
 from math import hypot, inf, pi, tau
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tmd.robot.parameters import BASE_MOTION
-from tmd.robot.pr2.collision import CollisionChecker, CollisionModel, Ignored
+from tmd.robot.pr2.collision import CollisionChecker, Ignored
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import shorten
-from tmd.robot.pr2.trajectory_following import JointGroup, exact
+from tmd.robot.pr2.trajectory_following import exact
 from tmd.robot.pr2.urdf import BASE_JOINTS
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
 
 Base = tuple[float, float, float]
 Place = tuple[int, int]
@@ -31,17 +34,8 @@ _ALL_HEADINGS = sorted(range(-BASE_MOTION.grid_headings // 2, BASE_MOTION.grid_h
 _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 
 
-class BaseModel(CollisionModel, Protocol):
-    """What planning for the base asks of a robot besides."""
-
-    base_group: JointGroup
-
-    def base(self) -> tuple[float, float, float]:
-        """Where the base is: x, y, theta."""
-
-
 def plan_base(
-    robot: BaseModel,
+    robot: Pr2,
     goal: Base,
     *,
     ignore: Ignored = (),

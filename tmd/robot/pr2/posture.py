@@ -2,46 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import pi, tau
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tmd.robot.parameters import ARM_MOTION
-from tmd.robot.pr2.arm_motion import ArmModel, plan_arm, plan_level, plan_line
-from tmd.robot.pr2.collision import Collision
+from tmd.robot.pr2.arm_motion import plan_arm, plan_level, plan_line
 from tmd.robot.sim.pose import Pose
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
 
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
 
 
-class PostureModel(ArmModel, Protocol):
-    """What folding the arms asks of a robot besides."""
-
-    arms: tuple[str, str]
-    rng: np.random.Generator
-
-    def base(self) -> tuple[float, float, float]:
-        """Where the base is: x, y, theta."""
-
-    def tool(self, side: str) -> Pose:
-        """The tool frame of a hand in the world."""
-
-    def held(self, side: str) -> int | None:
-        """The body that a hand holds."""
-
-    def move_arm(self, side: str, path: Sequence[Sequence[float]]) -> bool:
-        """Move an arm along a path."""
-
-    def collides(self, *, side: str | None = None, arm: Sequence[float] | None = None) -> list[Collision]:
-        """What the robot would touch."""
-
-    def clear(self, side: str, arms: Sequence[Sequence[float]]) -> list[bool]:
-        """For many positions of one arm, whether they touch nothing."""
-
-
-def tuck(robot: PostureModel, budget: int = ARM_MOTION.tuck_samples) -> bool:
+def tuck(robot: Pr2, budget: int = ARM_MOTION.tuck_samples) -> bool:
     """Fold both arms, each along a collision-free path; an arm that is in the other's way is moved first.
 
     Args:
@@ -57,13 +34,13 @@ def tuck(robot: PostureModel, budget: int = ARM_MOTION.tuck_samples) -> bool:
     return not waiting
 
 
-def _tuck_arm(robot: PostureModel, side: str, budget: int) -> bool:
+def _tuck_arm(robot: Pr2, side: str, budget: int) -> bool:
     if robot.held(side) is not None:
         return _in_front(robot, side) or _carry(robot, side, budget // 3)
     return _fold(robot, side, budget) or _carry(robot, side, budget // 3)
 
 
-def _fold(robot: PostureModel, side: str, budget: int) -> bool:
+def _fold(robot: Pr2, side: str, budget: int) -> bool:
     for goal in _folded(robot, side):
         (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
         if np.max(np.abs(near - goal)) < ARM_MOTION.there:
@@ -74,7 +51,7 @@ def _fold(robot: PostureModel, side: str, budget: int) -> bool:
     return False
 
 
-def _folded(robot: PostureModel, side: str) -> list[tuple[float, ...]]:
+def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
     """The tucked posture; the nearest free one like it where it touches something at which the robot stands."""
     usual = robot.model.tucked[side]
     others = [
@@ -90,7 +67,7 @@ def _folded(robot: PostureModel, side: str) -> list[tuple[float, ...]]:
     )
 
 
-def _carry(robot: PostureModel, side: str, budget: int) -> bool:
+def _carry(robot: Pr2, side: str, budget: int) -> bool:
     """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
@@ -125,7 +102,7 @@ def _carry(robot: PostureModel, side: str, budget: int) -> bool:
     return False
 
 
-def _in_front(robot: PostureModel, side: str) -> bool:
+def _in_front(robot: Pr2, side: str) -> bool:
     """Whether a hand is in front of the robot, where it may be for driving."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     x, y, z = (base.inverse() * robot.tool(side)).position

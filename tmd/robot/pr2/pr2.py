@@ -19,11 +19,10 @@ from pathlib import Path
 import numpy as np
 
 from tmd.robot.assets.colours import robot_colour
-from tmd.robot.parameters import ARM_MOTION, MOTOR
+from tmd.robot.parameters import MOTOR
 from tmd.robot.pr2.collision import Collision, CollisionChecker, Held, Ignored, LinkBox, link_boxes
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree
-from tmd.robot.pr2.posture import tuck
 from tmd.robot.pr2.trajectory import unwound
 from tmd.robot.pr2.trajectory_following import JointGroup, hold, jump, run
 from tmd.robot.pr2.urdf import BASE_JOINTS, HEAD, TOOL, TORSO, prepare
@@ -60,7 +59,8 @@ class Pr2:
         movable: The numbers of all joints that move.
         arm_joints: The names of the seven joints of each arm.
         arm_groups: The drives of the arms.
-        keeps_level: See :class:`tmd.robot.pr2.arm_motion.ArmModel`; who knows what the hands hold sets it.
+        keeps_level: Whether what a hand holds must stay upright on its way (True), should if possible (False) or need
+            not (None). Set by :class:`tmd.robot.skills.robot_context.Cell`.
 
     Raises:
         MissingToolError: pybullet or the robot's package is not installed.
@@ -326,17 +326,6 @@ class Pr2:
     def _carry(self) -> None:
         for side, (body, _, grip) in sorted(self._held.items()):
             self.sim.set_pose(body, self.tool(side) * grip)
-
-    def tuck(self, budget: int = ARM_MOTION.tuck_samples) -> bool:
-        """Fold the arms for driving; a hand that holds something brings it to the front as upright as it is held.
-
-        Args:
-            budget: Samples for the path of an arm.
-
-        Returns:
-            Whether both arms arrived. Paths are planned with the robot's own generator.
-        """
-        return tuck(self, budget)
 
     # the head
 

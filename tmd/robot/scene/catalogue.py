@@ -7,7 +7,7 @@ from tmd.robot.assets.features import Opening, Region
 from tmd.robot.assets.shapes import Blueprint, Shapes
 from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.scene.furniture_layout import Footprint
-from tmd.robot.sim.pose import Vector
+from tmd.robot.sim.pose import Pose, Vector
 from tmd.world.classes import ROOT as CLASS_ROOT
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
@@ -116,6 +116,18 @@ class Catalogue:
         """The item's rectangle on what it stands on."""
         low, high = self.size(item)
         return (low[0], low[1], high[0], high[1])
+
+    def frame(self, whole: str, link: str) -> Pose:
+        """Return the pose of a link of an object now."""
+        raise NotImplementedError
+
+    def pose_of(self, item: str) -> Pose:
+        """Return the pose of an object now."""
+        raise NotImplementedError
+
+    def top_of(self, item: str) -> float:
+        """Return the height of the highest point of an object now."""
+        raise NotImplementedError
 
     def regions(self, name: str, relation: str | None = None) -> list[tuple[str, Region]]:
         """The regions of an object or part, each with the object; those of one relation if it is given."""

@@ -167,22 +167,11 @@ class Scene(Inventory):
     # ------------------------------------------------------------------ where things may stand, and stand
 
     def support(self, name: str, relation: str, item: str | None = None, held: Collection[str] = ()) -> list[Spot]:
-        """Free places on, in or next to something as it is now, best first.
-
-        Args:
-            name: An object or part, or the floor.
-            relation: ``on``, ``in`` or ``next_to``.
-            item: What is to stand there; without it, a thing 7 cm wide is meant.
-            held: What is in a hand, and takes no place away.
-        """
+        """Return free places: see :func:`tmd.robot.scene.support_relations.free_spots`."""
         return free_spots(self, self.room, name, relation, item, held)
 
     def supported(self, item: str) -> tuple[str, str] | None:
-        """What the item physically is on, in or next to now, and how; None while it is in the air or in a hand.
-
-        Where the middle of its underside is decides, together with what it touches: itself or, in a vessel or on
-        another item, through that.
-        """
+        """Return what an item is at: see :func:`tmd.robot.scene.support_relations.supported`."""
         return supported(self, item)
 
     # ------------------------------------------------------------------ what can be taken and worked

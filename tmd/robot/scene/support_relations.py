@@ -6,12 +6,12 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import Protocol
 
-from tmd.robot.assets.features import Opening, Region
+from tmd.robot.assets.features import Region
 from tmd.robot.assets.urdf_builder import ROOT
+from tmd.robot.scene.catalogue import FLOOR, Catalogue
 from tmd.robot.scene.furniture_layout import Footprint, Room, apart, floor_spots, inside
-from tmd.robot.scene.inventory import FLOOR, Inventory
+from tmd.robot.scene.inventory import Inventory
 from tmd.robot.scene.placement import TURNS
 from tmd.robot.sim.pose import Pose, Vector
 
@@ -43,54 +43,19 @@ class Spot:
     outlet: str = ""
 
 
-class Things(Protocol):
-    """What has to be known of a scene to find free places in it."""
-
-    def items(self) -> list[str]:
-        """All items."""
-        ...
-
-    def whole(self, name: str) -> str:
-        """The object that an object or part belongs to."""
-        ...
-
-    def footprint(self, item: str) -> Footprint:
-        """The item's rectangle on what it stands on."""
-        ...
-
-    def size(self, item: str) -> tuple[Vector, Vector]:
-        """The item's box in its own frame."""
-        ...
-
-    def opening(self, item: str) -> Opening | None:
-        """The rim of a vessel."""
-        ...
-
-    def spouts(self, whole: str) -> dict[str, Vector]:
-        """Where streams leave an object, in its own frame."""
-        ...
-
-    def regions(self, name: str, relation: str | None = None) -> list[tuple[str, Region]]:
-        """The regions of an object or part, each with the object."""
-        ...
-
-    def frame(self, whole: str, link: str) -> Pose:
-        """Where a link of an object is now."""
-        ...
-
-    def pose_of(self, item: str) -> Pose:
-        """Where an object is now."""
-        ...
-
-    def top_of(self, item: str) -> float:
-        """The height of its highest point now."""
-        ...
-
-
 def free_spots(
-    things: Things, room: Room, name: str, relation: str, item: str | None, held: Collection[str] = ()
+    things: Catalogue, room: Room, name: str, relation: str, item: str | None, held: Collection[str] = ()
 ) -> list[Spot]:
-    """Free places on, in or next to something, best first; see :meth:`tmd.robot.scene.scene.Scene.support`."""
+    """Return free places on, in or next to something as it is now, best first.
+
+    Args:
+        things: The scene.
+        room: Its walls.
+        name: An object or part, or the floor.
+        relation: ``on``, ``in`` or ``next_to``.
+        item: What is to stand there; None: a thing 7 cm wide.
+        held: Items in a hand, which take no place away.
+    """
     own = things.footprint(item) if item is not None else (-0.035, -0.035, 0.035, 0.035)
     names = [other for other in things.items() if other not in (item, things.whole(name), *held)]
     others = {other: (things.pose_of(other), things.footprint(other)) for other in names}
@@ -126,7 +91,7 @@ def free_spots(
 
 
 def _under_spouts(
-    things: Things, whole: str, region: Region, own: Footprint, near: dict[str, tuple[Pose, Footprint]]
+    things: Catalogue, whole: str, region: Region, own: Footprint, near: dict[str, tuple[Pose, Footprint]]
 ) -> list[Spot]:
     """Where a stream would run into a vessel: its middle is below the spout."""
     frame = things.frame(whole, region.link)
@@ -169,7 +134,7 @@ def _squeezed_in(frame: Pose, region: Region, own: Footprint, near: Mapping[str,
 
 
 def _heaped(
-    things: Things, poses: list[Pose], own: Footprint, near: dict[str, tuple[Pose, Footprint]], rim: float
+    things: Catalogue, poses: list[Pose], own: Footprint, near: dict[str, tuple[Pose, Footprint]], rim: float
 ) -> list[Pose]:
     """The same spots, on top of what lies there."""
     found = []
@@ -182,7 +147,11 @@ def _heaped(
 
 
 def supported(things: Inventory, item: str) -> tuple[str, str] | None:
-    """What an item is on, in or next to, and how; see :meth:`tmd.robot.scene.scene.Scene.supported`."""
+    """Return what an item is on, in or next to now, and the relation; None while it is in the air or in a hand.
+
+    The middle of its underside decides, together with what it touches: itself or, in a vessel or on another item,
+    through that.
+    """
     touched = _touched(things, item)
     if not touched:
         return None

@@ -1,4 +1,4 @@
-"""A pybullet world before anything is in it: the connection, its clock, its camera, its saved states."""
+"""A pybullet world before anything is in it: the connection, its clock, its camera."""
 
 from __future__ import annotations
 
@@ -112,7 +112,7 @@ class Engine:
         for watcher in tuple(self._watchers):
             watcher(self)
 
-    # pictures and states
+    # pictures
 
     def picture(
         self,
@@ -157,16 +157,3 @@ class Engine:
             )
         pixels = np.asarray(image[2], dtype=np.uint8).reshape(height, width, 4)
         return np.ascontiguousarray(pixels[:, :, :3])
-
-    def save(self) -> int:
-        """Keep positions, velocities and contacts in memory (8 ms). Constraints and motor targets are not in it."""
-        token: int = self._bullet.saveState(physicsClientId=self.client)
-        return token
-
-    def restore(self, token: int) -> None:
-        """Make the world as it was when ``token`` was given; bodies must be the same."""
-        self._bullet.restoreState(token, physicsClientId=self.client)
-
-    def forget(self, token: int) -> None:
-        """Free the memory of a saved state."""
-        self._bullet.removeState(token, physicsClientId=self.client)

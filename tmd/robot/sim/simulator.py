@@ -1,4 +1,4 @@
-"""One pybullet world: the only class that knows how pybullet is called (in three layers: engine, bodies, this one).
+"""One pybullet world: the only class that knows how pybullet is called, on top of the engine.
 
 Metres, kilograms, radians, seconds; the floor is z = 0 and z is up. A *body* is a number that :meth:`Simulator.load`
 gives, a *link* is the number of the joint that carries it, and −1 is the root. Poses are those of the frames in the
@@ -9,11 +9,10 @@ The world is deterministic: the same calls in the same order give the same float
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -47,14 +46,42 @@ class Joint:
     link_name: str
 
 
-class Bodies(Engine):
-    """A world with bodies; the arguments are those of :class:`tmd.robot.sim.engine.Engine`."""
+# Asked for a distance of 0, Bullet uses other algorithms, which find nothing between most bodies that overlap (metres).
+_LEAST_DISTANCE = 1e-6
+# Approximate cost of a distance query, in microseconds.
+_QUERY_WORK = 18
+WELD_FORCE = 500.0
+"""Maximum force of a weld or a pin, in newtons: more than any item weighs, and less than what tears furniture."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A link near another body, and the distance between the surfaces (negative: they overlap)."""
+
+    link: int
+    distance: float
+
+
+@dataclass(frozen=True, slots=True)
+class Hit:
+    """First surface on a ray."""
+
+    body: int
+    link: int
+    position: Vector
+
+
+class Simulator(Engine):
+    """A world with bodies that move, meet and are held; the arguments are those of the engine."""
 
     def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
         super().__init__(gui=gui, pictures=pictures)
         self._inertial: dict[int, Pose] = {}
         self._sleepers: set[int] = set()
         self._names: dict[int, dict[str, Joint]] = {}
+        self._joined: dict[int, tuple[int, int]] = {}
+
+    # bodies
 
     def load(
         self,
@@ -106,14 +133,6 @@ class Bodies(Engine):
         # the root's frame is meant, whatever the file says about its centre of mass
         self.set_pose(body, pose)
         return body
-
-    def remove(self, body: int) -> None:
-        """Take a body out of the world."""
-        self.wake()
-        self._bullet.removeBody(body, physicsClientId=self.client)
-        self._inertial.pop(body, None)
-        self._sleepers.discard(body)
-        self._names.pop(body, None)
 
     def bodies(self) -> list[int]:
         """All bodies, in the order they were loaded in."""
@@ -197,60 +216,6 @@ class Bodies(Engine):
         bullet = self._bullet
         links = range(-1, bullet.getNumJoints(body, physicsClientId=self.client))
         return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self.client)]
-
-
-_LEAST_DISTANCE = 1e-6
-"""Metres. Asked for 0, Bullet uses other algorithms, which find nothing between most bodies that are in each other."""
-_QUERY_WORK = 18
-"""Microseconds of asking what touches or is near, about."""
-WELD_FORCE = 500.0
-"""Newtons that a weld or a pin may pull with: more than any item weighs, and less than what tears furniture."""
-
-
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """Two links that touch, or that are near each other.
-
-    Attributes:
-        body: The body asked about.
-        link: Its link.
-        other: The other body.
-        other_link: Its link.
-        distance: Between the surfaces; negative where they are in each other.
-        force: Of the contact along its normal, in newtons; 0 for distances.
-        position: On ``body``, in the world.
-    """
-
-    body: int
-    link: int
-    other: int
-    other_link: int
-    distance: float
-    force: float
-    position: Vector
-
-
-@dataclass(frozen=True, slots=True)
-class Hit:
-    """What a ray met first."""
-
-    body: int
-    link: int
-    position: Vector
-
-
-class Simulator(Bodies):
-    """A world with bodies that move, meet and are held.
-
-    Args:
-        gui: Open a window. Needs a display.
-        pictures: Draw by EGL where it starts. This must be known before anything is loaded; without it, pictures are
-            drawn by pybullet's own slower renderer.
-    """
-
-    def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
-        super().__init__(gui=gui, pictures=pictures)
-        self._joined: dict[int, tuple[int, int]] = {}
 
     # joints
 
@@ -384,31 +349,20 @@ class Simulator(Bodies):
 
     # what touches, what is near, what is seen
 
-    def contacts(self, body: int, other: int | None = None) -> list[Contact]:
-        """What ``body`` touched in the last step."""
-        return self._contacts(self._bullet.getContactPoints, {}, body, other, None, None)
-
     def closest(
         self, body: int, other: int, distance: float, link: int | None = None, other_link: int | None = None
     ) -> list[Contact]:
-        """What is not farther away than ``distance`` now, with 0 what touches; no step is needed."""
-        options = {"distance": max(distance, _LEAST_DISTANCE)}
-        return self._contacts(self._bullet.getClosestPoints, options, body, other, link, other_link)
+        """Return the links of ``body`` that are at most ``distance`` from another body; with 0: that touch it.
 
-    def _contacts(
-        self,
-        query: Callable[..., Sequence[Sequence[Any]] | None],
-        options: dict[str, float],
-        body: int,
-        other: int | None,
-        link: int | None,
-        other_link: int | None,
-    ) -> list[Contact]:
-        asked = {"bodyB": other, "linkIndexA": link, "linkIndexB": other_link}
+        No step is needed.
+        """
+        asked = {"linkIndexA": link, "linkIndexB": other_link}
         chosen = {name: value for name, value in asked.items() if value is not None}
         self.work += _QUERY_WORK
-        points = query(bodyA=body, **chosen, **options, physicsClientId=self.client) or ()
-        return [_contact(point, body) for point in points]
+        points = self._bullet.getClosestPoints(
+            bodyA=body, bodyB=other, **chosen, distance=max(distance, _LEAST_DISTANCE), physicsClientId=self.client
+        )
+        return [Contact(point[3] if point[1] == body else point[4], point[8]) for point in points or ()]
 
     def ray(self, start: Sequence[float], end: Sequence[float]) -> Hit | None:
         """What a straight line from ``start`` to ``end`` meets first."""
@@ -418,11 +372,3 @@ class Simulator(Bodies):
     def colour(self, body: int, link: int, rgba: Sequence[float]) -> None:
         """Paint a link; each value in [0, 1]."""
         self._bullet.changeVisualShape(body, link, rgbaColor=rgba, physicsClientId=self.client)
-
-
-def _contact(point: Sequence[Any], body: int) -> Contact:
-    """A row of getContactPoints or getClosestPoints, seen from ``body``."""
-    _, first, second, link, other_link, on_first, on_second, _, distance, force, *_ = point
-    if first != body:
-        first, second, link, other_link, on_first = second, first, other_link, link, on_second
-    return Contact(first, link, second, other_link, distance, force, on_first)

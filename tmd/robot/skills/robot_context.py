@@ -15,6 +15,7 @@ from tmd.robot.parameters import ARTICULATION, BASE_MOTION, CONTACT, GRASP, TIME
 from tmd.robot.pr2.arm_motion import plan_line
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.collision import Ignored
+from tmd.robot.pr2.posture import tuck
 from tmd.robot.pr2.pr2 import ARMS, Pr2
 from tmd.robot.scene.scene import FLOOR, Handle, Scene
 from tmd.robot.sim.pose import Pose, Vector
@@ -308,16 +309,16 @@ class Cell:
 
     def fold(self) -> bool:
         """Tuck the arms; where there is no room for that, step back as far as is needed. Whether they are tucked."""
-        if self.robot.tuck():
+        if tuck(self.robot):
             return True
         x, y, theta = self.robot.base()
         pressed = {(body, link) for _, body, link, _ in self.robot.collides() if body != self.robot.body}
         for away in BASE_MOTION.tuck_steps_back:
             back = (x - away * cos(theta), y - away * sin(theta), theta)
             path = plan_base(self.robot, back, ignore=pressed, rng=self.rng, budget=_NEARBY)
-            if path is not None and self.robot.drive(path) and self.robot.tuck():
+            if path is not None and self.robot.drive(path) and tuck(self.robot):
                 return True
-        return self.robot.tuck(_LONG)
+        return tuck(self.robot, _LONG)
 
     def retire(self, side: str, ignore: Ignored, *, lid: bool = False) -> None:
         """Draw a hand back the way it points, and tuck the arms.
