@@ -13,7 +13,7 @@ from __future__ import annotations
 import hashlib
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,10 +29,10 @@ from tmd.robot.assets.features import Frame, Grasp, Grip
 from tmd.robot.assets.fittings import DOWN, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfLink, UrdfModel
 from tmd.robot.assets.vessels import CLEARANCE, WIDEST, contents, grasp, rim_grasps
-from tmd.robot.pr2.kinematics import Tree, origin
+from tmd.robot.pr2.kinematics import Tree, angles, origin, set_origin, shape_points
 from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, read_urdf
+from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, mesh_library, read_urdf
 from tmd.world.shape import GraspEntry, HandleEntry, RegionEntry, Shape
 
 if TYPE_CHECKING:
@@ -111,15 +111,10 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
         ModelFault: It is no mesh.
         MissingToolError: trimesh is not installed.
     """
+    library = mesh_library()
     try:
-        import trimesh
-    except ImportError as error:
-        raise MissingToolError("reading meshes needs the package trimesh", hint=_ADVICE) from error
-    try:
-        mesh: Any = trimesh.load(path, force="mesh")
+        mesh: Any = library.load(path, force="mesh")
         sound = len(mesh.faces) > 0 and bool(np.isfinite(mesh.vertices).all())
-    except MissingToolError:
-        raise
     except Exception as error:  # its readers raise whatever a damaged file leads to
         told = " ".join(str(error).split())[:120] or type(error).__name__
         raise ModelFault(("mesh",), f"{path} is not a mesh: {told}", "name an OBJ, STL, PLY or GLB file") from error
@@ -155,49 +150,37 @@ def _copies(path: Path, shape: Shape, mesh: trimesh.Trimesh, *, solid: bool) -> 
     seen = folder / "seen.obj"
     if not seen.is_file():  # written last: where it is, everything is
         make_directory(folder)
-        for number, (vertices, faces) in enumerate(_convex(mesh, solid=solid)):
-            write_bytes(folder / f"piece{number:02d}.obj", _obj(vertices, faces))
-        write_bytes(seen, _obj(np.asarray(mesh.vertices), np.asarray(mesh.faces)))
+        for number, piece in enumerate(_convex(mesh, solid=solid)):
+            write_bytes(folder / f"piece{number:02d}.obj", _obj(piece))
+        write_bytes(seen, _obj(mesh))
     return seen, sorted(folder.glob("piece*.obj"))
 
 
-def _convex(mesh: trimesh.Trimesh, *, solid: bool) -> Iterator[tuple[Array, Array]]:
-    """Vertices and faces of convex pieces that make up the mesh."""
+def _convex(mesh: trimesh.Trimesh, *, solid: bool) -> list[trimesh.Trimesh]:
+    """Return convex pieces that make up the mesh."""
     try:
         if solid:
-            hull = mesh.convex_hull
-            yield np.asarray(hull.vertices), np.asarray(hull.faces)
-            return
+            return [mesh.convex_hull]
+        from trimesh import Trimesh
         from trimesh.decomposition import convex_decomposition
 
-        pieces = convex_decomposition(mesh, **_PIECES)
+        return [Trimesh(**piece, process=False) for piece in convex_decomposition(mesh, **_PIECES)]
     except ImportError as error:
         raise MissingToolError(f"dividing meshes needs the package {error.name}", hint=_ADVICE) from error
-    for piece in pieces:
-        yield np.asarray(piece["vertices"]), np.asarray(piece["faces"])
 
 
-def _obj(vertices: Array, faces: Array) -> bytes:
-    """An OBJ file; the triangles do not share corners, so that edges are drawn sharp."""
-    lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in vertices]
-    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
-    return "\n".join([*lines, ""]).encode()
+def _obj(mesh: trimesh.Trimesh) -> bytes:
+    """Return an OBJ file without normals, so that edges are drawn sharp."""
+    text = mesh.export(
+        file_type="obj", include_normals=False, include_color=False, include_texture=False, digits=6, header=None
+    )
+    return str(text).encode()
 
 
 def _cut(mesh: trimesh.Trimesh, height: float) -> Array:
-    """Where the mesh meets a level plane: line pieces (n, 2, 2), x and y of both ends."""
-    corners = np.asarray(mesh.triangles)
-    above = corners[:, :, 2] > height
-    crossing = corners[above.any(axis=1) & ~above.all(axis=1)]
-    ends = []
-    for one, other in ((0, 1), (1, 2), (2, 0)):
-        a, b = crossing[:, one], crossing[:, other]
-        met = (a[:, 2] > height) != (b[:, 2] > height)
-        share = np.where(met, (height - a[:, 2]) / np.where(met, b[:, 2] - a[:, 2], 1.0), np.nan)
-        ends.append(a[:, :2] + share[:, None] * (b - a)[:, :2])
-    points = np.stack(ends, axis=1)  # of the three edges of a triangle two are met
-    order = np.argsort(np.isnan(points[:, :, 0]), axis=1, kind="stable")[:, :2]
-    return np.take_along_axis(points, order[:, :, None], axis=1)
+    """Return where the mesh meets a level plane: line segments (n, 2, 2), x and y of both ends."""
+    lines: Array = mesh_library().intersections.mesh_plane(mesh, (0.0, 0.0, 1.0), (0.0, 0.0, height))
+    return lines[:, :, :2]
 
 
 def _radius(mesh: trimesh.Trimesh, height: float) -> float:
@@ -210,16 +193,13 @@ def _radius(mesh: trimesh.Trimesh, height: float) -> float:
 
 
 def _bottom(mesh: trimesh.Trimesh) -> float:
-    """The height of the uppermost surface over the middle of the underside."""
-    corners = np.asarray(mesh.triangles)
-    flat, up = corners[:, :, :2] - 1e-7, corners[:, :, 2]  # beside a vertex that lies on the axis, as of a lathe
-    a, b, c = flat[:, 0], flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
-    area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
-    safe = np.where(np.abs(area) > 1e-18, area, np.inf)
-    v, w = (-(a[:, 0] * c[:, 1] - a[:, 1] * c[:, 0])) / safe, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / safe
-    over = (v >= -1e-9) & (w >= -1e-9) & (v + w <= 1 + 1e-9) & np.isfinite(safe)
-    heights = up[:, 0] + v * (up[:, 1] - up[:, 0]) + w * (up[:, 2] - up[:, 0])
-    return float(heights[over].max()) if over.any() else 0.0
+    """Return the height of the uppermost surface over the middle of the underside."""
+    corners = np.asarray(mesh.triangles)[np.abs(mesh.face_normals[:, 2]) > 1e-9]
+    # beside the axis: a vertex may lie on it, as of a lathe
+    points = np.full((len(corners), 3), (1e-7, 1e-7, 0.0))
+    weights = mesh_library().triangles.points_to_barycentric(corners * (1.0, 1.0, 0.0), points)
+    over = np.all(weights >= -1e-9, axis=1)
+    return float((weights * corners[:, :, 2]).sum(axis=1)[over].max(initial=0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -439,7 +419,7 @@ def _find_meshes(source: _Source) -> None:
             raise ModelFault(("urdf",), f"{source.path}: {fault.message}", fault.hint) from None
         if found.suffix.lower() not in _READ:
             folder = cache_directory("meshes")
-            data = _obj(np.asarray(read.vertices), np.asarray(read.faces))
+            data = _obj(read)
             found = folder / f"{hashlib.sha256(data).hexdigest()[:20]}.obj"
             if not found.is_file():
                 write_bytes(found, data)
@@ -453,28 +433,11 @@ def _move_root(source: _Source, shape: Shape) -> None:
     for link in source.root.findall("link"):
         if link.get("name") == source.first:
             for each in (*link.findall("visual"), *link.findall("collision"), *link.findall("inertial")):
-                _shift(each, shift)
+                set_origin(each, shift.homogeneous() @ origin(each.find("origin")))
     for joint in source.root.findall("joint"):
         if end_of(joint, "parent") == source.first:
-            _shift(joint, shift)
+            set_origin(joint, shift.homogeneous() @ origin(joint.find("origin")))
     source.tree = Tree(source.root) if source.tree is not None else None
-
-
-def _shift(element: ET.Element, shift: Pose) -> None:
-    found = element.find("origin")
-    moved = shift.homogeneous() @ origin(found)
-    if found is None:
-        found = ET.SubElement(element, "origin")
-    found.set("xyz", _words(moved[:3, 3]))
-    found.set("rpy", _words(_angles(moved)))
-
-
-def _angles(matrix: Array) -> tuple[float, float, float]:
-    """Roll, pitch, yaw of a 4×4 matrix."""
-    pitch = math.asin(max(-1.0, min(1.0, -float(matrix[2, 0]))))
-    if abs(matrix[2, 0]) > 1 - 1e-9:  # roll and yaw turn about one line
-        return 0.0, pitch, math.atan2(-float(matrix[0, 1]), float(matrix[1, 1]))
-    return math.atan2(matrix[2, 1], matrix[2, 2]), pitch, math.atan2(matrix[1, 0], matrix[0, 0])
 
 
 def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
@@ -490,9 +453,13 @@ def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
             kind = "revolute" if joint.kind == "continuous" else joint.kind
             model.links[called] = UrdfLink(
                 called, source.link(joint.parent), kind, _vector(joint.origin[:3, 3]), _vector(joint.axis),
-                joint.lower, joint.upper, 1.0 if kind == "revolute" else 5.0, 0.0, 0.1, _angles(joint.origin),
+                joint.lower, joint.upper, 1.0 if kind == "revolute" else 5.0, 0.0, 0.1, angles(joint.origin),
             )  # fmt: skip
-        points = [_points(source, each) for each in element.findall("collision")]
+        try:
+            points = [shape_points(each) for each in element.findall("collision")]
+        except ValueError:
+            message = f"{source.path}: a <collision> has no mesh, box, cylinder or sphere with its size"
+            raise ModelFault(("urdf",), message) from None
         if points:
             cloud = np.vstack(points)
             model.links[called].boxes.append((_vector(cloud.min(axis=0)), _vector(cloud.max(axis=0))))
@@ -503,34 +470,6 @@ def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
         _weigh(model, element, called, mass)
     if not math.isfinite(model.low[0]):
         raise ModelFault(("urdf",), f"{source.path} has no collision shapes", "add <collision> to its links")
-
-
-def _points(source: _Source, collision: ET.Element) -> Array:
-    """Corners of a collision shape, in the link's frame."""
-    shape = next(iter(collision.find("geometry") or ()), None)
-    kind = None if shape is None else shape.tag
-    try:
-        if shape is not None and kind == "mesh":
-            read = read_mesh(Path(shape.get("filename", "")))
-            scale = np.array([float(word) for word in shape.get("scale", "1 1 1").split()])
-            points = np.asarray(read.bounds) * scale
-        elif shape is not None and kind == "box":
-            half = np.array([float(word) for word in shape.get("size", "").split()]) / 2
-            points = np.array([-half, half])
-        elif shape is not None and kind in ("cylinder", "sphere"):
-            radius = float(shape.get("radius", ""))
-            high = float(shape.get("length", "")) / 2 if kind == "cylinder" else radius
-            points = np.array([(-radius, -radius, -high), (radius, radius, high)])
-        else:
-            raise ValueError
-        (x0, y0, z0), (x1, y1, z1) = points.tolist()
-    except ValueError:
-        message = f"{source.path}: a <collision> has no mesh, box, cylinder or sphere with its size"
-        raise ModelFault(("urdf",), message) from None
-    corners = np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
-    frame = origin(collision.find("origin"))
-    moved: Array = corners @ frame[:3, :3].T + frame[:3, 3]
-    return moved
 
 
 def _weigh(model: UrdfModel, element: ET.Element, called: str, mass: float | None) -> None:
@@ -642,7 +581,3 @@ def _renamed(model: UrdfModel, source: _Source) -> ET.Element:
 def _vector(values: Sequence[float] | Array) -> Vector:
     x, y, z = (float(value) for value in values)
     return x, y, z
-
-
-def _words(values: Sequence[float] | Array) -> str:
-    return " ".join(f"{float(value):.6f}" for value in values)

@@ -11,13 +11,12 @@ import xml.etree.ElementTree as ET
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
 from tmd.robot.parameters import CONTACT
-from tmd.robot.pr2.kinematics import Array, Tree, motion, origin
+from tmd.robot.pr2.kinematics import Array, Tree, motion, shape_points
 from tmd.robot.pr2.urdf import TOOL, RobotDescription
 from tmd.robot.sim.pose import Pose, Vector
 
@@ -368,39 +367,15 @@ class CollisionChecker:
 
 
 def link_boxes(root: ET.Element) -> dict[str, LinkBox]:
-    """Boxes around the collision shapes of a URDF's links, from binary STL meshes and simple shapes.
-
-    Links with other meshes are left out.
-    """
+    """Return boxes around the collision shapes of a URDF's links, without links with cylinders or spheres."""
     result = {}
     for link in root.findall("link"):
-        clouds = [_corners(each) for each in link.findall("collision")]
-        if clouds and all(cloud is not None for cloud in clouds):
-            points = np.vstack([cloud for cloud in clouds if cloud is not None])
+        shapes = link.findall("collision")
+        if shapes and all({"mesh", "box"} & {each.tag for each in shape.iterfind("geometry/*")} for shape in shapes):
+            points = np.vstack([shape_points(each) for each in shapes])
             low, high = points.min(axis=0), points.max(axis=0)
             result[link.get("name", "")] = LinkBox((low + high) / 2, (high - low) / 2)
     return result
-
-
-def _corners(collision: ET.Element) -> Array | None:
-    """Points whose box is the shape's, in the link's frame; None for unknown meshes."""
-    mesh, box = collision.find("geometry/mesh"), collision.find("geometry/box")
-    if mesh is not None:
-        data = Path(mesh.get("filename", "")).read_bytes()
-        count = int.from_bytes(data[80:84], "little")
-        if len(data) != 84 + 50 * count:
-            return None
-        kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
-        points = np.frombuffer(data, kind, offset=84)["corners"].reshape(-1, 3).astype(float)
-        points = points * np.array([float(word) for word in mesh.get("scale", "1 1 1").split()])
-    elif box is not None:
-        size = np.array([float(word) for word in box.get("size", "").split()])
-        points = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * size / 2
-    else:
-        return None
-    frame = origin(collision.find("origin"))
-    moved: Array = points @ frame[:3, :3].T + frame[:3, 3]
-    return moved
 
 
 def box_of(sim: Simulator, body: int) -> LinkBox:

@@ -9,10 +9,13 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from math import cos, inf, sin
+from itertools import product
+from math import asin, atan2, cos, inf, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from tmd.robot.sim.urdf_files import end_of, mesh_library
 
 Array = NDArray[np.float64]
 
@@ -127,9 +130,9 @@ def _link(joint: ET.Element) -> Link:
     bounded = limit is not None and kind in ("revolute", "prismatic")
     axis = np.array(_numbers(joint.find("axis"), "xyz", (1.0, 0.0, 0.0)))
     return Link(
-        name=_end(joint, "child"),
+        name=end_of(joint, "child"),
         joint=joint.get("name", ""),
-        parent=_end(joint, "parent"),
+        parent=end_of(joint, "parent"),
         kind=kind,
         origin=origin(joint.find("origin")),
         axis=axis / (np.linalg.norm(axis) or 1.0),  # those of fixed joints may be 0
@@ -139,7 +142,7 @@ def _link(joint: ET.Element) -> Link:
 
 
 def origin(element: ET.Element | None) -> Array:
-    """The 4×4 matrix of an ``<origin>``."""
+    """Return the 4×4 matrix of an ``<origin>``."""
     roll, pitch, yaw = _numbers(element, "rpy", (0.0, 0.0, 0.0))
     cr, sr, cp, sp, cy, sy = cos(roll), sin(roll), cos(pitch), sin(pitch), cos(yaw), sin(yaw)
     result = np.eye(4)
@@ -152,11 +155,47 @@ def origin(element: ET.Element | None) -> Array:
     return result
 
 
+def set_origin(element: ET.Element, frame: Array) -> None:
+    """Write a 4×4 matrix as the ``<origin>`` of a joint or shape."""
+    found = element.find("origin")
+    if found is None:
+        found = ET.SubElement(element, "origin")
+    found.set("xyz", " ".join(repr(float(value)) for value in frame[:3, 3]))
+    found.set("rpy", " ".join(map(repr, angles(frame))))
+
+
+def angles(frame: Array) -> tuple[float, float, float]:
+    """Return roll, pitch and yaw of a 4×4 matrix, in radians."""
+    pitch = asin(max(-1.0, min(1.0, -float(frame[2, 0]))))
+    if abs(frame[2, 0]) > 1 - 1e-9:  # roll and yaw turn about one line
+        return 0.0, pitch, atan2(-float(frame[0, 1]), float(frame[1, 1]))
+    return atan2(frame[2, 1], frame[2, 2]), pitch, atan2(frame[1, 0], frame[0, 0])
+
+
+def shape_points(collision: ET.Element) -> Array:
+    """Return points (n, 3) of a collision shape in the link's frame: vertices of a mesh, else the corners of a box.
+
+    Raises:
+        ValueError: It has no mesh, box, cylinder or sphere with its size.
+    """
+    shape = next(iter(collision.find("geometry") or ()), ET.Element("nothing"))
+    if shape.tag == "mesh":
+        mesh = mesh_library().load(shape.get("filename", ""), force="mesh", process=False)
+        points = np.asarray(mesh.vertices) * np.array(_numbers(shape, "scale", (1.0, 1.0, 1.0)))
+    else:
+        if shape.tag == "box":
+            half = np.array(_numbers(shape, "size", ())).reshape(3) / 2
+        elif shape.tag in ("cylinder", "sphere"):
+            radius = float(shape.get("radius", ""))
+            half = np.array([radius, radius, float(shape.get("length", "")) / 2 if shape.tag == "cylinder" else radius])
+        else:
+            raise ValueError(f"no known shape: {shape.tag}")
+        points = np.array(list(product((-1, 1), repeat=3))) * half
+    frame = origin(collision.find("origin"))
+    moved: Array = points @ frame[:3, :3].T + frame[:3, 3]
+    return moved
+
+
 def _numbers(element: ET.Element | None, name: str, default: Sequence[float]) -> Sequence[float]:
     text = None if element is None else element.get(name)
     return default if text is None else [float(word) for word in text.split()]
-
-
-def _end(joint: ET.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")

@@ -13,7 +13,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 
-from tmd.robot.pr2.kinematics import Array, origin
+from tmd.robot.pr2.kinematics import origin, set_origin
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.urdf_files import end_of
 
@@ -150,7 +150,7 @@ def adapt(root: ET.Element) -> None:
 def _reverse(joint: ET.Element, zero: float, sign: float) -> None:
     """Let a finger joint be 0 where it is at ``zero`` now, and count from there to where the hand is open."""
     place = origin(joint.find("origin")) @ Pose.about((0.0, 0.0, 1.0), zero).homogeneous()
-    _set_origin(joint, place)
+    set_origin(joint, place)
     axis, limit = joint.find("axis"), joint.find("limit")
     assert axis is not None
     assert limit is not None
@@ -163,7 +163,7 @@ def _head(root: ET.Element, joints: dict[str, ET.Element]) -> None:
     """Let the head pan on the lift, and tilt down about its y."""
     pan, tilt = joints["head_1_joint"], joints["head_2_joint"]
     neck = origin(joints["torso_head_joint"].find("origin"))
-    _set_origin(pan, neck @ origin(pan.find("origin")))
+    set_origin(pan, neck @ origin(pan.find("origin")))
     parent = pan.find("parent")
     assert parent is not None
     parent.set("link", "torso_lift_link")
@@ -171,7 +171,7 @@ def _head(root: ET.Element, joints: dict[str, ET.Element]) -> None:
     turned = np.eye(4)
     turned[:3, :3] = place[:3, :3]
     place[:3, :3] = np.eye(3)
-    _set_origin(tilt, place)
+    set_origin(tilt, place)
     axis, limit = tilt.find("axis"), tilt.find("limit")
     assert axis is not None
     assert limit is not None
@@ -182,19 +182,7 @@ def _head(root: ET.Element, joints: dict[str, ET.Element]) -> None:
     for link in root.findall("link"):
         if link.get("name") == "head_2_link":
             for each in (*link.findall("visual"), *link.findall("collision"), *link.findall("inertial")):
-                _set_origin(each, turned @ origin(each.find("origin")))
+                set_origin(each, turned @ origin(each.find("origin")))
     for joint in root.findall("joint"):
         if end_of(joint, "parent") == "head_2_link":
-            _set_origin(joint, turned @ origin(joint.find("origin")))
-
-
-def _set_origin(element: ET.Element, frame: Array) -> None:
-    found = element.find("origin")
-    if found is None:
-        found = ET.SubElement(element, "origin")
-    pitch = math.asin(max(-1.0, min(1.0, -float(frame[2, 0]))))
-    roll, yaw = math.atan2(frame[2, 1], frame[2, 2]), math.atan2(frame[1, 0], frame[0, 0])
-    if abs(frame[2, 0]) > 1 - 1e-9:  # roll and yaw turn about one line
-        roll, yaw = 0.0, math.atan2(-float(frame[0, 1]), float(frame[1, 1]))
-    found.set("xyz", " ".join(repr(float(value)) for value in frame[:3, 3]))
-    found.set("rpy", f"{roll!r} {pitch!r} {yaw!r}")
+            set_origin(joint, turned @ origin(joint.find("origin")))

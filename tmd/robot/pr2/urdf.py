@@ -12,15 +12,14 @@ import importlib.metadata
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from io import BytesIO
 from pathlib import Path
-
-import numpy as np
 
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.files import make_directory, write_bytes
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.pr2 import tiago_pro
-from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, read_urdf
+from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, mesh_library, read_urdf
 
 BASE_JOINTS = ("base_x_joint", "base_y_joint", "base_theta_joint")
 TORSO = "torso_lift_joint"
@@ -122,12 +121,12 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
     names = {path: f"{index:02d}-{path.name}" for index, path in enumerate(contents)}
     repair(root, {name: str(folder / names[path]) for name, path in meshes.items()})
     target = folder / "pr2.urdf"
-    files = {folder / names[path]: with_normals(data) for path, data in contents.items()}
-    files[target] = ET.tostring(root, encoding="utf-8")  # last: where it is, everything is
-    if not all(file.is_file() for file in files):
+    copies = {folder / names[path]: data for path, data in contents.items()}
+    if not all(file.is_file() for file in (*copies, target)):
         make_directory(folder)
-        for file, data in files.items():
-            write_bytes(file, data)
+        for file, data in copies.items():
+            write_bytes(file, with_normals(data) if file.suffix.lower() == ".stl" else data)
+        write_bytes(target, ET.tostring(root, encoding="utf-8"))  # last: where it is, everything is
     if other:
         return RobotDescription(
             target, root, _both_ways(tiago_pro.never_checked(root)), tiago_pro.TUCKED,
@@ -248,17 +247,9 @@ def repair(root: ET.Element, meshes: dict[str, str]) -> None:
 
 
 def with_normals(data: bytes) -> bytes:
-    """A binary STL with the normals of its facets; any other file as it is."""
-    facets = int.from_bytes(data[80:84], "little")
-    if len(data) != 84 + 50 * facets:
-        return data
-    kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
-    mesh = np.frombuffer(data, kind, offset=84).copy()
-    corners = mesh["corners"].astype(float)
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    mesh["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    return data[:84] + mesh.tobytes()
+    """Return an STL file with the normals of its facets."""
+    mesh = mesh_library().load(BytesIO(data), file_type="stl", process=False)
+    return bytes(mesh.export(file_type="stl"))
 
 
 def _root_link(root: ET.Element) -> str:
