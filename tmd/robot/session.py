@@ -15,14 +15,12 @@ from tmd.planning.backends import IN_PROCESS
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Performer
 from tmd.robot.monitor.listeners import Listener, Order, Recorder, Title
 from tmd.robot.monitor.observation import Observer
-from tmd.robot.pr2.pr2 import Pr2
 from tmd.robot.scene.scene import Scene
-from tmd.robot.setup import show_state
+from tmd.robot.setup import make_cell, show_state
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.performer import RobotPerformer
 from tmd.robot.skills.results import ExecutedStep, Execution
-from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.skill_file import load_skills
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
@@ -73,9 +71,7 @@ class SimulationSession:
         self.sim = Simulator(gui=gui, pictures=pictures)
         try:
             scene = Scene(self.sim, environment, folder, rng=np.random.default_rng(seed) if seed else None)
-            rng = np.random.default_rng(seed)
-            robot = Pr2(self.sim, urdf=urdf, kinematic=kinematic, rng=rng)
-            self.cell = Cell(self.sim, robot, scene, rng)
+            self.cell = make_cell(self.sim, scene, seed=seed, kinematic=kinematic, urdf=urdf)
             self._observer = Observer(problem, folder, self.skills, self.cell)
         except BaseException:
             self.sim.close()

@@ -453,12 +453,12 @@ class Executor:
         return Execution(SkillStatus.STOPPED, reason, tuple(self._steps), self._repairs, state, lasting)
 
     def _last(self) -> str:
-        """What went wrong last."""
+        """Return what went wrong last; what was expected and is missing goes before what is there unexpectedly."""
         for step in reversed(self._steps):
             if step.failure:
                 return f"{step.instruction} failed: {step.failure}"
             if step.mismatches:
-                return f"{step.instruction}: {_first(step.mismatches)}"
+                return f"{step.instruction}: {min(step.mismatches, key=lambda m: not m.expected)}"
         return "the environment was not as described"
 
 
@@ -509,10 +509,7 @@ def _end(task: Task, state: Bits, plan: Sequence[Instruction]) -> Bits:
 
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
     """Whether all that is wanted holds after a plan."""
-    state = task.init
-    for instruction in plan:
-        state = task.by_instruction[instruction].apply(state)
-    return _satisfied(wanted, task.decode(state))
+    return _satisfied(wanted, task.decode(_end(task, task.init, plan)))
 
 
 def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:
@@ -527,11 +524,6 @@ def _runs(operators: Sequence[Operator], state: Bits) -> bool:
             return False
         state = operator.apply(state)
     return True
-
-
-def _first(mismatches: Sequence[Mismatch]) -> str:
-    """What was expected and is missing goes before what is there unexpectedly."""
-    return str(min(mismatches, key=lambda m: not m.expected))
 
 
 def _satisfied(wanted: _Wanted, state: State) -> bool:

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from math import hypot, pi, sin
+from math import ceil, hypot, pi, sin
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tmd.robot.parameters import ARM_MOTION
-from tmd.robot.pr2.collision import CollisionChecker, Held, Ignored
+from tmd.robot.pr2.collision import CollisionChecker, Ignored
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import plan, shorten
 from tmd.robot.pr2.trajectory_following import exact
@@ -154,12 +154,9 @@ class _Upright:
         sine = float(np.linalg.norm(turn))
         if sine > 1e-9:
             x, y, z = (float(value) for value in turn / sine)
-            turned = Pose.about((x, y, z), float(np.arctan2(sine, up[2]))) * Pose((0.0, 0.0, 0.0), pose.orientation)
-            pose = Pose(pose.position, turned.orientation)
-        if anywhere:
-            found = self._kinematics.with_roll(pose, self._torso, row.tolist())
-        else:
-            found = self._kinematics.track(pose, self._torso, row.tolist())
+            pose = pose.spun(Pose.about((x, y, z), float(np.arctan2(sine, up[2]))))
+        solve = self._kinematics.with_roll if anywhere else self._kinematics.track
+        found = solve(pose, self._torso, row.tolist())
         return None if found is None else np.array(found, dtype=float)
 
 
@@ -185,10 +182,7 @@ def plan_line(
     Returns:
         As :func:`plan_poses`.
     """
-    # pieces of 1 cm or 0.05 rad
-    pieces = max(1, int(np.ceil(max(start.distance(end) / 0.01, start.angle(end) / 0.05) - 1e-9)))
-    poses = [between(start, end, index / pieces) for index in range(pieces + 1)]
-    return plan_poses(robot, side, poses, ignore=ignore, arm=arm)
+    return plan_poses(robot, side, dense([start, end]), ignore=ignore, arm=arm)
 
 
 def plan_level(robot: Pr2, side: str, goal: Pose, *, ignore: Ignored = ()) -> list[Arm] | None:
@@ -209,11 +203,7 @@ def plan_level(robot: Pr2, side: str, goal: Pose, *, ignore: Ignored = ()) -> li
     shoulder = robot.base_link()
     for up, back in ARM_MOTION.level_detours:
         corners = [_aside(shoulder, pose, up, back) for pose in (start, goal)] if up or back else []
-        poses = [start, *corners, goal]
-        whole = [start]
-        for one, other in pairwise(poses):
-            pieces = max(1, int(np.ceil(max(one.distance(other) / 0.02, one.angle(other) / 0.1) - 1e-9)))
-            whole += [between(one, other, index / pieces) for index in range(1, pieces + 1)]
+        whole = dense([start, *corners, goal], 2.0)
         rows = plan_poses(robot, side, whole, ignore=ignore, margin=ARM_MOTION.level_clearance)
         if rows is not None:
             return rows[1:]
@@ -226,11 +216,7 @@ def _aside(base: Pose, pose: Pose, up: float, back: float) -> Pose:
     away = max(hypot(base.position[0] - x, base.position[1] - y), 1e-6)
     nearer = min(back, away)
     return Pose(
-        (
-            x + nearer * (base.position[0] - x) / away,
-            y + nearer * (base.position[1] - y) / away,
-            z + up,
-        ),
+        (x + nearer * (base.position[0] - x) / away, y + nearer * (base.position[1] - y) / away, z + up),
         pose.orientation,
     )
 
@@ -244,7 +230,6 @@ def plan_poses(
     arm: Sequence[float] | None = None,
     base: Base | None = None,
     torso: float | None = None,
-    held: Sequence[Held] | None = None,
     margin: float = 0.0,
 ) -> list[Arm] | None:
     """Joint positions along tool poses, without leaps between them.
@@ -258,7 +243,6 @@ def plan_poses(
             else several solutions of the first pose are tried, nearest first.
         base: Where the base would be; None: where it is.
         torso: How high the torso would be; None: as it is.
-        held: What would be in the hands; None: what is.
         margin: Metres that count as touching, but for what is as near at the start.
 
     Returns:
@@ -273,7 +257,6 @@ def plan_poses(
         robot.arm_joints[side],
         positions=robot.elsewhere(base, torso),
         arm=side,
-        helds=held,
         ignore=ignore,
         margin=margin,
     ) as checker:
@@ -317,6 +300,15 @@ def _first_rows(robot: Pr2, side: str, pose: Pose, base: Base | None, torso: flo
         if all(max(abs(a - b) for a, b in zip(row, other, strict=True)) > 0.3 for other in chosen):
             chosen.append(row)
     return chosen[: ARM_MOTION.max_branches]
+
+
+def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
+    """Insert poses so that neighbours are at most ``pitch`` cm and 0.05 ``pitch`` rad apart."""
+    found = [poses[0]]
+    for start, end in pairwise(poses):
+        pieces = max(1, ceil(max(start.distance(end) / (0.01 * pitch), start.angle(end) / (0.05 * pitch)) - 1e-9))
+        found += [between(start, end, k / pieces) for k in range(1, pieces + 1)]
+    return found
 
 
 def between(start: Pose, end: Pose, part: float) -> Pose:

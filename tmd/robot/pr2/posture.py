@@ -60,11 +60,9 @@ def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
         for joint in range(ARM_MOTION.max_shifted)
     ]
     free, *rest = robot.clear(side, [usual, *others])
-    return (
-        [usual]
-        if free
-        else [other for other, clear in zip(others, rest, strict=True) if clear][: ARM_MOTION.max_folded]
-    )
+    if free:
+        return [usual]
+    return [other for other, clear in zip(others, rest, strict=True) if clear][: ARM_MOTION.max_folded]
 
 
 def _carry(robot: Pr2, side: str, budget: int) -> bool:
@@ -116,6 +114,4 @@ def _tool_places(now: Pose, side: str) -> Iterator[Pose]:
         for index in range(ARM_MOTION.carrying_yaws):
             yaw = (index + 1) // 2 * tau / ARM_MOTION.carrying_yaws * (1 if index % 2 else -1)
             turn = Pose.flat(0.0, 0.0, yaw=(yaw + pi) % tau - pi)
-            yield Pose(
-                (x, -y if side == "right" else y, z), (turn * Pose((0.0, 0.0, 0.0), now.orientation)).orientation
-            )
+            yield Pose((x, -y if side == "right" else y, z), now.orientation).spun(turn)

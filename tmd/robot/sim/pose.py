@@ -90,6 +90,15 @@ class Pose:
         """A direction of this frame, in the frame that this pose is given in."""
         return _rotate(self.orientation, direction)
 
+    def moved(self, by: Sequence[float]) -> Pose:
+        """Return the pose shifted by metres in the outer frame."""
+        x, y, z = (a + b for a, b in zip(self.position, by, strict=True))
+        return Pose((x, y, z), self.orientation)
+
+    def spun(self, turn: Pose) -> Pose:
+        """Return the pose turned on the spot by the orientation of ``turn``, which is given in the outer frame."""
+        return Pose(self.position, _product(turn.orientation, self.orientation))
+
     def yaw(self) -> float:
         """The heading of the x axis about z, in (−π, π]."""
         x, y, _ = self.rotate((1.0, 0.0, 0.0))
@@ -101,7 +110,7 @@ class Pose:
 
     def angle(self, other: Pose) -> float:
         """Radians between the two orientations, in [0, π]."""
-        x, y, z, w = _product(Pose((0.0, 0.0, 0.0), self.orientation).inverse().orientation, other.orientation)
+        x, y, z, w = _product(self.inverse().orientation, other.orientation)
         return 2 * atan2(hypot(x, y, z), abs(w))
 
 

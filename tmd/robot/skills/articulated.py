@@ -33,8 +33,7 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
     Raises:
         SkillError: It has none, cannot be reached, or does not move.
     """
-    if not cell.free():
-        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    cell.need_free_hand()
     if opened:
         _refuse_to_spill(cell, name)
     for _ in range(ARTICULATION.stages):
@@ -82,14 +81,8 @@ def _goals(cell: Cell, name: str, opened: bool) -> list[tuple[float, ...]]:
     if not opened:
         return [(0.0,), *([tuple(now - piece for piece in ARTICULATION.partial_shares if now > piece)] if door else [])]
     wide: list[tuple[float, ...]] = [(part,) for part in ARTICULATION.open_shares]
-    return (
-        [
-            *wide,
-            tuple(now + piece for piece in ARTICULATION.partial_shares if now + piece < ARTICULATION.open_shares[2]),
-        ]
-        if door
-        else wide
-    )
+    further = tuple(now + piece for piece in ARTICULATION.partial_shares if now + piece < ARTICULATION.open_shares[2])
+    return [*wide, further] if door else wide
 
 
 def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
@@ -97,15 +90,9 @@ def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
     for side in cell.free():
         cell.robot.open_gripper(side, handle.opening)
     chosen = reach_for(
-        cell,
-        name,
-        lambda: swing_options(cell, name, goals),
-        handle.grasp,
-        attempt,
-        stop=2,
-        front=_aside(cell, name, handle),
-        accept=_out_of_its_way(cell, name, handle),
-    )
+        cell, name, lambda: swing_options(cell, name, goals), handle.grasp, attempt, stop=2,
+        front=_aside(cell, name, handle), accept=_out_of_its_way(cell, name, handle),
+    )  # fmt: skip
     _pull(cell, name, _handle(cell, name), chosen)
     cell.moment()
     cell.retire(chosen.side, chosen.ignore, lid=handle.kind == "lid")
@@ -221,12 +208,9 @@ def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> 
 
 def _turned(tool: Pose, handle: Handle, angle: float, pushes: bool) -> Pose:
     """``tool`` turned back about the joint's axis: through the handle, or through the finger tips that push."""
-    x, y, z = handle.axis
-    half = -angle / 2
-    back = Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
-    turned = (back * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation
     tips = TIP if pushes else 0.0
-    return Pose(tool.apply((tips, 0.0, 0.0)), turned) * Pose((-tips, 0.0, 0.0))
+    turned = Pose(tool.apply((tips, 0.0, 0.0)), tool.orientation).spun(Pose.about(handle.axis, -angle))
+    return turned * Pose((-tips, 0.0, 0.0))
 
 
 def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
@@ -257,9 +241,7 @@ def push(cell: Cell, name: str, attempt: int) -> str:
         SkillError: It cannot be reached, or does not go down.
     """
     handle = _handle(cell, name)
-    hands = cell.free()
-    if not hands:
-        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    hands = cell.need_free_hand()
     button: Links = frozenset({(handle.body, handle.index)})
 
     def options() -> list[Option]:
@@ -324,9 +306,7 @@ def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:
     handle = _handle(cell, name)
     if setting not in handle.settings:
         raise SkillError(SkillPhase.PRECONDITION, f"{name} has no setting {setting}")
-    hands = cell.free()
-    if not hands:
-        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    hands = cell.need_free_hand()
     ignore: Links = frozenset({(handle.body, handle.index)})
     start = cell.sim.joint_position(handle.body, handle.index)
     goal = handle.settings[setting]
@@ -356,4 +336,4 @@ def _handle(cell: Cell, name: str) -> Handle:
 
 def _rolled(tool: Pose, angle: float) -> Pose:
     """The tool turned about the way it points."""
-    return tool * Pose((0.0, 0.0, 0.0), (sin(angle / 2), 0.0, 0.0, cos(angle / 2)))
+    return tool * Pose.about((1.0, 0.0, 0.0), angle)

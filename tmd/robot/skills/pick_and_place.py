@@ -35,8 +35,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
         SkillError: It cannot be reached, or the fingers close on nothing.
     """
     options = pick_options(cell, item)
-    if not cell.free():
-        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    cell.need_free_hand()
     body = cell.scene.bodies[item]
     start = cell.sim.pose(body)
     lies_by_bar = cell.tilt(item) > CONTACT.upright and any(map(_of_bar, cell.scene.grasps(item)))
@@ -53,7 +52,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     cell.robot.hold(side, body)
     cell.in_hand[side] = item
     away = _out(cell, below)
-    _leave(cell, side, away, _links(cell, item))
+    _leave(cell, side, away, cell.links(item))
     cell.moment()
     cell.fold()
     if cell.gap(side, item) > 0.03:
@@ -64,7 +63,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
 def pick_options(cell: Cell, item: str) -> list[Option]:
     """Ways to take an item with a free hand, the nearest hand first."""
     here = cell.sim.pose(cell.scene.bodies[item])
-    links = _links(cell, item)
+    links = cell.links(item)
     _, high = cell.scene.size(item)
     # a vessel or a bottle is taken from the side before from above, for it will be tipped; a small thing from above
     upright = 1.0 if cell.scene.holds_contents(item) or high[2] > GRASP.tall else -1.0
@@ -119,11 +118,7 @@ def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
     turns = [number * pi / 4 for number in range(8)]
     bars = [here * grasp.tool.pose() for grasp in cell.scene.grasps(item) if _of_bar(grasp)]
     length = here.rotate((1.0, 0.0, 0.0))
-    rolled = [
-        Pose(tool.position, (Pose.about(length, angle) * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation)
-        for tool in bars
-        for angle in turns
-    ]
+    rolled = [tool.spun(Pose.about(length, angle)) for tool in bars for angle in turns]
     found += [tool * Pose.about((0.0, 1.0, 0.0), angle) for tool in (*usual, *rolled) for angle in turns]
     kept = [tool for tool in found if tool.rotate((1.0, 0.0, 0.0))[2] < 0.3]
     return sorted(kept, key=lambda tool: round(tool.rotate((1.0, 0.0, 0.0))[2], 1))[: GRASP.most_lying]
@@ -180,7 +175,7 @@ def _starts(tool: Pose, entry: Vector | None) -> list[Pose]:
     if entry is None:
         return [close]
     across = sum(a * b for a, b in zip(tool.rotate((0.0, 1.0, 0.0)), entry, strict=True))
-    outside = _moved(tool, tuple(-GRASP.approach_in_niche * value for value in entry))
+    outside = tool.moved([-GRASP.approach_in_niche * value for value in entry])
     return [close] if abs(across) > GRASP.max_opening_along else [outside, close]
 
 
@@ -200,9 +195,7 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, fi
         SkillError: It is not held, there is no room, the place cannot be reached, or the item ends up elsewhere, or
             falls over.
     """
-    side = cell.side_of(item)
-    if side is None:
-        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
+    side = cell.holding(item)
     below, others = place_options(cell, side, item, target, relation)
     nothing_lost = not cell.scene.shown(item) or cell.spills_from(item) is None
     if others and nothing_lost and not filled and not with_room(cell, (*below, *others)):
@@ -224,7 +217,7 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, fi
             break
     _release(cell, side, item)
     cell.moment()
-    _leave(cell, side, None, _links(cell, item))
+    _leave(cell, side, None, cell.links(item))
     cell.fold()
     cell.settle()
     now = cell.support(item)
@@ -265,7 +258,12 @@ def _reach_best(
     """
     if cell.side_of(cell.whole(target)) is not None:  # into what is in the other hand, which holds it out
         side = options[0].side
-        reach_for(cell, target, lambda: _into(cell, side, item, target, relation), focus, attempt, stop=2)
+
+        def options_now() -> list[Option]:
+            below, others = place_options(cell, side, item, target, relation)
+            return [*below, *others]
+
+        reach_for(cell, target, options_now, focus, attempt, stop=2)
         return
     fitting = with_room(cell, options)
     again = _to_be_taken_again(cell, item, fitting, cell.scene.entry(target, relation)) or fitting
@@ -282,17 +280,11 @@ def _reach_best(
             return
 
 
-def _into(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
-    """The ways to put an item down as things are held now."""
-    below, others = place_options(cell, side, item, target, relation)
-    return [*below, *others]
-
-
 def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> tuple[list[Option], list[Option]]:
     """Ways to put an item down with the hand that holds it: where a stream would run into it, and elsewhere."""
     grip = cell.in_tool(side, item).inverse()
     back = tuple(-value * GRASP.approach for value in cell.scene.entry(target, relation))
-    links = _links(cell, item)
+    links = cell.links(item)
     found: tuple[list[Option], list[Option]] = ([], [])
     every = cell.scene.support(target, relation, item, cell.in_hand.values())
     unfit = cell.unfit_spots.get(item, ())
@@ -302,7 +294,7 @@ def place_options(cell: Cell, side: str, item: str, target: str, relation: str) 
     for fall, (number, spot), turn in product(heights, enumerate(spots), range(GRASP.headings)):
         stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / GRASP.headings)
         tool = stood * grip
-        found[not spot.outlet].append(Option(side, (_moved(tool, back), tool), links, number))
+        found[not spot.outlet].append(Option(side, (tool.moved(back), tool), links, number))
     return found
 
 
@@ -313,7 +305,7 @@ def laid_options(cell: Cell, side: str, item: str, target: str, relation: str) -
     """
     grip = cell.in_tool(side, item)
     low, high = cell.scene.size(item)
-    links = _links(cell, item)
+    links = cell.links(item)
     found = []
     for number, spot in enumerate(cell.scene.support(target, relation, item, cell.in_hand.values())[:6]):
         x, y, z = spot.pose.position
@@ -323,8 +315,8 @@ def laid_options(cell: Cell, side: str, item: str, target: str, relation: str) -
             held = down * grip
             lowest = min(held.apply(corner)[2] for corner in product(*zip(low, high, strict=True)))
             middle = held.apply(tuple((a + b) / 2 for a, b in zip(low, high, strict=True)))
-            tool = _moved(down, (x - middle[0], y - middle[1], z - lowest + GRASP.release_heights[-1]))
-            found.append(Option(side, (_moved(tool, (0.0, 0.0, GRASP.approach)), tool), links, number))
+            tool = down.moved((x - middle[0], y - middle[1], z - lowest + GRASP.release_heights[-1]))
+            found.append(Option(side, (tool.moved((0.0, 0.0, GRASP.approach)), tool), links, number))
     return found
 
 
@@ -349,18 +341,15 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
     """
     if target != "floor":
         return place(cell, item, target, "on", attempt)
-    side = cell.side_of(item)
-    if side is None:
-        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
+    side = cell.holding(item)
     cell.robot.raise_torso(0.0)
     _release(cell, side, item)
     cell.moment()
     cell.fold()
     now = cell.support(item)
     if now != (target, "on"):
-        raise SkillError(
-            SkillPhase.EFFECT, f"{item} was let go of, and is {now[1] + ' ' + now[0] if now else 'nowhere'}"
-        )
+        where = f"{now[1]} {now[0]}" if now else "nowhere"
+        raise SkillError(SkillPhase.EFFECT, f"{item} was let go of, and is {where}")
     return f"{item} is on the floor"
 
 
@@ -393,13 +382,8 @@ def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
     """
     here = cell.robot.tool(side)
     for share in (1.0, 0.5):
-        goal = (
-            here * Pose((-GRASP.approach * share, 0.0, 0.0))
-            if away is None
-            else _moved(
-                here, (away[0] * GRASP.lift * share, away[1] * GRASP.lift * share, away[2] * GRASP.lift * share)
-            )
-        )
+        back = here * Pose((-GRASP.approach * share, 0.0, 0.0))
+        goal = back if away is None else here.moved([value * GRASP.lift * share for value in away])
         try:
             follow(cell, side, (goal,), ignore)
         except SkillError:
@@ -411,16 +395,6 @@ def _out(cell: Cell, below: tuple[str, str] | None) -> Vector:
     """The direction in which a thing is taken from where it is."""
     x, y, z = cell.scene.entry(*below) if below is not None else (0.0, 0.0, -1.0)
     return (-x, -y, -z)
-
-
-def _moved(pose: Pose, by: tuple[float, ...]) -> Pose:
-    x, y, z = (a + b for a, b in zip(pose.position, by, strict=True))
-    return Pose((x, y, z), pose.orientation)
-
-
-def _links(cell: Cell, *names: str) -> Links:
-    """All links of the bodies of some things."""
-    return frozenset((cell.scene.place(name)[0], None) for name in names)
 
 
 def _nearest_first(cell: Cell, pose: Pose) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from math import acos, cos, degrees, hypot, pi, sin
+from math import acos, cos, degrees, hypot, pi
 
 from tmd.robot.assets.features import Region
 from tmd.robot.parameters import CONTACT, POURING
@@ -13,7 +13,10 @@ from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import Links, Option, follow, with_room
+from tmd.robot.skills.stance_search import Option, follow, with_room
+
+# Force of fingers that squeeze a bottle, in N·m.
+_SQUEEZE = 40.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +87,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     Raises:
         SkillError: It is not held, cannot be held there, or its mouth was not over the target.
     """
-    side = _side(cell, item)
+    side = cell.holding(item)
     _refuse_fallen(cell, target)
     known = mouths(cell, item, side)
 
@@ -130,14 +133,14 @@ def tip_options(
     Before a niche a thing is tipped outside, as far as nothing runs out: what is ``closed`` until it is squeezed all
     the way.
     """
-    side = _side(cell, item)
+    side = cell.holding(item)
     grip = cell.in_tool(side, item).inverse()
     spills = None if closed else cell.spills_from(item)
     options = []
     for angle, over, (index, how), number in product(
         POURING.tilts, _overs(cell, target, height), enumerate(known), range(POURING.headings)
     ):
-        stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / POURING.headings)
+        stood = _heading(number)
         x, y, _ = stood.rotate(how.at)
         nearer = near / max(hypot(x, y), 0.01)
         at = (over[0] - x * nearer, over[1] - y * nearer, over[2])
@@ -146,7 +149,7 @@ def tip_options(
                 _over_rim(stood, how, at, turned * k / POURING.stages) * grip for k in range(POURING.stages + 1)
             )
             outside = before(cell, target, poses[0])
-            options.append(Option(side, (*outside, *poses), _hands(cell, item), index))
+            options.append(Option(side, (*outside, *poses), cell.links(item), index))
             shares = (1.0,) if closed else POURING.outside_shares
             if outside and spills is not None:  # what is in it must not run out before it is there
                 shares = tuple(k for k in shares if abs(turned) * k < POURING.outside_margin * spills or k == 1.0)
@@ -155,14 +158,9 @@ def tip_options(
             if outside:
                 inside = [_over_rim(stood, how, at, turned * k) * grip for k in shares]
                 (end,) = before(cell, target, inside[0])
-                start = _moved_up(outside[0], end.position[2] - outside[0].position[2])
-                options.append(Option(side, (start, end, *inside), _hands(cell, item), index))
+                start = outside[0].moved((0.0, 0.0, end.position[2] - outside[0].position[2]))
+                options.append(Option(side, (start, end, *inside), cell.links(item), index))
     return options
-
-
-def _moved_up(pose: Pose, by: float) -> Pose:
-    x, y, z = pose.position
-    return Pose((x, y, z + by), pose.orientation)
 
 
 def before(cell: Cell, target: str, first: Pose) -> tuple[Pose, ...]:
@@ -171,11 +169,7 @@ def before(cell: Cell, target: str, first: Pose) -> tuple[Pose, ...]:
     x, y, z = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
     if abs(z) > 0.5:
         return ()
-    a, b, c = first.position
-    return (Pose((a - x * POURING.approach_in_niche, b - y * POURING.approach_in_niche, c), first.orientation),)
-
-
-_SQUEEZE = 40.0
+    return (first.moved((-x * POURING.approach_in_niche, -y * POURING.approach_in_niche, 0.0)),)
 
 
 def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
@@ -185,7 +179,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
         SkillError: It is not held, cannot be brought there, or did not get in.
     """
     _refuse_fallen(cell, target)
-    how = _head(cell, item, _side(cell, item))
+    how = _head(cell, item, cell.holding(item))
     body = cell.scene.bodies[item]
     focus = Pose(_overs(cell, target, POURING.dip_heights[0])[0])
     with cell.leaning(item, lambda: _beside(cell, cell.sim.pose(body).apply(how.at), target) <= 0.0):
@@ -215,9 +209,9 @@ def _head(cell: Cell, item: str, side: str) -> Mouth:
 
 def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
     """Ways to bring the end of what is held below a rim and not through it."""
-    side = _side(cell, item)
+    side = cell.holding(item)
     how, grip = _head(cell, item, side), cell.in_tool(side, item).inverse()
-    ignore = _hands(cell, item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
+    ignore = cell.links(item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
     (over,) = _overs(cell, target, -POURING.dip_depth)
     ways = list(product(POURING.dip_leans, range(POURING.headings)))
     inside = [_held_at(_leaning(_heading(number), how, lean), how, over, 0.0) for lean, number in ways]
@@ -271,13 +265,6 @@ def _go_back(cell: Cell, chosen: Option) -> None:
         cell.fold()
 
 
-def _side(cell: Cell, item: str) -> str:
-    side = cell.side_of(item)
-    if side is None:
-        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
-    return side
-
-
 def _refuse_fallen(cell: Cell, target: str) -> None:
     """What lies on its side takes nothing.
 
@@ -325,9 +312,7 @@ def _rim_height(cell: Cell, target: str) -> float:
 
 def _held_at(stood: Pose, how: Mouth, at: Vector, angle: float) -> Pose:
     """The thing's frame when it is turned by ``angle`` about its tipping axis, with its mouth at a point."""
-    half = angle / 2
-    x, y, z = how.turn
-    turned = stood * Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
+    turned = stood * Pose.about(how.turn, angle)
     offset = turned.rotate(how.at)
     return Pose((at[0] - offset[0], at[1] - offset[1], at[2] - offset[2]), turned.orientation)
 
@@ -343,9 +328,7 @@ def _leaning(stood: Pose, how: Mouth, angle: float) -> Pose:
     x, y, _ = how.turn
     # across the long side; towards the mouth
     towards = 1.0 if x * how.at[0] + y * how.at[1] > 0 else -1.0
-    axis = (-y * towards, x * towards, 0.0)
-    half = angle / 2
-    return stood * Pose((0.0, 0.0, 0.0), (axis[0] * sin(half), axis[1] * sin(half), 0.0, cos(half)))
+    return stood * Pose.about((-y * towards, x * towards, 0.0), angle)
 
 
 def _tilt(here: Pose, how: Mouth) -> float:
@@ -365,7 +348,3 @@ def _beside(cell: Cell, point: Vector, target: str) -> float:
         frame, region = basin
         point, low, high = frame.inverse().apply(point), region.low, region.high
     return max(low[0] - point[0], point[0] - high[0], low[1] - point[1], point[1] - high[1], 0.0)
-
-
-def _hands(cell: Cell, *names: str) -> Links:
-    return frozenset((cell.scene.place(name)[0], None) for name in names)

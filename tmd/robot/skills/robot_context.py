@@ -457,6 +457,31 @@ class Cell:
         self._forget_lost()
         return [side for side in ARMS if side not in self.in_hand]
 
+    def need_free_hand(self) -> list[str]:
+        """Return the arms that hold nothing.
+
+        Raises:
+            SkillError: There are none.
+        """
+        if not (hands := self.free()):
+            raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+        return hands
+
+    def holding(self, item: str) -> str:
+        """Return the arm that holds an item.
+
+        Raises:
+            SkillError: None does.
+        """
+        side = self.side_of(item)
+        if side is None:
+            raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
+        return side
+
+    def links(self, *names: str) -> frozenset[tuple[int, int | None]]:
+        """Return all links of the bodies of some things, as ``ignore`` of motion planners."""
+        return frozenset((self.scene.place(name)[0], None) for name in names)
+
     def _forget_lost(self) -> None:
         """What slipped out of a hand is no longer in it."""
         for side in [side for side in self.in_hand if not self._still_held(side)]:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain, islice, pairwise, product
+from itertools import chain, islice, product
 from math import atan2, ceil, cos, hypot, pi, sin
 
 from tmd.robot.parameters import ARM_MOTION, STANCE
-from tmd.robot.pr2.arm_motion import between, plan_arm, plan_level, plan_poses
+from tmd.robot.pr2.arm_motion import dense, plan_arm, plan_level, plan_poses
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.pr2.reach_bounds import Wrists
@@ -107,7 +107,9 @@ def reach(
     tried_before = list(islice(found, 2 * attempt))
     for candidate in _timely(chain(found, tried_before), said):
         cell.look_on(f"the way to {what}")
-        if any(_alike(candidate, other) for other in failed) or any(_close(candidate.base, base) for base in closed):
+        # the same arm in nearly the same place fails again
+        alike = (each.base for each in failed if each.option is candidate.option)
+        if any(_close(candidate.base, base) for base in (*alike, *closed)):
             continue
         try:
             get_to(cell, candidate.base, candidate.torso)
@@ -241,11 +243,6 @@ def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
     yield from (base for base, free in zip(closer, cell.robot.free_bases(closer), strict=True) if free)
 
 
-def _alike(one: StanceCandidate, other: StanceCandidate) -> bool:
-    """Whether what failed there will fail here: the same arm in nearly the same place."""
-    return one.option is other.option and _close(one.base, other.base)
-
-
 def _close(one: Base, other: Base) -> bool:
     return hypot(one[0] - other[0], one[1] - other[1]) < STANCE.alike
 
@@ -346,15 +343,6 @@ def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
         raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight on: {told}")
     if not cell.robot.move_arm(side, path):
         raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}{_held_up(cell)}")
-
-
-def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
-    """``poses`` with others in between, ``pitch`` cm and 0.05 ``pitch`` rad apart at most."""
-    found = [poses[0]]
-    for start, end in pairwise(poses):
-        pieces = max(1, ceil(max(start.distance(end) / (0.01 * pitch), start.angle(end) / (0.05 * pitch)) - 1e-9))
-        found += [between(start, end, k / pieces) for k in range(1, pieces + 1)]
-    return found
 
 
 def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int = _SHORT) -> None:

@@ -64,13 +64,17 @@ class Camera:
 
     Args:
         cell: Robot and scene.
+
+    Attributes:
+        view: The chosen view.
+        wide: Whether that shows the whole robot.
     """
 
     def __init__(self, cell: Cell) -> None:
         self._cell = cell
         self._names: tuple[str, ...] = ()
-        self._wide = True
-        self._view = _overview(cell)
+        self.wide = True
+        self.view = _overview(cell)
 
     def follow(self, names: Sequence[str], *, wide: bool) -> None:
         """Choose the view from now on.
@@ -80,18 +84,8 @@ class Camera:
             wide: Show the whole robot on its way there, not its hands.
         """
         self._names = tuple(dict.fromkeys(names)) or self._names
-        self._wide = wide
-        self._view = self.best()
-
-    @property
-    def wide(self) -> bool:
-        """Whether the whole robot is shown."""
-        return self._wide
-
-    @property
-    def view(self) -> View:
-        """The chosen view."""
-        return self._view
+        self.wide = wide
+        self.view = self.best()
 
     def best(self) -> View:
         """The angle that shows most now."""
@@ -99,7 +93,7 @@ class Camera:
             return _overview(self._cell)
         points = self._points()
         target, around = _ball([p.place for p in points if p.weight >= 1.0])
-        around = max(around + 0.3, _WIDE) if self._wide else max(around + 0.2, _CLOSE)
+        around = max(around + 0.3, _WIDE) if self.wide else max(around + 0.2, _CLOSE)
         distance = around / math.sin(math.radians(FOV / 2))
         views = [View(target, turn, height, distance) for turn, height in product(_TURNS, _HEIGHTS)]
         return max(views, key=lambda view: self._worth(view, points))
@@ -115,7 +109,7 @@ class Camera:
             points += [_Point((a, b, high[2]), (body,), 0.25) for a, b in product((low[0], high[0]), (low[1], high[1]))]
         own = (cell.robot.body, *(cell.scene.bodies[item] for item in cell.in_hand.values()))
         x, y, _ = cell.robot.base()
-        if self._wide:
+        if self.wide:
             return [*points, _Point((x, y, 1.2), own, 1.5), _Point((x, y, 0.5), own, 1.0)]
         things = [p.place for p in points]
         for side in ARMS:
@@ -128,7 +122,7 @@ class Camera:
         if self._inside(view.eye):
             return -math.inf
         seen = sum(point.weight for point in points if self._sees(view.eye, point))
-        turned = abs(math.remainder(view.turn - self._view.turn, math.tau)) / math.pi
+        turned = abs(math.remainder(view.turn - self.view.turn, math.tau)) / math.pi
         return seen - 1.2 * turned - 0.8 * abs(view.height - _HEIGHTS[1])
 
     def _sees(self, eye: Vector, point: _Point) -> bool:

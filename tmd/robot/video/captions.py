@@ -32,7 +32,6 @@ _PAPER, _INK, _PALE = "#1d2127", "#f3f1ec", "#a3a9b3"
 _COLOURS = {
     "expected": "#a3a9b3", "measured": "#6fcf7c", "inferred": "#6db3f2", "assumed": "#e6b450", "missing": "#ff7b6b",
 }  # fmt: skip
-LEGEND = "✓ measured   ∴ inferred from what was measured   ? assumed   ✗ not as predicted"
 _BADGES = {"ok": "#6fcf7c", "failed": "#ff7b6b", "mismatch": "#ff7b6b", "stopped": "#ff7b6b"}
 _COLUMNS = 4
 _GAP = 10
