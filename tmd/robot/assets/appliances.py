@@ -14,7 +14,7 @@ SIDE = 0.34
 
 
 def cooker(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A stove with an oven; burners on top in two columns, the first two in front, knobs in front."""
+    """Build a stove with an oven: burners on top in two columns, the first two in front, and knobs in front."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1 = right - SIDE
@@ -28,7 +28,7 @@ def cooker(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def hotplate(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A camping stove on a table."""
+    """Build a camping stove on a table."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, stand, step = right - SIDE, height - 0.08, 0.05
@@ -42,7 +42,7 @@ def hotplate(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def heater(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A plate on a stand that heats what stands on it; its knob is in front."""
+    """Build a plate on a stand that heats what stands on it, with its knob in front."""
     depth, width, height = look.size
     x, y, stand = depth / 2, width / 2, height - 0.1
     for sign in (-y + 0.03, y - 0.03):
@@ -64,7 +64,7 @@ def heater(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def _hob(model: UrdfModel, parts: Parts, front: float, sides: tuple[float, float], top: float, knobs: float) -> None:
-    """Burners on a top and knobs before it."""
+    """Add burners to a top and knobs before it."""
     burners, middle, width = parts.of("burner"), (sides[0] + sides[1]) / 2, sides[1] - sides[0]
     columns = 2 if len(burners) > 1 else 1
     deep = len(burners) > columns
@@ -85,7 +85,7 @@ def _hob(model: UrdfModel, parts: Parts, front: float, sides: tuple[float, float
 
 
 def sink(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A sink with a shallow basin in a cabinet, the tap behind it and its lever beside it."""
+    """Build a sink with a shallow basin in a cabinet, the tap behind it and its lever beside it."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, floor = right - SIDE, height - 0.08
@@ -119,7 +119,7 @@ def sink(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 def _stream(
     model: UrdfModel, part: str, at: tuple[float, float], low: float, high: float, colour: str = "water"
 ) -> None:
-    """A stream of liquid, seen while the part is active: straight down from where the spout ends."""
+    """Add a stream of liquid, straight down from the spout and visible while the part is active."""
     model.spouts[part] = (*at, high)
     name = f"{part}_stream"
     model.link(name, part=part)
@@ -128,7 +128,7 @@ def _stream(
 
 
 def microwave(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A microwave oven on a stand: its door opens to the left, the buttons are on the right."""
+    """Build a microwave oven on a stand: its door opens to the left, the buttons are on the right."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, stand = right - SIDE, height - 0.42
@@ -158,7 +158,7 @@ def microwave(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def fridge(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A fridge above a freezer; with a dispenser, a panel with niche and button beside the door."""
+    """Build a fridge above a freezer; with a dispenser, a panel with niche and button beside the door."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, base = right - SIDE, 0.70
@@ -194,7 +194,7 @@ def fridge(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def coffee_maker(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A coffee maker on a stand: a plate for one cup, the spout above it, a slot for the pod on top."""
+    """Build a coffee maker on a stand: a plate for one cup, the spout above it, a slot for the pod on top."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, stand = right - SIDE, height - 0.44

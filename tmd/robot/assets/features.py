@@ -1,4 +1,4 @@
-"""What a model's surfaces are good for: regions to put things in, grips of joints, grasps of items, signs."""
+"""Features of a model's surfaces: regions to put things in, grips of joints, grasps of items, signs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Frame:
     across: Vector
 
     def pose(self) -> Pose:
-        """The same as a pose."""
+        """Return the same as a pose."""
         x, y = np.array(self.approach), np.array(self.across)
         return Pose(self.position, quaternion_of(np.stack([x, y, np.cross(x, y)], axis=1)))
 
@@ -53,7 +53,7 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """Where the robot works a joint: see :class:`tmd.robot.scene.scene.Handle`; ``tool`` is in the link's frame."""
+    """The place to work a joint at: see :class:`tmd.robot.scene.scene.Handle`; ``tool`` is in the link's frame."""
 
     part: str
     kind: str
@@ -67,7 +67,7 @@ class Grip:
 
 @dataclass(frozen=True, slots=True)
 class Grasp:
-    """How to take an item: the tool in the item's frame, and how wide the fingers stand before they close (metres)."""
+    """A way to take an item: the tool in the item's frame, and the gap of the fingers before they close (metres)."""
 
     tool: Frame
     opening: float
@@ -77,10 +77,7 @@ class Grasp:
 class Opening:
     """The rim of a vessel, round and level while it stands.
 
-    Attributes:
-        centre: The middle of the rim, in the item's frame.
-        radius: Inside of the wall.
-        level: The height up to which it is filled.
+    Its middle is in the item's frame, its radius inside of the wall; ``level`` is the height up to which it is filled.
     """
 
     centre: Vector
@@ -89,7 +86,7 @@ class Opening:
 
     @property
     def spills_from(self) -> float:
-        """Radians that it may lean before the surface of what is in it reaches the rim."""
+        """Radians that it may lean before the surface of its contents reaches the rim."""
         return math.atan((self.centre[2] - self.level) / self.radius)
 
 

@@ -26,7 +26,7 @@ from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
 
 def tv(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A television on its stand, with a bar of buttons below the screen."""
+    """Build a television on its stand, with a bar of buttons below the screen."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, stand = right - SIDE, 0.7
@@ -53,7 +53,7 @@ def tv(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def player(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A console or player on a stand: a tray on top that takes a disc from above, buttons in front beside it."""
+    """Build a console or player on a stand: a tray on top takes a disc from above, with buttons in front beside it."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, stand = right - SIDE, height - 0.16
@@ -86,7 +86,7 @@ def player(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A lamp on a small cabinet, or (a tall one) on a pole above it: switch or knob in front."""
+    """Build a lamp on a small cabinet, or (a tall one) on a pole above it, with its switch or knob in front."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, stand = right - SIDE, 0.7
@@ -105,7 +105,7 @@ def lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def ceiling_lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A lamp that hangs from an arm high up; its switch is on a post."""
+    """Build a lamp that hangs from an arm high up; its switch is on a post."""
     depth, width, height = look.size
     x, y = depth / 2, width / 2
     model.slab((-x, -y, 0.0), (x, y, 1.15), look.colour)
@@ -119,7 +119,7 @@ def ceiling_lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def window(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A window: below a sash on hinges, above it a curtain or blind that slides sideways."""
+    """Build a window: below a sash on hinges, above it a curtain or blind that slides sideways."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, sill, beam = right - SIDE, 0.72, 1.06
@@ -155,7 +155,7 @@ _LIFTED = math.radians(80)
 
 
 def bin_(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A bin, with or without a lid that is lifted by its rim, and a button in front of what runs in it."""
+    """Build a bin, with or without a lid that is lifted by its rim, and a button in front of what runs in it."""
     depth, width, height = look.size
     basket(model, look, Parts({}))
     for part, said in parts.of("lid"):

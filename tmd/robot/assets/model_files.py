@@ -58,7 +58,7 @@ _SLIDES = ("drawer", "slide", "button")
 
 
 class ModelFault(Exception):  # noqa: N818 - it becomes a TmdError as soon as its place is known
-    """What is wrong with a file, or with what is said about it; ``path`` leads to that in the shape."""
+    """A fault of a file, or of its entry in ``objects.yaml``; ``path`` leads to the fault within the shape."""
 
     def __init__(self, path: Sequence[str | int], message: str, hint: str | None = None) -> None:
         super().__init__(message)
@@ -69,18 +69,11 @@ class ModelFault(Exception):  # noqa: N818 - it becomes a TmdError as soon as it
 
 
 def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) -> UrdfModel:
-    """A thing in one piece.
-
-    Args:
-        name: Of the class.
-        shape: With ``mesh``.
-        path: The file.
-        colour: Of what is seen.
-        mass: In kilograms.
+    """Build a thing in one piece from a mesh; ``mass`` in kilograms.
 
     Raises:
-        ModelFault: The file is no mesh, or what is said about it does not fit.
-        MissingToolError: What reads or divides meshes is not installed.
+        ModelFault: The file is not a mesh, or its entry does not fit.
+        MissingToolError: A package that reads or divides meshes is not installed.
     """
     mesh = _standing(path, shape)
     low, high = (_vector(corner) for corner in mesh.bounds)
@@ -105,10 +98,10 @@ def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) ->
 
 
 def read_mesh(path: Path) -> trimesh.Trimesh:
-    """The triangles of a file, all of its pieces together.
+    """Read the triangles of a file, all of its pieces together.
 
     Raises:
-        ModelFault: It is no mesh.
+        ModelFault: It is not a mesh.
         MissingToolError: trimesh is not installed.
     """
     library = mesh_library()
@@ -124,7 +117,7 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
 
 
 def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
-    """The mesh in metres, upright, with the middle of its underside at the origin."""
+    """Return the mesh in metres, upright, with the middle of its underside at the origin."""
     if not path.is_file():
         raise ModelFault(("mesh",), f"there is no file {path}", "its path is read from the folder of objects.yaml")
     mesh: Any = read_mesh(path)
@@ -143,7 +136,7 @@ def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
 
 
 def _copies(path: Path, shape: Shape, mesh: trimesh.Trimesh, *, solid: bool) -> tuple[Path, list[Path]]:
-    """The mesh as it stands, and its convex pieces, as OBJ files in the user's cache."""
+    """Write the mesh as it stands, and its convex pieces, as OBJ files into the user's cache."""
     said = repr((shape.scale, shape.turn, solid, sorted(_PIECES.items())))
     digest = hashlib.sha256(path.read_bytes() + b"\0" + said.encode() + Path(__file__).read_bytes()).hexdigest()[:20]
     folder = cache_directory("meshes") / digest
@@ -184,7 +177,7 @@ def _cut(mesh: trimesh.Trimesh, height: float) -> Array:
 
 
 def _radius(mesh: trimesh.Trimesh, height: float) -> float:
-    """How far the axis is from the nearest wall at a height."""
+    """Return the distance from the axis to the nearest wall at a height."""
     pieces = _cut(mesh, height)
     start, way = pieces[:, 0], pieces[:, 1] - pieces[:, 0]
     length = np.maximum((way**2).sum(axis=1), 1e-18)
@@ -213,7 +206,7 @@ class _Hollow:
 
 
 def _hollow(mesh: trimesh.Trimesh) -> _Hollow:
-    """The hollow of a vessel, measured on the mesh."""
+    """Measure the hollow of a vessel."""
     top, floor = float(mesh.bounds[1][2]), _bottom(mesh)
     level = floor + 0.8 * (top - floor)
     if floor > 0.6 * top:
@@ -228,7 +221,7 @@ def _hollow(mesh: trimesh.Trimesh) -> _Hollow:
 
 
 def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh) -> None:
-    """Grasps of what is narrow enough: from the sides and slanting, and from above."""
+    """Add grasps of what is narrow enough: from the sides and slanting, and from above."""
     top, least = model.high[2], TIP + 0.004
     for height in dict.fromkeys((max(0.5 * top, least), max(0.7 * top, least))):
         points = _cut(mesh, min(height, top - 0.002)).reshape(-1, 2)
@@ -269,7 +262,7 @@ def _said_grasps(model: UrdfModel, entries: Sequence[GraspEntry]) -> None:
 
 
 def _frame(path: Sequence[str | int], at: Vector, approach: Vector, across: Vector) -> Frame:
-    """A tool frame of directions of any length; ``across`` is made square to ``approach``."""
+    """Return a tool frame of directions of any length; ``across`` is made square to ``approach``."""
     x, y = np.array(approach), np.array(across)
     for key, direction in (("approach", x), ("across", y)):
         if np.linalg.norm(direction) < 1e-6:
@@ -317,7 +310,7 @@ class _Source:
     """The link that each joint moves."""
 
     def link(self, name: str) -> str:
-        """A link's name in the model."""
+        """Return a link's name in the model."""
         return ROOT if name == self.first else name
 
 
@@ -329,23 +322,18 @@ class _FileModel(UrdfModel):
         self.element = ET.Element("robot")
 
     def text(self) -> str:
-        """The URDF."""
+        """Return the URDF."""
         return '<?xml version="1.0"?>\n' + ET.tostring(self.element, encoding="unicode") + "\n"
 
 
 def urdf_model(name: str, shape: Shape, path: Path, parts: Sequence[str], mass: float | None) -> UrdfModel:
-    """A thing with links and joints.
+    """Build a thing with links and joints from a URDF.
 
-    Args:
-        name: Of the class.
-        shape: With ``urdf``.
-        path: The file.
-        parts: The parts that the class has.
-        mass: Of the root link, where that shall not be what the file says.
+    ``parts`` are those of the class, ``mass`` that of the root link, if not that of the file.
 
     Raises:
-        ModelFault: The file is no URDF, a mesh of it is missing, or what is said about it does not fit.
-        MissingToolError: What reads meshes is not installed.
+        ModelFault: The file is not a URDF, a mesh of it is missing, or its entry does not fit.
+        MissingToolError: A package that reads meshes is not installed.
     """
     source = _read(path)
     model = _FileModel(name, mass or 0.2)
@@ -406,7 +394,7 @@ def _read(path: Path) -> _Source:
 
 
 def _find_meshes(source: _Source) -> None:
-    """Name the meshes by absolute paths; what the simulator does not read is copied as OBJ."""
+    """Name the meshes by absolute paths; files that the simulator cannot read are copied as OBJ."""
     for mesh in source.root.iter("mesh"):
         name = mesh.get("filename", "")
         found = find_mesh(source.path, name)
@@ -427,7 +415,7 @@ def _find_meshes(source: _Source) -> None:
 
 
 def _move_root(source: _Source, shape: Shape) -> None:
-    """Let the root's frame be the thing's: everything that is given in it is moved instead."""
+    """Make the root's frame that of the thing, by moving everything that is given in it."""
     roll, pitch, yaw = map(math.radians, shape.origin.rpy)
     shift = Pose(shape.origin.xyz) * Pose.turned(roll, pitch, yaw)
     for link in source.root.findall("link"):
@@ -441,7 +429,7 @@ def _move_root(source: _Source, shape: Shape) -> None:
 
 
 def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
-    """Links and joints as the model has them, their boxes, and masses where the file has none."""
+    """Add links and joints with their boxes, and masses where the file has none."""
     frames = {source.first: np.eye(4)}
     if source.tree is not None:
         frames = source.tree.forward({}, source.tree.links, frames)
@@ -473,7 +461,7 @@ def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
 
 
 def _weigh(model: UrdfModel, element: ET.Element, called: str, mass: float | None) -> None:
-    """A mass and inertia where the file has none, or where another mass was said."""
+    """Add a mass and inertia where the file has none, or where the entry gives another mass."""
     inertial = element.find("inertial")
     if inertial is not None and inertial.find("mass") is not None and not (mass and called == ROOT):
         link = model.links[called]
@@ -501,7 +489,7 @@ def _check_part(path: Sequence[str | int], part: str | None, parts: Sequence[str
 
 
 def _known_link(source: _Source, path: Sequence[str | int], name: str) -> str:
-    """A link by its name in the file."""
+    """Return the model's name of a link of the file."""
     names = [link.get("name", "") for link in source.root.findall("link")]
     if name not in names:
         hint = nearest(name, names) or f"it has the links {', '.join(names)}"
@@ -551,7 +539,7 @@ def _handle(model: UrdfModel, source: _Source, index: int, entry: HandleEntry, p
 
 
 def _renamed(model: UrdfModel, source: _Source) -> ET.Element:
-    """The file with the names of the model, and with joints that stay where they are left."""
+    """Return the file with the names of the model, and with joints that stay where they are left."""
     whole = ET.Element("robot", name=model.name)
     whole.extend(source.root.findall("material"))
     for link in source.root.findall("link"):

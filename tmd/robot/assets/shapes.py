@@ -30,15 +30,7 @@ LEAST, MOST = 0.5, 2.5
 
 @dataclass(frozen=True, slots=True)
 class Blueprint:
-    """How objects of a class are built.
-
-    Attributes:
-        class_name: The class.
-        sort: ``fixture`` or ``item``.
-        look: Of the whole.
-        model: Its links, regions, grips and grasps.
-        urdf: The model as URDF text.
-    """
+    """The model of the objects of a class; ``sort`` is ``fixture`` or ``item``, ``urdf`` the model as text."""
 
     class_name: str
     sort: str
@@ -50,9 +42,6 @@ class Blueprint:
 class Shapes:
     """The blueprints of a domain's classes.
 
-    Args:
-        folder: The domain.
-
     Raises:
         TmdError: (From the methods.) A shape makes no sense; with its place in ``objects.yaml``.
     """
@@ -63,7 +52,7 @@ class Shapes:
         self._known: dict[str, Blueprint] = {}
 
     def blueprint(self, class_name: str) -> Blueprint:
-        """How an object of this class is built."""
+        """Return the blueprint of a class."""
         if class_name not in self._known:
             self._known[class_name] = self._blueprint(class_name)
         return self._known[class_name]
@@ -103,7 +92,7 @@ class Shapes:
         return Blueprint(class_name, sort, look, model, model.text())
 
     def _of_file(self, class_name: str, sort: str, shape: Shape) -> Blueprint:
-        """An object whose shape is a mesh or a URDF beside ``objects.yaml``."""
+        """Build an object whose shape is a mesh or a URDF beside ``objects.yaml``."""
         from tmd.robot.assets.model_files import ModelFault, mesh_model, urdf_model
 
         key = "mesh" if shape.mesh else "urdf"
@@ -131,13 +120,13 @@ class Shapes:
         return Blueprint(class_name, sort, look, model, model.text())
 
     def _like_its_whole(self, look: Appearance, shape: Shape | None, whole: Appearance) -> Appearance:
-        """A door that says no colour has the colour of what it closes."""
+        """Give a door without a colour that of the object it closes."""
         if look.kind not in ("door", "latched_door", "lid") or (shape is not None and shape.colour is not None):
             return look
         return replace(look, colour=whole.colour)
 
     def sort(self, class_name: str) -> str:
-        """``item``, ``part`` or ``fixture``, by the types above the class."""
+        """Return ``item``, ``part`` or ``fixture``, by the types above the class."""
         return next((sort for sort in ("item", "part") if self.classes.is_below(class_name, sort)), "fixture")
 
     def _look(self, class_name: str, shape: Shape | None, sort: str, whole: str, part: str | None) -> Appearance:
@@ -196,7 +185,7 @@ class Shapes:
     def _error(
         self, owner: str, whole: str, part: str | None, key: Sequence[str | int], message: str, hint: str | None
     ) -> TmdError:
-        """An error where the shape was said: at the part, or at the class, or at the ancestor it comes from."""
+        """Return an error at the shape's entry: at the part, the class, or the ancestor that it comes from."""
         entries = self.classes.entries.classes
         if part is not None:
             for name in self.classes.line(whole):

@@ -14,9 +14,9 @@ _LOW = TIP + 0.004
 
 
 def utensil(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A spoon, fork, knife or scoop that lies: a raised handle in front, its head behind.
+    """Build a spoon, fork, knife or scoop that lies: a raised handle in front, its head behind.
 
-    What dips has a short head and a high handle: the head gets into a jar while the handle stays above the rim.
+    Spoon and scoop have a short head and a high handle: the head gets into a jar while the handle stays above the rim.
     """
     length, width, height = look.size
     head = min(0.045 if look.kind in ("spoon", "scoop") else 0.06, length * 0.35)
@@ -60,7 +60,7 @@ def _knife(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
 
 
 def block(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A box: a packet, a book, a folded towel; taken across its width."""
+    """Build a box: a packet, a book, a folded towel; taken across its width."""
     depth, width, height = look.size
     model.slab((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height), look.colour)
     model.box((0.0, 0.0, height), (depth * 0.62, width * 0.62, 0.002), look.accent, solid=False)
@@ -77,7 +77,7 @@ def block(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def egg(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """An egg in its stand: it does not roll."""
+    """Build an egg in its stand, so that it does not roll."""
     _, width, height = look.size
     radius = width / 2
     model.cylinder((0.0, 0.0, 0.009), radius * 0.95, 0.018, look.accent)
@@ -88,7 +88,7 @@ def egg(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def tin(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A tin, a pod: an upright cylinder."""
+    """Build an upright cylinder: a tin, a pod."""
     _, width, height = look.size
     model.cylinder((0.0, 0.0, height / 2), width / 2, height, look.colour)
     model.cylinder((0.0, 0.0, height), width / 2 * 0.85, 0.002, look.accent, solid=False)
@@ -96,7 +96,7 @@ def tin(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def strapped(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """Something wide and soft, or flat: a pillow, a blanket, a box of pizza; taken by a strap on top."""
+    """Build something wide and soft, or flat (a pillow, a blanket, a box of pizza), taken by a strap on top."""
     depth, width, height = look.size
     body = height - 0.04
     x, y = depth / 2, width / 2
@@ -109,7 +109,7 @@ def strapped(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def remote(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A remote control: taken by its near end, so that the other hand has room above the buttons at its far one."""
+    """Build a remote control, taken by its near end: the other hand has room above the buttons at its far one."""
     depth, width, height = look.size
     model.slab((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height), look.colour)
     end = depth / 2 - 0.02
@@ -131,9 +131,9 @@ def remote(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def sack(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear at either side.
+    """Build a garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear at either side.
 
-    At the sides, for the flap's tab is in front: one hand holds the bag, and the other lifts the tab.
+    The flap's tab is in front: one hand holds the bag, and the other lifts the tab.
     """
     depth, width, height = look.size
     ear = 0.05

@@ -1,4 +1,4 @@
-"""What the robot works joints by: handles, lids, knobs and buttons, as they are now."""
+"""Handles, lids, knobs and buttons in their current poses."""
 
 from __future__ import annotations
 
@@ -13,16 +13,14 @@ from tmd.robot.sim.pose import Pose, Vector
 
 @dataclass(frozen=True, slots=True)
 class Handle:
-    """What the robot works a joint by, as it is now.
+    """The place to work a joint at, in its current pose.
 
     Attributes:
-        kind: ``door``, ``flap`` (a door without a handle: pushed), ``drawer``, ``lid``, ``slide`` (a
-            curtain), ``knob`` or ``button``.
-        body: The body.
-        joint: The joint's name.
-        index: Its number, also that of the link that moves.
+        kind: ``door``, ``flap`` (a door without a handle: pushed), ``drawer``, ``lid``, ``slide`` (a curtain), ``knob``
+            or ``button``.
+        index: The joint's number, also that of the link that moves.
         grasp: The tool in the world with the fingers at the handle. Of a button and a flap: the closed tips touch it.
-        opening: How wide the fingers stand before they close; 0 means closed.
+        opening: Gap of the fingers before they close; 0 means closed.
         origin: A point of the joint's axis in the world.
         axis: The joint's axis in the world: of turning, or of sliding.
         turns: Whether it turns (radians) or slides (metres).
@@ -46,12 +44,12 @@ class Handle:
 
 
 def grip_of(things: Catalogue, whole: str, part: str) -> Grip | None:
-    """Where a part is worked, in the frame of its link; None where nothing is."""
+    """Return the grip of a part in the frame of its link; None if it has none."""
     return next((g for g in things.blueprints[whole].model.grips if g.part == part), None)
 
 
 def handle_of(things: Inventory, name: str) -> Handle | None:
-    """What opens, turns or presses an object or part now; None where nothing does."""
+    """Return the current handle of an object or part; None if it has none."""
     whole, part = things.where(name)
     grip = grip_of(things, whole, part) if whole != FLOOR else None
     if grip is None:

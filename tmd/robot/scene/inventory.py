@@ -19,12 +19,6 @@ __all__ = ["FLOOR", "Inventory"]
 class Inventory(Catalogue):
     """The objects of an environment as bodies of a simulator.
 
-    Args:
-        sim: The simulator.
-        environment: What there is.
-        blueprints: How each object is built.
-        parts: The parts of each object.
-
     Attributes:
         bodies: The body of every object (parts are links of it), and of the floor.
     """
@@ -38,12 +32,12 @@ class Inventory(Catalogue):
         self._owners: dict[int, str] = {}
 
     def keep(self, name: str, body: int) -> None:
-        """A body was loaded for an object."""
+        """Register the body of an object."""
         self.bodies[name] = body
         self._owners[body] = name
 
     def index(self) -> None:
-        """All bodies are loaded: numbers of links are looked up once."""
+        """Look up the numbers of links, once all bodies are loaded."""
         self._links: dict[tuple[str, str], int] = {(FLOOR, ROOT): -1}
         self._named: dict[tuple[int, int], str] = {}
         for name, blueprint in self.blueprints.items():
@@ -55,7 +49,7 @@ class Inventory(Catalogue):
                 self._named[body, self._links[name, link]] = self.named(name, part)
 
     def place(self, name: str) -> tuple[int, int]:
-        """The body and link (−1: the root) of an object or part.
+        """Return the body and link (−1: the root) of an object or part.
 
         Raises:
             TmdError: There is no such thing.
@@ -66,27 +60,27 @@ class Inventory(Catalogue):
         return self.bodies[whole], self.link(whole, self.blueprints[whole].model.part_links.get(part, ROOT))
 
     def link(self, whole: str, link: str) -> int:
-        """The number of a link of an object."""
+        """Return the number of a link of an object."""
         return self._links[whole, link]
 
     def owner(self, body: int, link: int = -1) -> str | None:
-        """The object or part that a link belongs to; None for the robot and others that are not of the scene."""
+        """Return the object or part that a link belongs to; None for the robot and other bodies outside of the scene."""
         return self._named.get((body, link), self._owners.get(body))
 
     def frame(self, whole: str, link: str) -> Pose:
-        """Where a link of an object is now."""
+        """Return the pose of a link of an object now."""
         return self.sim.pose(self.bodies[whole], self.link(whole, link))
 
     def entry(self, name: str, relation: str) -> Vector:
-        """The direction in which the gripper comes in there: (0, 0, −1) is from above."""
+        """Return the direction in which the gripper enters there: (0, 0, −1) is from above."""
         for whole, region in self.regions(name, relation):
             return self.frame(whole, region.link).rotate(region.entry)
         return (0.0, 0.0, -1.0)
 
     def pose_of(self, item: str) -> Pose:
-        """Where an object is now."""
+        """Return the pose of an object now."""
         return self.sim.pose(self.bodies[item])
 
     def top_of(self, item: str) -> float:
-        """The height of its highest point now."""
+        """Return the height of its highest point now."""
         return self.sim.extents(self.bodies[item])[1][2]

@@ -1,4 +1,4 @@
-"""Where every object of an environment goes: positions that it gives, else places that are found."""
+"""The poses of all objects of an environment: positions that it gives, else free places."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ class Placing:
     """The poses of all objects.
 
     Args:
-        environment: What there is, and where.
-        blueprints: How each object is built.
-        names: What there is, objects and parts, whether it has a shape or not.
+        environment: The objects and their places.
+        blueprints: Of each object.
+        names: All objects and parts, with a shape or without.
         rng: Moves items by millimetres; None: not at all.
 
     Attributes:
@@ -97,7 +97,7 @@ class Placing:
         return Room({**room.poses, **given}, low, high)
 
     def _walled(self, arranged: Room) -> Room:
-        """The same fixtures within the walls that the environment has."""
+        """Put the fixtures within the walls of the environment."""
         source = self._environment.source
         try:
             empty = room_of(self._environment.room)
@@ -153,7 +153,7 @@ class Placing:
         raise self._error(name, f"'{name}' finds no room {relation} '{where}'", hint)
 
     def _free(self, name: str, whole: str, part: str, relation: str, gap: float) -> Pose | None:
-        """The first free spot; tall things take the rear row first, low ones the front row."""
+        """Return the first free spot; tall things take the rear row first, low ones the front row."""
         blueprint, own = self._blueprints[name], self._footprints[name]
         high, said = blueprint.model.high[2], self._environment.objects[name].yaw
         for region in self._blueprints[whole].model.regions:
@@ -177,7 +177,7 @@ class Placing:
         return None
 
     def _frame(self, whole: str, region: Region) -> Pose:
-        """The region's frame as the fixture stands at the start: a drawer may be open."""
+        """Return the region's frame at the start: a drawer may be open."""
         model, pose = self._blueprints[whole].model, self.poses[whole]
         frame = pose * model.frame(region.link)
         link = model.links[region.link]
@@ -210,7 +210,7 @@ class Placing:
         return set(model.part_links) | {region.part for region in model.regions}
 
     def _error(self, name: str, message: str, hint: str | None, key: str | None = "at") -> TmdError:
-        """An error at what the environment says of an object."""
+        """Return an error at the environment's entry of an object."""
         path = ("objects", name) if key is None else ("objects", name, key)
         return self._environment.source.error(path, message, hint, "no-room")
 
@@ -225,7 +225,7 @@ def _rectangle(own: Footprint) -> list[tuple[float, float]]:
 
 
 def _facing_the_middle(x: float, y: float) -> Pose:
-    """A fixture at a given place looks along the axis that leads most straight to the middle of the room."""
+    """Return the pose of a fixture that looks along the axis that leads most straight to the middle of the room."""
     if abs(x) >= abs(y):
         return Pose.flat(x, y, 0.0, 3.141592653589793 if x > 0 else 0.0)
     return Pose.flat(x, y, 0.0, -1.5707963267948966 if y > 0 else 1.5707963267948966)

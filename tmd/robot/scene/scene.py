@@ -1,4 +1,4 @@
-"""An environment as a physical world: what stands where, what can be taken, opened and put on, and what it shows."""
+"""An environment as a physical world: its bodies, what can be taken, opened and put on, and what is visible."""
 
 from __future__ import annotations
 
@@ -48,18 +48,17 @@ class Scene(Inventory):
 
     Args:
         sim: An empty simulator.
-        environment: What there is and where.
+        environment: The objects and their places.
         folder: Its domain, with the shapes of its classes.
         rng: Moves things by millimetres, so that no two seeds see quite the same scene; None: exact places.
         settle: Steps of physics before the scene is ready.
 
     Attributes:
-        bodies: The body of every object (parts are links of it), and of the floor.
-        room: Where the fixtures and walls are.
-        placed: Where every object was put before physics began.
+        room: The places of fixtures and walls.
+        placed: The pose of every object before physics began.
 
     Raises:
-        TmdError: A shape makes no sense, something does not fit where it should be, or things are in each other.
+        TmdError: A shape makes no sense, something does not fit where it should be, or things overlap.
     """
 
     def __init__(
@@ -114,7 +113,7 @@ class Scene(Inventory):
             self.keep(name, self.sim.load(path, pose, fixed=blueprint.sort != "item", own_inertia=True))
 
     def _start(self, name: str) -> None:
-        """Joints, contents and signs as the environment says."""
+        """Set joints, contents and signs as the environment says."""
         body, model, entry = self.bodies[name], self.blueprints[name].model, self.environment.objects[name]
         for link in model.links.values():
             if link.spring:
@@ -177,11 +176,11 @@ class Scene(Inventory):
     # ------------------------------------------------------------------ what can be taken and worked
 
     def grasps(self, item: str) -> Sequence[Grasp]:
-        """How an item can be taken: ``Grasp.tool.pose()`` is in the item's frame."""
+        """Return the grasps of an item: ``Grasp.tool.pose()`` is in the item's frame."""
         return self.blueprints[item].model.grasps
 
     def handle(self, name: str) -> Handle | None:
-        """What opens, turns or presses an object or part now; None where nothing does."""
+        """Return the current handle of an object or part; None if it has none."""
         return handle_of(self, name)
 
     def spring_open(self, name: str) -> None:
@@ -216,7 +215,7 @@ class Scene(Inventory):
     # ------------------------------------------------------------------ what it shows
 
     def show(self, name: str, substances: Sequence[str]) -> None:
-        """Let a vessel be seen to contain this: the first substance fills it, the others lie on top."""
+        """Show the contents of a vessel: the first substance fills it, the others lie on top."""
         whole, _ = self.where(name)
         model, body = self.blueprints[whole].model, self.bodies[whole]
         groups = [list(substances[:1]), list(substances[1:])]
@@ -226,15 +225,15 @@ class Scene(Inventory):
             self.sim.colour(body, self.link(whole, link), colour)
 
     def shown(self, name: str) -> tuple[str, ...]:
-        """What a vessel is seen to contain."""
+        """Return the visible contents of a vessel."""
         return self._shown.get(name, ())
 
     def filled(self) -> list[str]:
-        """The items that are seen to contain something, in file order."""
+        """Return the items with visible contents, in file order."""
         return [name for name in self.blueprints if self._shown.get(name) and self.is_item(name)]
 
     def sign(self, name: str, predicate: str, on: bool) -> None:
-        """Let a state be seen: a burner glows, the tap runs, the microwave is lit; nothing where there is no sign."""
+        """Show a state, if there is a sign for it: a burner glows, the tap runs, the microwave is lit."""
         whole, part = self.where(name)
         if whole == FLOOR:
             return
@@ -243,7 +242,7 @@ class Scene(Inventory):
                 self.sim.colour(self.bodies[whole], self.link(whole, lamp.link), lamp.on if on else lamp.off)
 
     def viewpoint(self, around: Sequence[str] = ()) -> tuple[Vector, Vector]:
-        """Eye and target of a camera that sees some things (or the whole room) and the robot before them."""
+        """Return eye and target of a camera that sees some things (or the whole room) and the robot before them."""
         if not around:
             return (self.room.low[0] - 0.9, 0.0, 3.4), (0.5, 0.0, 0.4)
         points = [self.sim.pose(*self.place(name)).position for name in around]

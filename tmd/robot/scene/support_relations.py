@@ -1,4 +1,4 @@
-"""Where things may stand in a scene as it is now, and what they stand on, in or next to."""
+"""Free places in a scene as it is now, and the supports of items."""
 
 from __future__ import annotations
 
@@ -32,12 +32,7 @@ _ON_TOP = 0.004
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """A free place.
-
-    Attributes:
-        pose: That the item's frame would have, in the world, now.
-        outlet: The part whose stream would run into the item there; empty where there is none.
-    """
+    """A free place: the pose of the item's frame, and the part whose stream would run into it there, if any."""
 
     pose: Pose
     outlet: str = ""
@@ -93,7 +88,7 @@ def free_spots(
 def _under_spouts(
     things: Catalogue, whole: str, region: Region, own: Footprint, near: dict[str, tuple[Pose, Footprint]]
 ) -> list[Spot]:
-    """Where a stream would run into a vessel: its middle is below the spout."""
+    """Return where a stream would run into a vessel: its middle is below the spout."""
     frame = things.frame(whole, region.link)
     found = []
     for part, place in things.spouts(whole).items():
@@ -113,13 +108,13 @@ def _under_spouts(
 
 
 def _fitting(frame: Pose, region: Region, turned: float, own: Footprint) -> list[Pose]:
-    """The spots of a region in which a thing does not stick out."""
+    """Return the spots of a region in which a thing does not stick out."""
     poses = [frame * Pose.flat(x, y, z, yaw + turned) for x, y, z, yaw in region.spots]
     return [pose for pose in poses if inside(pose, own, region.low, region.high, frame, region.overhang)]
 
 
 def _squeezed_in(frame: Pose, region: Region, own: Footprint, near: Mapping[str, tuple[Pose, Footprint]]) -> list[Pose]:
-    """Where there is just room between what stands there, the nearest to the front first."""
+    """Return where there is just room between the things there, the nearest to the front first."""
     across, deep = (int((region.high[axis] - region.low[axis]) / PITCH) for axis in (1, 0))
     places = [
         (region.high[0] - PITCH * row, region.low[1] + PITCH * column)
@@ -136,7 +131,7 @@ def _squeezed_in(frame: Pose, region: Region, own: Footprint, near: Mapping[str,
 def _heaped(
     things: Catalogue, poses: list[Pose], own: Footprint, near: dict[str, tuple[Pose, Footprint]], rim: float
 ) -> list[Pose]:
-    """The same spots, on top of what lies there."""
+    """Return the same spots, on top of the things there."""
     found = []
     for pose in poses:
         below = [other for other, at in near.items() if not apart(pose, own, *at, 0.0)]
@@ -171,7 +166,7 @@ def supported(things: Inventory, item: str) -> tuple[str, str] | None:
 
 
 def _reaches(region: Region, local: Vector) -> bool:
-    """Whether a point of the region's frame is in it, or a little below."""
+    """Return whether a point of the region's frame is in it, or a little below."""
     deep = 0.03 if region.relation != "in" else 0.015
     return all(
         low - (deep if axis == 2 else 0.005) <= value <= high + (0.0 if axis == 2 else 0.005)
@@ -180,7 +175,7 @@ def _reaches(region: Region, local: Vector) -> bool:
 
 
 def _touched(things: Inventory, item: str) -> set[str]:
-    """The objects that carry an item, directly or through other items."""
+    """Return the objects that carry an item, directly or through other items."""
     found: set[str] = set()
     waiting = [item]
     while waiting:
@@ -206,7 +201,7 @@ def _neighbours(things: Inventory, item: str) -> list[str]:
 
 
 def _spread(spots: list[Spot]) -> list[Spot]:
-    """The same spots with those first that are not beside an earlier one: a few tries then reach far."""
+    """Move spots beside an earlier one to the end: a few tries then reach far."""
     first: list[Spot] = []
     for spot in spots:
         if all(spot.pose.distance(other.pose) >= APART for other in first):
@@ -215,5 +210,5 @@ def _spread(spots: list[Spot]) -> list[Spot]:
 
 
 def boxes_meet(one: tuple[Vector, Vector], other: tuple[Vector, Vector], gap: float = 0.0) -> bool:
-    """Whether two boxes along the axes are less than ``gap`` from each other."""
+    """Return whether two boxes along the axes are less than ``gap`` apart."""
     return all(one[0][axis] - gap <= other[1][axis] and other[0][axis] - gap <= one[1][axis] for axis in range(3))

@@ -9,7 +9,7 @@ CUBE = "cube.obj"
 
 
 def cube() -> str:
-    """The text of :data:`CUBE`."""
+    """Return the text of :data:`CUBE`."""
     lines: list[str] = []
     faces: list[tuple[list[float], list[int]]] = []
     for axis in range(3):

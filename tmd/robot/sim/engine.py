@@ -25,15 +25,15 @@ class Engine:
 
     Args:
         gui: Open a window. Needs a display.
-        pictures: Draw by EGL where it starts. This must be known before anything is loaded; without it, pictures are
+        pictures: Draw by EGL if it starts, which must be known before anything is loaded. Without it, pictures are
             drawn by pybullet's own slower renderer.
 
     Attributes:
-        client: The number of pybullet's connection, for who reads the world past this class.
+        client: The number of pybullet's connection, for direct calls.
         steps: Physics steps so far.
-        ticks: Steps and kinematic ticks so far: how often the watchers were called.
-        work: What was computed so far, in about microseconds on one core. It is counted and not measured: the same
-            calls give the same number on every machine.
+        ticks: Steps and kinematic ticks so far, that is calls of the watchers.
+        work: Approximate microseconds of computing on one core so far, counted and not measured: the same calls give
+            the same number on every machine.
         renderer: ``window``, ``egl`` or ``tiny``.
 
     Raises:
@@ -95,7 +95,7 @@ class Engine:
         self._watchers.append(watcher)
 
     def remove_watcher(self, watcher: Callable[[Self], None]) -> None:
-        """Call it no more."""
+        """Stop calling a watcher."""
         self._watchers.remove(watcher)
 
     def step(self, count: int = 1) -> None:
@@ -124,19 +124,7 @@ class Engine:
         fov: float = 60.0,
         shadow: bool = True,
     ) -> NDArray[np.uint8]:
-        """What a camera at ``eye`` that looks at ``target`` sees, z up.
-
-        Args:
-            eye: Where the camera is.
-            target: Where it looks.
-            width: Pixels.
-            height: Pixels.
-            fov: Vertical angle of view in degrees.
-            shadow: Draw shadows.
-
-        Returns:
-            (height, width, 3), RGB.
-        """
+        """Return the picture of a camera, z up: (height, width, 3), RGB; ``fov`` is vertical, in degrees."""
         bullet = self._bullet
         view = bullet.computeViewMatrix(eye, target, (0, 0, 1))
         projection = bullet.computeProjectionMatrixFOV(fov, width / height, 0.05, 30.0)

@@ -29,12 +29,10 @@ class Joint:
 
     Attributes:
         index: Its number, also that of its link.
-        name: Its name.
         kind: ``revolute`` (continuous ones too), ``prismatic`` or ``fixed``; ``other`` for the rest.
         lower: Least position; −inf without limits.
         upper: Greatest position; inf without limits.
         axis: In the frame of the joint.
-        link_name: The name of the link.
     """
 
     index: int
@@ -92,18 +90,15 @@ class Simulator(Engine):
         own_inertia: bool = False,
         sleeps: bool = True,
     ) -> int:
-        """Load a URDF.
+        """Load a URDF and return its body.
 
         Args:
             urdf: The file; meshes beside it or with absolute paths.
             pose: Of the root's frame in the world.
             fixed: The root is fixed to the world.
             own_inertia: Take the inertia tensors of the file; else they are computed from the collision shapes.
-            sleeps: When it has been at rest for two seconds, leave it out of the computation until something that
-                moves touches it: a room at rest costs next to nothing.
-
-        Returns:
-            The body.
+            sleeps: After two seconds at rest, leave it out of the computation until something that moves touches it: a room
+                at rest costs next to nothing.
 
         Raises:
             TmdError: pybullet cannot read the file.
@@ -135,11 +130,11 @@ class Simulator(Engine):
         return body
 
     def bodies(self) -> list[int]:
-        """All bodies, in the order they were loaded in."""
+        """Return all bodies, in the order of loading."""
         return sorted(self._inertial)
 
     def joints(self, body: int) -> dict[str, Joint]:
-        """The joints of a body by name, in their order."""
+        """Return the joints of a body by name, in their order."""
         if body not in self._names:
             bullet = self._bullet
             kinds = {
@@ -160,7 +155,7 @@ class Simulator(Engine):
         return self._names[body]
 
     def pose(self, body: int, link: int = -1) -> Pose:
-        """The frame of a link in the world."""
+        """Return the frame of a link in the world."""
         bullet = self._bullet
         if link == -1:
             position, orientation = bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
@@ -169,9 +164,9 @@ class Simulator(Engine):
         return Pose(state[4], state[5])
 
     def set_pose(self, body: int, pose: Pose) -> None:
-        """Put the root's frame there, at rest: for setting up, for kinematic motion and for faults.
+        """Put the root's frame there, at rest, for set-up, kinematic motion and faults.
 
-        What stood on it does not notice by itself: :meth:`wake`.
+        Things on top of it do not notice by themselves: see :meth:`wake`.
         """
         self.wake(body)
         mass = pose * self._inertial[body]
@@ -179,27 +174,27 @@ class Simulator(Engine):
         self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self.client)
 
     def wake(self, body: int | None = None) -> None:
-        """Let a body, or every body, notice what changed under it while it slept."""
+        """Let a body, or every body, notice changes under it during its sleep."""
         for each in sorted(self._sleepers if body is None else self._sleepers & {body}):
             state = self._bullet.ACTIVATION_STATE_WAKE_UP
             self._bullet.changeDynamics(each, -1, activationState=state, physicsClientId=self.client)
 
     def motion(self, body: int) -> tuple[Pose, Vector, Vector]:
-        """The exact state of a root, for :meth:`set_motion`: the frame of its mass, its velocity, its turning."""
+        """Return the exact state of a root, for :meth:`set_motion`: the frame of its mass, linear and angular velocity."""
         position, orientation = self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
         linear, angular = self._bullet.getBaseVelocity(body, physicsClientId=self.client)
         return Pose(position, orientation), linear, angular
 
     def set_motion(self, body: int, motion: tuple[Pose, Vector, Vector]) -> None:
-        """Put a root back as :meth:`motion` found it, to the bit."""
+        """Restore the state of :meth:`motion`, to the bit."""
         pose, linear, angular = motion
         self._bullet.resetBasePositionAndOrientation(body, pose.position, pose.orientation, physicsClientId=self.client)
         self._bullet.resetBaseVelocity(body, linear, angular, physicsClientId=self.client)
 
     def extents(self, body: int, link: int | None = None) -> tuple[Vector, Vector]:
-        """A box, parallel to the world's axes, around the collision shapes of one link, or of all links.
+        """Return an axis-parallel box around the collision shapes of one link, or of all links.
 
-        It is a bound: where the frame of the mass is turned against the shape, it is a little too large.
+        It is an upper bound: if the frame of the mass is turned against the shape, it is a little too large.
         """
         if link is not None:
             lower, upper = self._bullet.getAABB(body, link, physicsClientId=self.client)
@@ -212,7 +207,7 @@ class Simulator(Engine):
         return (float(low[0]), float(low[1]), float(low[2])), (float(high[0]), float(high[1]), float(high[2]))
 
     def solid_links(self, body: int) -> list[int]:
-        """The links that have a collision shape, the root first."""
+        """Return the links that have a collision shape, the root first."""
         bullet = self._bullet
         links = range(-1, bullet.getNumJoints(body, physicsClientId=self.client))
         return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self.client)]
@@ -223,12 +218,12 @@ class Simulator(Engine):
         return joint if isinstance(joint, int) else self.joints(body)[joint].index
 
     def joint_position(self, body: int, joint: int | str) -> float:
-        """Radians or metres."""
+        """Return the position in radians or metres."""
         state = self._bullet.getJointState(body, self._index(body, joint), physicsClientId=self.client)
         return float(state[0])
 
     def joint_states(self, body: int, joints: Sequence[int]) -> tuple[list[float], list[float]]:
-        """Positions and velocities of several joints."""
+        """Return positions and velocities of several joints."""
         states = self._bullet.getJointStates(body, joints, physicsClientId=self.client)
         return [state[0] for state in states], [state[1] for state in states]
 
@@ -275,15 +270,9 @@ class Simulator(Engine):
         forces: Sequence[float],
         gain: float,
     ) -> None:
-        """Let several motors follow a trajectory: where to be now, and how fast to move.
+        """Let several motors follow a trajectory, given by positions and velocities for now.
 
-        Args:
-            body: Whose joints.
-            joints: Their numbers.
-            targets: Positions.
-            velocities: Velocities at the targets.
-            forces: The most that each motor may use.
-            gain: The part of a position error that a motor removes in one step.
+        ``gain`` is the share of a position error that a motor removes in one step.
         """
         self._bullet.setJointMotorControlArray(
             body,
@@ -298,7 +287,7 @@ class Simulator(Engine):
         )
 
     def brake_joint(self, body: int, joint: int | str, force: float) -> None:
-        """Switch the joint's motor off; ``force`` (N or N·m) of friction is left, 0 lets it swing."""
+        """Switch the joint's motor off, with ``force`` (N or N·m) of friction left; 0 lets it swing."""
         self.wake(body)
         self._bullet.setJointMotorControl2(
             body,
@@ -312,7 +301,7 @@ class Simulator(Engine):
     # constraints
 
     def weld(self, body: int, link: int, other: int) -> int:
-        """Fix the root of ``other`` to a link as the two are now; returns a handle for :meth:`unweld`."""
+        """Fix the root of ``other`` to a link as the two are now; return a handle for :meth:`unweld`."""
         held = self._mass_frame(body, link).inverse() * self._mass_frame(other, -1)
         return self._constrain(body, link, other, -1, self._bullet.JOINT_FIXED, held, Pose((0.0, 0.0, 0.0)), WELD_FORCE)
 
@@ -341,7 +330,7 @@ class Simulator(Engine):
         return handle
 
     def _mass_frame(self, body: int, link: int) -> Pose:
-        """The frame at the centre of mass, which constraints are given in."""
+        """Return the frame at the centre of mass, in which constraints are given."""
         if link == -1:
             return Pose(*self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client))
         state = self._bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self.client)
@@ -365,7 +354,7 @@ class Simulator(Engine):
         return [Contact(point[3] if point[1] == body else point[4], point[8]) for point in points or ()]
 
     def ray(self, start: Sequence[float], end: Sequence[float]) -> Hit | None:
-        """What a straight line from ``start`` to ``end`` meets first."""
+        """Return the first surface on a straight line."""
         body, link, _, position, _ = self._bullet.rayTest(start, end, physicsClientId=self.client)[0]
         return None if body < 0 else Hit(body, link, position)
 
