@@ -1,4 +1,4 @@
-"""A simulation that is ready for a plan: the room, the robot in it, and what sees whether the plan works."""
+"""A simulation that is ready for a plan: the room, the robot in it, and the observer of the plan."""
 
 from __future__ import annotations
 
@@ -34,20 +34,14 @@ class SimulationSession:
     """An environment with a PR2 in it.
 
     Args:
-        environment: What there is and where.
+        environment: The objects and their places.
         folder: Its domain, with shapes and skills.
         problem: The environment as PDDL.
         kinematic: Set joints along their paths instead of driving motors.
-        seed: Random seed. With 0 all things stand exactly where they are said to be; other seeds move them
-            by millimetres.
+        seed: Random seed. With 0 all things are exactly at their places; other seeds move them by millimetres.
         urdf: Another PR2 than the packaged one.
         gui: Open a window, and go no faster than real time.
         pictures: Pictures will be taken.
-
-    Attributes:
-        sim: The simulation.
-        cell: Robot and scene.
-        skills: The domain's.
 
     Raises:
         MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.
@@ -96,17 +90,10 @@ class SimulationSession:
         repairs: int = MOST_REPAIRS,
         wrap: Callable[[RobotPerformer], Performer] | None = None,
     ) -> Execution:
-        """Carry out a plan.
+        """Carry out a plan, with its events sent to listeners.
 
-        Args:
-            orders: The plan.
-            listeners: Who is told how it goes.
-            planner: Which planner replans.
-            repairs: How often.
-            wrap: Makes another performer of the robot; experiments inject faults with it.
-
-        Returns:
-            How it went; listeners were told where in the plan each step stands.
+        ``repairs`` is the maximum number of replannings. ``wrap`` makes another performer of the robot, for experiments
+        that inject faults.
         """
         robot = RobotPerformer(self.cell, self.skills)
         performer: Performer = robot if wrap is None else wrap(robot)
@@ -119,21 +106,21 @@ class SimulationSession:
 
 
 class _Signs:
-    """Lets contents and signs look as the state that was observed."""
+    """Shows contents and signs of the observed state."""
 
     def __init__(self, stage: SimulationSession) -> None:
         self._stage = stage
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """Nothing has changed yet."""
+        """Change nothing yet."""
 
     def end(self, title: Title, step: ExecutedStep) -> None:
-        """What was poured is there now, a burner glows."""
+        """Show what was poured, and what is lit."""
         show_state(self._stage.cell.scene, self._stage.skills, step.state)
 
 
 class _Pace:
-    """Lets a simulation go no faster than real time: people watch it."""
+    """Limits a simulation to real time."""
 
     def __init__(self, sim: Simulator) -> None:
         self._steps, self._due = sim.steps, time.monotonic()

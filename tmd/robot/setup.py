@@ -1,4 +1,4 @@
-"""From an environment to a robot that stands in it."""
+"""A robot in a scene, and the signs of a state."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from tmd.robot.skills.skill_file import Skills
 
 
 def show_state(scene: Scene, skills: Skills, state: State) -> None:
-    """Let contents and signs look as ``state`` says."""
+    """Show the contents and signs of ``state``."""
     contents: dict[str, list[str]] = {}
     for atom in sorted(state):
         if atom.predicate == skills.contents and len(atom.args) == 2:
@@ -29,7 +29,7 @@ def show_state(scene: Scene, skills: Skills, state: State) -> None:
 
 
 def make_cell(sim: Simulator, scene: Scene, *, seed: int, kinematic: bool, urdf: Path | None = None) -> Cell:
-    """A robot, the packaged PR2 or that of ``urdf``, in the middle of a scene.
+    """Put a robot, the packaged PR2 or that of ``urdf``, in the middle of a scene.
 
     Raises:
         MissingToolError: The robot's model is not installed.

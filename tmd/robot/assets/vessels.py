@@ -84,7 +84,7 @@ def round_body(model: UrdfModel, look: Appearance, radius: float, height: float,
 
 
 def cup(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """Build a cup, mug or glass, narrow enough for a hand round its body; the depth beyond the width is the handle's."""
+    """Build a cup, mug or glass, narrow enough for a hand round its body; depth beyond the width is the handle's."""
     depth, width, height = look.size
     radius = width / 2
     round_body(model, look, radius, height, 0.005, 0.006)

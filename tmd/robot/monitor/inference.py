@@ -1,78 +1,25 @@
-"""What follows from what was measured, by a rule: contents, heat, and what buttons and knobs bring about.
+"""Facts that follow from measurements by rules: contents, heat, and the effects of buttons and knobs.
 
-Nothing here has physics of its own, and nothing is taken from PDDL alone. Contents come in where the mouth of what is
-tipped is over a rim, or where a stream runs into a rim, and are gone where the vessel leaned so far that they reach
-its rim. Heat comes of standing on what is lit for long enough. A lamp is lit when the button was seen to go down that
-controls it. What no rule covers is assumed, and is told as that.
+Nothing here has physics of its own, and nothing is taken from PDDL alone. Contents come in if the mouth of what is
+tipped is over a rim, or a stream runs into a rim, and are gone if the vessel leaned so far that they reach its rim.
+Heat comes of standing on something lit for long enough. A lamp is lit when its button was seen to go down. A fact
+without a rule is assumed, and marked so.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from enum import StrEnum
 from math import degrees
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from tmd.pddl.model import GroundAtom, Instruction, State
+from tmd.robot.skills.results import Basis as Basis
+from tmd.robot.skills.results import KnownEffect as KnownEffect
 from tmd.robot.skills.skill_file import Exposure, Skills
 
-
-class Basis(StrEnum):
-    """What an effect is known by."""
-
-    MEASURED = "measured"
-    """A sensor of the simulation shows it."""
-    INFERRED = "inferred"
-    """It follows from what was measured, by a rule that is told with it."""
-    ASSUMED = "assumed"
-    """PDDL says so, and nothing speaks against it."""
-
-
-@dataclass(frozen=True, slots=True)
-class KnownEffect:
-    """A fact that an instruction changed as PDDL predicts.
-
-    Attributes:
-        atom: The fact.
-        holds: Whether it came to hold; else it ended.
-        basis: What that is known by.
-        how: The numbers, or the rule.
-    """
-
-    atom: GroundAtom
-    holds: bool
-    basis: Basis
-    how: str
-
-    def __str__(self) -> str:
-        return f"{'' if self.holds else 'not '}{self.atom}"
-
-
-class ContentSenses(Protocol):
-    """What has to be measured of things that hold something."""
-
-    def seconds(self) -> float:
-        """Simulated seconds since the beginning."""
-        ...
-
-    def leant(self, item: str) -> tuple[float, float] | None:
-        """How far a vessel leaned at most since :meth:`reset_leant`, and from which angle on it spills, in radians.
-
-        None for what cannot spill: it is closed, or holds nothing.
-        """
-        ...
-
-    def reset_leant(self) -> None:
-        """Forget how far vessels leaned."""
-        ...
-
-    def stream(self, item: str) -> tuple[bool, str] | None:
-        """Whether the stream of an outlet runs into a vessel where it stands, with the numbers.
-
-        None where there is no outlet.
-        """
-        ...
+if TYPE_CHECKING:
+    from tmd.robot.skills.robot_context import Cell
 
 
 _POURING = ("tip", "squeeze", "dip")
@@ -81,12 +28,12 @@ _POURING = ("tip", "squeeze", "dip")
 
 @dataclass
 class InferredFacts:
-    """What became of the facts that no sensor sees.
+    """The facts that no sensor sees.
 
     Attributes:
         state: The facts.
-        known: For those that changed as PDDL says, basis and rule.
-        against: For those that PDDL predicts and that are not so, what was measured.
+        known: Basis and rule of those that changed as PDDL says.
+        against: The measurements against those that PDDL predicts and that do not hold.
     """
 
     state: set[GroundAtom]
@@ -95,11 +42,7 @@ class InferredFacts:
 
 
 class FactInference:
-    """Applies the rules of ``inferred`` in ``skills.yaml``.
-
-    Args:
-        skills: Which rule holds for which predicate.
-    """
+    """The rules of ``inferred`` in ``skills.yaml``."""
 
     def __init__(self, skills: Skills) -> None:
         self._skills = skills
@@ -108,7 +51,7 @@ class FactInference:
 
     def after(
         self,
-        senses: ContentSenses,
+        senses: Cell,
         before: State,
         predicted: State,
         instruction: Instruction,
@@ -116,15 +59,15 @@ class FactInference:
         *,
         happened: bool,
     ) -> InferredFacts:
-        """The facts after an instruction.
+        """Return the facts after an instruction.
 
         Args:
             senses: The simulation.
-            before: Those that were observed before it.
+            before: The observed facts before it.
             predicted: Those of PDDL.
-            instruction: What was done.
-            evidence: What showed that the skill's event happened.
-            happened: Whether it did; otherwise nothing came of it.
+            instruction: The instruction.
+            evidence: Of the skill's event.
+            happened: Whether that happened; otherwise the instruction had no effect.
         """
         found = InferredFacts(set(predicted if happened else before))
         if happened:
@@ -135,15 +78,15 @@ class FactInference:
         senses.reset_leant()
         return found
 
-    def observed(self, senses: ContentSenses, state: State) -> None:
-        """Take note of since when what is exposed to something is so."""
+    def observed(self, senses: Cell, state: State) -> None:
+        """Record since when things are exposed to something."""
         watched = {rule.to for rule in self._skills.inferred.values() if isinstance(rule, Exposure)}
         now = senses.seconds()
         self._exposed = {a: self._exposed.get(a, now) for a in state if a.predicate in watched}
 
     def _judge(
         self,
-        senses: ContentSenses,
+        senses: Cell,
         found: InferredFacts,
         atom: GroundAtom,
         before: State,
@@ -165,10 +108,8 @@ class FactInference:
         elif not holds and skill != "wait":
             found.known[atom] = told
 
-    def _expose(
-        self, senses: ContentSenses, found: InferredFacts, atom: GroundAtom, rule: Exposure, *, holds: bool
-    ) -> None:
-        """What stood on what is lit, and for long enough, is hot."""
+    def _expose(self, senses: Cell, found: InferredFacts, atom: GroundAtom, rule: Exposure, *, holds: bool) -> None:
+        """Infer heat of what stood on something lit for long enough."""
         if not holds:
             return
         cause = GroundAtom(rule.to, atom.args)
@@ -180,8 +121,8 @@ class FactInference:
         found.state.discard(atom)
         found.against[atom] = f"{cause} was so for {passed:.1f} s only, and {rule.seconds:g} s are needed"
 
-    def _run_in(self, senses: ContentSenses, found: InferredFacts, atom: GroundAtom, before: State) -> None:
-        """What an outlet gives is in a vessel that its stream runs into."""
+    def _run_in(self, senses: Cell, found: InferredFacts, atom: GroundAtom, before: State) -> None:
+        """Infer contents of a vessel that a stream runs into."""
         measured = senses.stream(atom.args[0])
         if measured is None:
             return
@@ -196,8 +137,8 @@ class FactInference:
         # what is in it already stays as it was
         found.state |= {a for a in before if a.predicate in self._skills.inferred and a.args[0] == atom.args[0]}
 
-    def _spill(self, senses: ContentSenses, found: InferredFacts) -> None:
-        """What leaned too far is empty."""
+    def _spill(self, senses: Cell, found: InferredFacts) -> None:
+        """Empty vessels that leaned too far."""
         for item in sorted({atom.args[0] for atom in found.state if atom.predicate in self._contents}):
             lean = senses.leant(item)
             if lean is None or lean[0] <= lean[1]:
@@ -210,6 +151,6 @@ class FactInference:
 
 
 def _held_in(state: Iterable[GroundAtom], item: str, skills: Skills) -> list[GroundAtom]:
-    """The facts about what is in a thing: what it contains, and its heat."""
+    """Return the facts about the contents of a thing, and their heat."""
     rules = {p for p, rule in skills.inferred.items() if rule == "contents" or isinstance(rule, Exposure)}
     return sorted(atom for atom in state if atom.predicate in rules and atom.args[0] == item)

@@ -1,4 +1,4 @@
-"""A run as it is told: what each instruction is for, when it begins, and how it ended."""
+"""Events of a run: the purpose of each instruction, its beginning, and its result."""
 
 from __future__ import annotations
 
@@ -12,13 +12,12 @@ from tmd.robot.skills.results import ExecutedStep
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """One instruction of a plan, and what it is for.
+    """One instruction of a plan, and its purpose.
 
     Attributes:
-        instruction: What to do.
-        clause: The clause that it serves, from 0; ``None`` where the plan comes from a file.
-        latent: Whether the person left it unsaid.
-        text: What the person said there.
+        clause: The clause that it serves, from 0; ``None`` if the plan comes from a file.
+        latent: Whether the request leaves it unsaid.
+        text: The words of the request.
     """
 
     instruction: Instruction
@@ -32,11 +31,10 @@ class Title:
     """An instruction that is being done.
 
     Attributes:
-        instruction: What is done.
         number: Its place in the plan, from 1; of a repair, the place before which it was put.
-        of: How many the plan has.
+        of: The length of the plan.
         repair: Whether the monitor put it in.
-        order: What it is for; ``None`` for a repair.
+        order: Its purpose; ``None`` for a repair.
     """
 
     instruction: Instruction
@@ -47,14 +45,14 @@ class Title:
 
 
 class Listener(Protocol):
-    """Who is told how a run goes."""
+    """Receiver of the events of a run."""
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """An instruction begins; ``expected`` is what it should bring about, sorted."""
+        """Receive the beginning of an instruction, and the facts that it should bring about, sorted."""
         ...
 
     def end(self, title: Title, step: ExecutedStep) -> None:
-        """It is over."""
+        """Receive its result."""
         ...
 
 
@@ -92,7 +90,7 @@ class Recorder:
             listener.end(title, step)
 
     def _place(self, instruction: Instruction) -> int | None:
-        """Where in the plan it stands; ``None`` for a repair.
+        """Return the place in the plan; ``None`` for a repair.
 
         After a step whose facts are not as predicted, the executor may try it again or go on.
         """

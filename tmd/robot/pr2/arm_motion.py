@@ -42,21 +42,21 @@ def plan_arm(
     rng: np.random.Generator,
     budget: int = 300,
 ) -> list[Arm] | None:
-    """A collision-free path of one arm from where it is to joint positions.
+    """Plan a collision-free path of one arm from where it is to joint positions; nothing moves.
 
-    It keeps :data:`CLEARANCE` away; what is nearer at the start or at the goal may stay as near as it is there. What
-    can hold something stays upright.
+    It keeps a clearance; what is nearer at the start or at the goal may stay as near as it is there. A thing that can
+    hold something stays upright.
 
     Args:
-        robot: The robot; nothing moves.
+        robot: The robot.
         side: The arm.
         goal: Seven joint positions; the endless joints are turned the short way.
         ignore: (body, link) that may be touched, link None: all of the body.
         rng: For samples and shortcuts.
-        budget: Samples that are drawn before giving up.
+        budget: Maximum number of samples.
 
     Returns:
-        Joint positions after the start, the last is the goal, to go through in straight lines; None: the goal touches
+        Joint positions after the start up to the goal, to go through in straight lines; None if the goal touches
         something, or no path was found.
     """
     must = robot.keeps_level(side)
@@ -119,14 +119,7 @@ def _plan_arm(
 
 
 class _Upright:
-    """Keeps what a hand holds upright: it may lean a little, or as much as it does at the ends of its way.
-
-    Args:
-        robot: The robot.
-        side: The hand.
-        first: Where the arm is.
-        last: Where it goes.
-    """
+    """Keeps what a hand holds upright: it leans a little at most, or as much as at the ends of its way."""
 
     def __init__(self, robot: Pr2, side: str, first: Array, last: Array) -> None:
         self._kinematics = robot.arm_kinematics[side]
@@ -136,17 +129,17 @@ class _Upright:
         self._most = max(ARM_MOTION.level, float(self._leaning(np.array([first, last])).max()) + 0.02)
 
     def _leaning(self, rows: Array) -> Array:
-        """Radians between the axis of what is held and the vertical, for (n, 7)."""
+        """Return the radians between the axis of what is held and the vertical, for (n, 7)."""
         frames = self._kinematics.tool(self._torso, rows)
         angles: Array = np.arccos(np.clip((frames[:, :3, :3] @ self._axis)[:, 2], -1.0, 1.0))
         return angles
 
     def kept(self, rows: Array) -> bool:
-        """Whether it is upright in all of (n, 7)."""
+        """Return whether it is upright in all of (n, 7)."""
         return bool(np.all(self._leaning(rows) <= self._most))
 
     def stood_up(self, row: Array, *, anywhere: bool = False) -> Array | None:
-        """A posture like ``row`` in which it is upright; None if there is none nearby, or with ``anywhere`` at all."""
+        """Return a posture like ``row`` in which it is upright; None if there is none nearby, or ``anywhere``."""
         frame = self._kinematics.tool(self._torso, row[None])[0]
         pose = Pose.from_matrix(frame)
         up = np.array(pose.rotate((float(self._axis[0]), float(self._axis[1]), float(self._axis[2]))))
@@ -169,35 +162,14 @@ def plan_line(
     ignore: Ignored = (),
     arm: Sequence[float] | None = None,
 ) -> list[Arm] | None:
-    """A straight motion of the tool: approach, retreat, push.
-
-    Args:
-        robot: The robot; nothing moves.
-        side: The arm.
-        start: The first tool pose in the world.
-        end: The last one; the orientation turns evenly.
-        ignore: As for :func:`plan_poses`.
-        arm: Where the arm is at ``start``.
-
-    Returns:
-        As :func:`plan_poses`.
-    """
+    """Plan a straight motion of the tool, whose orientation turns evenly; see :func:`plan_poses`."""
     return plan_poses(robot, side, dense([start, end]), ignore=ignore, arm=arm)
 
 
 def plan_level(robot: Pr2, side: str, goal: Pose, *, ignore: Ignored = ()) -> list[Arm] | None:
-    """A way of a hand in straight lines, on which what it holds leans no more than at its ends.
+    """Plan a way of a hand in straight lines, on which what it holds leans no more than at its ends.
 
-    Straight there; or back towards the robot, or up, or both, before and after that.
-
-    Args:
-        robot: The robot; nothing moves.
-        side: The arm.
-        goal: Where the tool goes, in the world.
-        ignore: As for :func:`plan_arm`.
-
-    Returns:
-        As :func:`plan_arm`.
+    It leads straight there; or back towards the robot, or up, or both, before and after that. See :func:`plan_arm`.
     """
     start = robot.tool_at(side, robot.arm(side))
     shoulder = robot.base_link()
@@ -211,7 +183,7 @@ def plan_level(robot: Pr2, side: str, goal: Pose, *, ignore: Ignored = ()) -> li
 
 
 def _aside(base: Pose, pose: Pose, up: float, back: float) -> Pose:
-    """The pose higher up and nearer to the robot."""
+    """Return the pose higher up and nearer to the robot."""
     x, y, z = pose.position
     away = max(hypot(base.position[0] - x, base.position[1] - y), 1e-6)
     nearer = min(back, away)
@@ -232,21 +204,21 @@ def plan_poses(
     torso: float | None = None,
     margin: float = 0.0,
 ) -> list[Arm] | None:
-    """Joint positions along tool poses, without leaps between them.
+    """Compute joint positions along tool poses, without leaps between them; nothing moves.
 
     Args:
-        robot: The robot; nothing moves.
+        robot: The robot.
         side: The arm.
         poses: Tool frames in the world, a few centimetres apart at most.
-        ignore: What may be touched.
+        ignore: (body, link) that may be touched, link None: all of the body.
         arm: Where the arm is at the first pose. None: where it is, if its tool is there (to 1 cm and 0.05 rad);
             else several solutions of the first pose are tried, nearest first.
-        base: Where the base would be; None: where it is.
-        torso: How high the torso would be; None: as it is.
-        margin: Metres that count as touching, but for what is as near at the start.
+        base: Pose of the base; None: the present one.
+        torso: Height of the torso; None: the present one.
+        margin: Metres that count as touching, except for what is as near at the start.
 
     Returns:
-        One row for each pose, the first included; None: a pose is out of reach, or the way to it is blocked.
+        One row for each pose, the first included; None if a pose is out of reach, or the way to it is blocked.
     """
     kinematics = robot.arm_kinematics[side]
     height = robot.torso() if torso is None else torso
@@ -274,7 +246,7 @@ def plan_poses(
 def _along(
     checker: CollisionChecker, track: Callable[[Pose, Arm], Arm | None], seed: Arm, poses: Sequence[Pose]
 ) -> list[Arm] | None:
-    """Free rows from ``seed`` on; what is blocked is noticed before all of them are worked out."""
+    """Return free rows from ``seed`` on, checked in chunks: blocked ways are noticed early."""
     rows, looked_at = [seed], 0
     for number, pose in enumerate(poses[1:], 1):
         row = track(pose, rows[-1])
@@ -290,7 +262,7 @@ def _along(
 
 
 def _first_rows(robot: Pr2, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:
-    """The arm as it is, if its tool is at ``pose``; else solutions that differ, nearest first."""
+    """Return the arm as it is, if its tool is at ``pose``; else solutions that differ, nearest first."""
     now = robot.arm(side)
     tool = robot.tool_at(side, now, base=base, torso=torso)
     if tool.distance(pose) < 0.01 and tool.angle(pose) < 0.05:
@@ -312,7 +284,7 @@ def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
 
 
 def between(start: Pose, end: Pose, part: float) -> Pose:
-    """The pose at ``part`` (0 to 1) of the way; the orientation turns evenly (slerp, Shoemake 1985)."""
+    """Return the pose at ``part`` (0 to 1) of the way; the orientation turns evenly (slerp, Shoemake 1985)."""
     a, b = np.array(start.orientation), np.array(end.orientation)
     b = b if a @ b >= 0 else -b
     angle = start.angle(end) / 2

@@ -1,4 +1,4 @@
-"""What the PR2 would touch if its joints were elsewhere.
+"""Collision checks of a robot in configurations other than the present one.
 
 Two phases. Boxes around links are moved in numpy, for a whole batch of configurations: most are free after that. Only
 where boxes overlap are the joints set in the simulator and distances asked for, link by link; afterwards everything
@@ -31,13 +31,7 @@ Ignored: TypeAlias = Collection[tuple[int, int | None]]
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """A body in a hand.
-
-    Attributes:
-        body: The body.
-        side: The hand.
-        grip: The body's frame in the tool frame.
-    """
+    """A body in a hand; ``grip`` is the body's frame in the tool frame."""
 
     body: int
     side: str
@@ -57,7 +51,7 @@ _BATCH_WORK = (130, 8)
 
 
 class CollisionModel(Protocol):
-    """What collision checking asks of a robot; attributes as those of :class:`~tmd.robot.pr2.pr2.Pr2`."""
+    """The part of a robot that collision checking needs; attributes as those of :class:`~tmd.robot.pr2.pr2.Pr2`."""
 
     sim: Simulator
     tree: Tree
@@ -69,13 +63,13 @@ class CollisionModel(Protocol):
     movable: list[int]
 
     def solid_links(self, body: int) -> list[int]:
-        """The links of a body that can be touched."""
+        """Return the links of a body that can be touched."""
 
     def positions(self) -> dict[str, float]:
-        """The positions of all joints that move, by name."""
+        """Return the positions of all joints that move, by name."""
 
     def helds(self) -> list[Held]:
-        """What the hands hold, as it lies in them now."""
+        """Return what the hands hold."""
 
 
 class CollisionChecker:
@@ -86,10 +80,10 @@ class CollisionChecker:
     Args:
         robot: The robot.
         vary: Names of the joints that the configurations give, in order; each below the one before.
-        positions: Of other joints that are to be elsewhere than they are.
+        positions: Of other joints, if not the present ones.
         arm: Check only the links of this arm (and what it holds); else all links.
-        helds: What is in the hands; None: what the robot holds.
-        ignore: What may be touched.
+        helds: The contents of the hands; None: what the robot holds.
+        ignore: (body, link) that may be touched.
         margin: Metres to keep away.
     """
 
@@ -158,7 +152,7 @@ class CollisionChecker:
     # set-up
 
     def _chain(self, tree: Tree, frames: Mapping[str, Array], below: Sequence[str]) -> None:
-        """Split the tree at the joints that vary: what lies between two of them is rigid."""
+        """Split the tree at the joints that vary: the links between two of them are rigid."""
         carriers = [next(link for link in tree.links.values() if link.joint == joint) for joint in self._vary]
         self._carriers = carriers
         self._fixed = []  # from the frame of one varying link to the joint of the next
@@ -184,7 +178,7 @@ class CollisionChecker:
         self._boxes.append(box_of(self._sim, held.body))
 
     def _find_obstacles(self) -> list[tuple[int, int, Vector, Vector]]:
-        """Links of other bodies with their boxes."""
+        """Return links of other bodies with their boxes."""
         sim = self._sim
         taken = {self._robot.body, *(held.body for held in self._helds)}
         found = []
@@ -201,7 +195,7 @@ class CollisionChecker:
         return found
 
     def _self_pairs(self, frames: Mapping[str, Array]) -> list[tuple[int, int | str]]:
-        """Pairs of the robot's own links to check: a mover's number, and a mover's number or a resting link's name."""
+        """Return pairs of own links to check: a mover's number, and a mover's number or a resting link's name."""
         disabled = self._robot.model.disabled
         number = {name: index for index, name in enumerate(self._links)}
         hand = {held.side: set(self._robot.tree.below(f"{held.side[0]}_wrist_flex_link")) for held in self._helds}
@@ -232,7 +226,7 @@ class CollisionChecker:
 
         Args:
             ends: Configurations, each with how deep it may be in something, in metres.
-            near: How far from an end each joint may be where that holds; what touches there is apart elsewhere, so
+            near: Distance of each joint from an end within which that holds; what touches there is apart elsewhere, so
                 that it is neither dragged along nor pushed on. None: it holds all the way.
 
         Returns:
@@ -252,13 +246,13 @@ class CollisionChecker:
         return True
 
     def touching(self) -> bool:
-        """Whether anything at the ends of a way, as given to :meth:`allow`, is nearer than it should be elsewhere."""
+        """Return whether anything at the ends given to :meth:`allow` is nearer than it should be elsewhere."""
         return any(depth > -CONTACT.apart for _, _, pairs in self._ends for depth in pairs.values())
 
     # checks
 
     def frames(self, configurations: Array) -> Array:
-        """Frames of the checked links in the world: (n, links, 4, 4) for configurations (n, joints)."""
+        """Return the frames of the checked links in the world: (n, links, 4, 4) for configurations (n, joints)."""
         count = len(configurations)
         frame = np.broadcast_to(np.eye(4), (count, 4, 4))
         tops = [frame]
@@ -269,7 +263,7 @@ class CollisionChecker:
         return result
 
     def collisions(self, configuration: Sequence[float]) -> list[Collision]:
-        """Everything that one configuration touches, deepest first."""
+        """Return everything that one configuration touches, deepest first."""
         batch = np.asarray(configuration, dtype=float).reshape(1, -1)
         frames = self.frames(batch)
         pairs = self._candidates(frames)[0]
@@ -277,7 +271,7 @@ class CollisionChecker:
         return sorted(found, key=lambda each: (-each[3], each[:3]))
 
     def free(self, configurations: Array, closer: float = 0.0) -> bool:
-        """Whether none of (n, joints) touches anything, with a margin that is smaller by ``closer`` metres."""
+        """Return whether none of (n, joints) touches anything, with a margin that is smaller by ``closer`` metres."""
         frames = self.frames(configurations)
         candidates = self._candidates(frames)
         busy = [index for index, pairs in enumerate(candidates) if pairs]
@@ -288,7 +282,7 @@ class CollisionChecker:
         return True
 
     def each_free(self, configurations: Array) -> list[bool]:
-        """For each of (n, joints) whether it touches nothing."""
+        """Return for each of (n, joints) whether it touches nothing."""
         frames = self.frames(configurations)
         return [
             not self._narrow(configuration, frame, pairs, every=False)
@@ -296,11 +290,11 @@ class CollisionChecker:
         ]
 
     def apart(self, configurations: Array) -> list[bool]:
-        """For each of (n, joints) whether not even boxes overlap: then it is free, else nothing is known."""
+        """Return for each of (n, joints) whether not even boxes overlap: then it is free, else nothing is known."""
         return [not pairs for pairs in self._candidates(self.frames(configurations))]
 
     def _candidates(self, frames: Array) -> list[list[tuple[int, int, int]]]:
-        """For each configuration, what may touch: (mover, body, link)."""
+        """Return for each configuration the pairs that may touch: (mover, body, link)."""
         self._sim.work += _BATCH_WORK[0] + _BATCH_WORK[1] * len(frames)
         centres = (frames[..., :3, :3] @ self._centres[:, :, None])[..., 0] + frames[..., :3, 3]
         halves = (np.abs(frames[..., :3, :3]) @ self._halves[:, :, None])[..., 0] + self._margin
@@ -354,7 +348,7 @@ class CollisionChecker:
         return found
 
     def _allowed_at(self, configuration: Array) -> dict[tuple[str, int, int], float]:
-        """How deep pairs may be in each other in a configuration: more near the ends of a way."""
+        """Return the allowed depths of pairs in a configuration: more near the ends of a way."""
         found = self.allowed
         for end, near, pairs in self._ends:
             if np.all(np.abs(configuration - end) <= near):
@@ -379,7 +373,7 @@ def link_boxes(root: ET.Element) -> dict[str, LinkBox]:
 
 
 def box_of(sim: Simulator, body: int) -> LinkBox:
-    """A box round a body, in the frame of its root."""
+    """Return a box round a body, in the frame of its root."""
     lower, upper = sim.extents(body)
     corners = np.array(
         [[x, y, z] for x in (lower[0], upper[0]) for y in (lower[1], upper[1]) for z in (lower[2], upper[2])]
@@ -391,13 +385,13 @@ def box_of(sim: Simulator, body: int) -> LinkBox:
 
 
 def moved(box: LinkBox, frames: Array) -> tuple[Array, Array]:
-    """The least and the greatest corner of boxes round ``box`` at (n, 4, 4) frames: (n, 3) each."""
+    """Return the least and the greatest corner of boxes round ``box`` at (n, 4, 4) frames: (n, 3) each."""
     centre = frames[:, :3, :3] @ box.centre + frames[:, :3, 3]
     half = np.abs(frames[:, :3, :3]) @ box.half
     return centre - half, centre + half
 
 
 def _spread(index: int, count: int) -> int:
-    """A rank that takes far apart numbers first: the bits of the number, mirrored."""
+    """Return a rank that takes far apart numbers first: the bits of the number, mirrored."""
     bits = max(1, (count - 1).bit_length())
     return int(format(index, f"0{bits}b")[::-1], 2)

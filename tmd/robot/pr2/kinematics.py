@@ -1,4 +1,4 @@
-"""Where the links of a robot are for given joint positions, in numpy and for many configurations at once.
+"""Forward kinematics of a robot in numpy, for many configurations at once.
 
 The simulator can tell this as well, for one configuration at a time and by moving its robot. Planners ask for
 thousands.
@@ -25,8 +25,6 @@ class Link:
     """A link and the joint that carries it.
 
     Attributes:
-        name: Of the link.
-        joint: The name of the joint.
         parent: The link that the joint stands on.
         kind: ``fixed``, ``revolute``, ``continuous`` or ``prismatic``.
         origin: The joint in the parent's frame, 4×4.
@@ -46,10 +44,7 @@ class Link:
 
 
 class Tree:
-    """The links of a URDF.
-
-    Args:
-        root: The parsed ``<robot>``.
+    """The links of a URDF, whose ``<robot>`` is ``root``.
 
     Attributes:
         links: By name, every link after its parent; the root is not among them.
@@ -69,7 +64,7 @@ class Tree:
                     reached.append(link.name)
 
     def below(self, link: str) -> list[str]:
-        """``link`` and everything it carries, in order."""
+        """Return ``link`` and everything it carries, in order."""
         result = {link}
         for name, each in self.links.items():
             if each.parent in result:
@@ -77,7 +72,7 @@ class Tree:
         return [name for name in self.links if name in result]
 
     def chain(self, first: str, last: str) -> list[Link]:
-        """The links after ``first`` up to ``last``."""
+        """Return the links after ``first`` up to ``last``."""
         result = []
         name = last
         while name != first:
@@ -88,15 +83,12 @@ class Tree:
     def forward(
         self, positions: Mapping[str, ArrayLike], links: Iterable[str], known: Mapping[str, Array]
     ) -> dict[str, Array]:
-        """Frames of links.
+        """Return the frames of ``links`` and of ``known``, 4×4 or (n, 4, 4), in the frame that ``known`` is given in.
 
         Args:
             positions: Of joints by name, numbers or arrays (n,); joints that are not named are at 0.
-            links: What to work out, every link after its parent.
-            known: Frames that are known already, 4×4 or (n, 4, 4), among them the parents of the first links.
-
-        Returns:
-            Each of ``links`` and of ``known``: 4×4 or (n, 4, 4), in the frame that ``known`` is given in.
+            links: Names, every link after its parent.
+            known: Known frames, among them the parents of the first links.
         """
         frames = dict(known)
         for name in links:
@@ -109,7 +101,7 @@ class Tree:
 
 
 def motion(link: Link, position: ArrayLike) -> Array:
-    """What a joint does to the frame of its link: 4×4, or (n, 4, 4) for n positions."""
+    """Return the motion of a joint in the frame of its link: 4×4, or (n, 4, 4) for n positions."""
     value = np.asarray(position, dtype=float)
     result = np.zeros((*value.shape, 4, 4))
     result[..., 3, 3] = 1.0

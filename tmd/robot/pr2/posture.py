@@ -1,4 +1,4 @@
-"""Arms out of the way: postures for driving, and how to get into them."""
+"""Postures of the arms for driving, and the ways to them."""
 
 from __future__ import annotations
 
@@ -19,14 +19,10 @@ _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y 
 
 
 def tuck(robot: Pr2, budget: int = ARM_MOTION.tuck_samples) -> bool:
-    """Fold both arms, each along a collision-free path; an arm that is in the other's way is moved first.
+    """Fold both arms, each along a collision-free path, and return whether both arrived.
 
-    Args:
-        robot: The robot.
-        budget: Samples for the path of an arm.
-
-    Returns:
-        Whether both arms arrived.
+    A hand that holds something brings it to the front, as upright as it is held. An arm that is in the other's way is
+    moved first. ``budget`` is the number of samples for the path of an arm.
     """
     waiting = sorted(robot.arms, key=lambda side: robot.held(side) is not None)
     for _ in robot.arms:
@@ -52,7 +48,7 @@ def _fold(robot: Pr2, side: str, budget: int) -> bool:
 
 
 def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
-    """The tucked posture; the nearest free one like it where it touches something at which the robot stands."""
+    """Return the tucked posture; if it touches something, the nearest free ones like it."""
     usual = robot.model.tucked[side]
     others = [
         tuple(value + shift * (joint == number) for number, value in enumerate(usual))
@@ -101,7 +97,7 @@ def _carry(robot: Pr2, side: str, budget: int) -> bool:
 
 
 def _in_front(robot: Pr2, side: str) -> bool:
-    """Whether a hand is in front of the robot, where it may be for driving."""
+    """Return whether a hand is in front of the robot, where it may be for driving."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     x, y, z = (base.inverse() * robot.tool(side)).position
     inside = (x, -y if side == "right" else y, z)
@@ -109,7 +105,7 @@ def _in_front(robot: Pr2, side: str) -> bool:
 
 
 def _tool_places(now: Pose, side: str) -> Iterator[Pose]:
-    """Tool frames in the base's frame, compact ones first; at each place the least turning first."""
+    """Yield tool frames in the base's frame, compact ones first; at each place the least turning first."""
     for x, y, z in _PLACES:
         for index in range(ARM_MOTION.carrying_yaws):
             yaw = (index + 1) // 2 * tau / ARM_MOTION.carrying_yaws * (1 if index % 2 else -1)

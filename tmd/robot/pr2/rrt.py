@@ -55,7 +55,7 @@ def plan(
     budget: int,
     project: Project | None = None,
 ) -> Array | None:
-    """A path from ``start`` to ``goal``: the straight line if that is free, else one by RRT-connect.
+    """Return a path from ``start`` to ``goal``: the straight line if that is free, else one by RRT-connect.
 
     Args:
         start: (k,), taken to be free.
@@ -63,9 +63,9 @@ def plan(
         free: The collision check.
         sample: Draws (k,) from the space.
         strides: (k,): motions that a check may jump over.
-        budget: How many samples to draw at most.
-        project: Brings each new node to where a constraint holds (CBiRRT, Berenson et al. 2009); ``free`` asks about it
-            as well.
+        budget: Maximum number of samples.
+        project: Brings each new node to where a constraint holds (CBiRRT, Berenson et al. 2009); ``free`` checks it as
+            well.
 
     Returns:
         (n, k), corners only, or None.
@@ -89,7 +89,7 @@ def plan(
 def shorten(
     path: Array, free: Free, strides: Array, rng: np.random.Generator, tries: int = ARM_MOTION.rrt_shortcuts
 ) -> Array:
-    """The path with random pieces replaced by straight lines where these are free; never longer."""
+    """Replace random pieces of the path by straight lines if these are free; it never gets longer."""
     for _ in range(tries):
         if len(path) < 3:
             break
@@ -109,7 +109,7 @@ def shorten(
 
 
 def _clear(start: Array, end: Array, free: Free, strides: Array) -> bool:
-    """Whether the line is free, ``start`` not asked."""
+    """Return whether the line is free; ``start`` is not checked."""
     return free(dense(np.array([start, end]), strides.tolist())[1:])
 
 

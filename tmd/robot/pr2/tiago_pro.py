@@ -44,7 +44,7 @@ _SIDES = ("right", "left")
 
 
 def _names() -> dict[str, str]:
-    """The names of joints and links here, by their own."""
+    """Return the names of joints and links here, by their own."""
     found = {
         "head_1_joint": "head_pan_joint", "head_1_link": "head_pan_link",
         "head_2_joint": "head_tilt_joint", "head_2_link": "head_tilt_link",
@@ -85,7 +85,7 @@ COUPLED = ("gripper_l_outer_finger_joint", "gripper_r_outer_finger_joint")
 
 
 def missing_joints(root: ET.Element) -> list[str] | None:
-    """The joints of a TIAGo Pro that a parsed URDF lacks; ``None`` where it lacks the arms: it is another robot."""
+    """Return the joints of a TIAGo Pro that a parsed URDF lacks; ``None`` if it lacks the arms: it is another robot."""
     joints = {joint.get("name") for joint in root.findall("joint")}
     wanted = [name for name in NAMES if name.endswith("_joint")]
     if not joints.issuperset(name for name in wanted if name.startswith("arm_")) or "torso_lift_joint" not in joints:
@@ -94,10 +94,10 @@ def missing_joints(root: ET.Element) -> list[str] | None:
 
 
 def never_checked(root: ET.Element) -> set[tuple[str, str]]:
-    """Pairs of links that need no check, by the names of the skills.
+    """Return pairs of links that need no check, by the names of the skills.
 
-    Those that one joint or only fixed joints join, those of one hand, and the shoulders beside the column, whose convex
-    hull they are in when the lift is low. There is no SRDF of this robot in the package.
+    These are pairs joined by one joint or by fixed ones, those of one hand, and the shoulders beside the column, whose
+    convex hull they are in when the lift is low. There is no SRDF of this robot in the package.
     """
     parents = {end_of(joint, "child"): (end_of(joint, "parent"), joint.get("type")) for joint in root.findall("joint")}
     carrier = {}

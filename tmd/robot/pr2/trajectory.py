@@ -1,4 +1,4 @@
-"""When to be where on a path: joint paths sampled at the rate of the simulation, within speed limits."""
+"""Timing of joint paths: sampled at the rate of the simulation, within speed limits."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tmd.robot.pr2.kinematics import Array
 
 
 def timed(path: Array, speeds: Sequence[float], rate: int, window: int) -> Array:
-    """Positions for every step.
+    """Return positions for every step, (m, k); the last row is that of ``path``.
 
     Each piece is passed at the speed of the joint that needs longest; the result is smoothed by a moving average, so
     it starts and ends at rest, and corners are rounded. A row that is given twice is a corner where the joints come to
@@ -21,10 +21,7 @@ def timed(path: Array, speeds: Sequence[float], rate: int, window: int) -> Array
         path: (n, k), n ≥ 2; the first row is where the joints are.
         speeds: The greatest speed of each joint, per second.
         rate: Steps a second.
-        window: Steps that are averaged: how long it takes to reach the full speed.
-
-    Returns:
-        (m, k); the last row is the last of ``path``.
+        window: Steps that are averaged: the time to reach the full speed.
     """
     steps = np.max(np.abs(np.diff(path, axis=0)) / np.asarray(speeds), axis=1) * rate
     steps[steps == 0.0] = window
@@ -39,7 +36,7 @@ def timed(path: Array, speeds: Sequence[float], rate: int, window: int) -> Array
 
 
 def dense(path: Array, strides: Sequence[float]) -> Array:
-    """The path with rows put in so that no joint moves by more than its stride from row to row; (m, k)."""
+    """Insert rows so that no joint moves by more than its stride from row to row; (m, k)."""
     pieces = [path[:1]]
     for start, end in pairwise(path):
         count = max(1, int(np.ceil(np.max(np.abs(end - start) / np.asarray(strides)) - 1e-9)))
@@ -48,7 +45,7 @@ def dense(path: Array, strides: Sequence[float]) -> Array:
 
 
 def unwound(path: Array, endless: Sequence[int]) -> Array:
-    """The path with the endless joints turned the short way at every row."""
+    """Return the path with the endless joints turned the short way at every row."""
     result = path.copy()
     result[:, list(endless)] = np.unwrap(result[:, list(endless)], axis=0)
     return result

@@ -15,14 +15,13 @@ from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
 
 @dataclass(frozen=True, slots=True)
 class JointGroup:
-    """Some joints of a body.
+    """Some joints of a body, given by their numbers.
 
     Attributes:
-        joints: Their numbers.
         speeds: Greatest speeds, m/s or rad/s.
         forces: Greatest motor forces, N or N·m.
         strides: Greatest motions between two kinematic ticks.
-        tolerance: How near all must be to their goals for a motion to have succeeded.
+        tolerance: Maximum distance of each from its goal for a motion to have succeeded.
         window: Steps to reach full speed.
     """
 
@@ -35,7 +34,7 @@ class JointGroup:
 
 
 def exact(path: Array, group: JointGroup, free: Callable[[Array], bool]) -> Array:
-    """The path with a rest at each corner, if what comes of rounding them under physics is not free."""
+    """Return the path with a rest at each corner, if the corners that physics rounds are not free."""
     track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)[:: MOTOR.check_every]
     if len(path) == 2 or free(track):
         return path
@@ -43,20 +42,17 @@ def exact(path: Array, group: JointGroup, free: Callable[[Array], bool]) -> Arra
 
 
 def hold(sim: Simulator, body: int, group: JointGroup, positions: Sequence[float]) -> None:
-    """Let the motors keep the joints where ``positions`` says."""
+    """Let the motors keep the joints at ``positions``."""
     zeros = [0.0] * len(group.joints)
     sim.drive_joints(body, group.joints, list(positions), zeros, group.forces, MOTOR.gain)
 
 
 def run(sim: Simulator, body: int, group: JointGroup, path: Array) -> bool:
-    """Move along ``path`` under physics.
+    """Move along ``path`` under physics; return whether all joints are within the group's tolerance of the last row.
 
     The budget is twice the planned time and one second. A motion that no longer gets nearer for half a second, after
     its planned time, ends before that. The motors then hold the joints at their goals or, after a failure, where
     they are once they have yielded to what is in the way for a quarter of a second.
-
-    Returns:
-        Whether all joints are within the group's tolerance of the last row.
     """
     track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)
     speeds = np.diff(np.vstack([path[:1], track]), axis=0) * STEPS_PER_SECOND

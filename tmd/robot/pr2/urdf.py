@@ -1,4 +1,4 @@
-"""The PR2's URDF: where it is, what is wrong with it, and a repaired copy in the user's cache directory.
+"""The PR2's URDF, its faults, and a repaired copy in the user's cache directory.
 
 The package ``example-robot-data`` holds the robot with its meshes. pybullet loads it as it is, and then the arms are
 black (their meshes have no normals), the robot is 14 kg too heavy (frames without ``<inertial>`` get 1 kg each) and it
@@ -74,7 +74,7 @@ class RobotDescription:
         tip_offset: Metres between the frames of the finger tips when their surfaces meet.
         eye: The cameras, in the frame of head_tilt_link.
         own_joints: By the PR2's names of joints: the robot's own, and sign and shift from a position here to one there.
-        is_pr2: Whether lengths and axes are those of the PR2's arms, which closed forms can use.
+        is_pr2: Whether lengths and axes are those of the PR2's arms, for closed forms.
     """
 
     urdf: Path
@@ -99,7 +99,7 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
     source = packaged("urdf/pr2.urdf") if urdf is None else urdf
     root = read_urdf(source)
     missing = tiago_pro.missing_joints(root)
-    if missing and _finger_joints(root) == set():
+    if missing and not any("finger" in joint.get("name", "") for joint in root.findall("joint")):
         raise TmdError(f"{source} has no hands: {_lacks('joint', missing)}", hint=_WITH_HANDS)
     other = missing == []
     if other:
@@ -137,7 +137,7 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
 
 
 def packaged_robot(name: str) -> Path | None:
-    """The URDF of a robot of :data:`ROBOTS`; ``None`` for the PR2, which everything takes where nothing is said.
+    """Return the URDF of a robot of :data:`ROBOTS`; ``None`` for the PR2, the default everywhere.
 
     Raises:
         MissingToolError: The package, or the file in it, is not there.
@@ -151,7 +151,7 @@ def packaged_robot(name: str) -> Path | None:
 
 
 def packaged(name: str) -> Path:
-    """A file of the PR2 in ``example-robot-data``.
+    """Return a file of the PR2 in ``example-robot-data``.
 
     Raises:
         MissingToolError: The package, or the file in it, is not there.
@@ -160,11 +160,6 @@ def packaged(name: str) -> Path:
 
 
 def _of_package(name: str) -> Path:
-    """A file of a robot in ``example-robot-data``.
-
-    Raises:
-        MissingToolError: The package, or the file in it, is not there.
-    """
     try:
         files = importlib.metadata.files(_DISTRIBUTION) or []
     except importlib.metadata.PackageNotFoundError as error:
@@ -177,7 +172,7 @@ def _of_package(name: str) -> Path:
 
 
 def check(source: Path, root: ET.Element) -> None:
-    """See that a URDF is a PR2's.
+    """Refuse a URDF that is not a PR2's.
 
     Raises:
         TmdError: Joints are missing; the message names some of them.
@@ -201,25 +196,16 @@ def check(source: Path, root: ET.Element) -> None:
         )
 
 
-def _finger_joints(root: ET.Element) -> set[str]:
-    """The joints of hands, whosever they are."""
-    return {name for joint in root.findall("joint") if "finger" in (name := joint.get("name", ""))}
-
-
 def _lacks(kind: str, names: list[str]) -> str:
     plural = "s" if len(names) > 1 else ""
     return f"{len(names)} {kind}{plural} missing: {', '.join(names[:4])}{', …' if len(names) > 4 else ''}"
 
 
 def repair(root: ET.Element, meshes: dict[str, str]) -> None:
-    """Repair a parsed URDF in place.
+    """Repair a parsed URDF in place, with new names of its mesh files.
 
-    Frames that carry nothing are left out, except the tool frames: fewer links are faster. What remains without
-    ``<inertial>`` gets a gram. The base gets joints: x and y slide, theta turns.
-
-    Args:
-        root: ``<robot>``.
-        meshes: What to write for every mesh file name.
+    Frames that carry nothing are left out, except the tool frames: fewer links are faster. Links without
+    ``<inertial>`` get a gram. The base gets joints: x and y slide, theta turns.
     """
     for extra in [child for child in root if child.tag not in ("link", "joint", "material")]:
         root.remove(extra)
@@ -258,7 +244,7 @@ def _root_link(root: ET.Element) -> str:
 
 
 def _idle_leaves(root: ET.Element) -> set[str]:
-    """Links without children that are neither seen nor met: sensor frames, and helpers of the gripper."""
+    """Return links without children, visuals and collisions: sensor frames, and helpers of the gripper."""
     parents = {end_of(joint, "parent") for joint in root.findall("joint")}
     return {
         link.get("name", "")
@@ -271,7 +257,7 @@ def _idle_leaves(root: ET.Element) -> set[str]:
 
 
 def _inertial(mass: float) -> ET.Element:
-    """A small ball of 2 cm, so that the tensor is positive."""
+    """Return the inertia of a small ball of 2 cm, so that the tensor is positive."""
     inertial = ET.Element("inertial")
     ET.SubElement(inertial, "mass", value=repr(mass))
     moment = repr(0.4 * mass * 0.02**2)
@@ -280,7 +266,7 @@ def _inertial(mass: float) -> ET.Element:
 
 
 def _disabled(root: ET.Element) -> frozenset[tuple[str, str]]:
-    """Pairs that need no check: the SRDF's, and links that are joined by one joint."""
+    """Return pairs that need no check: the SRDF's, and links that are joined by one joint."""
     pairs = {(end_of(joint, "parent"), end_of(joint, "child")) for joint in root.findall("joint")}
     srdf = read_urdf(packaged("srdf/pr2.srdf"))
     pairs |= {(pair.get("link1", ""), pair.get("link2", "")) for pair in srdf.findall("disable_collisions")}
@@ -292,14 +278,6 @@ def _both_ways(pairs: Iterable[tuple[str, str]]) -> frozenset[tuple[str, str]]:
 
 
 def _digest(*parts: bytes) -> str:
-    """A name for the contents and for the present text of the modules whose repairs are in the copy."""
-    total = hashlib.sha256()
-    for part in _lengths((*parts, Path(__file__).read_bytes(), Path(tiago_pro.__file__).read_bytes())):
-        total.update(part)
-    return total.hexdigest()[:20]
-
-
-def _lengths(parts: Iterable[bytes]) -> Iterable[bytes]:
-    for part in parts:
-        yield len(part).to_bytes(8, "little")
-        yield part
+    """Return a name for the contents and for the present text of the modules whose repairs are in the copy."""
+    parts = (*parts, Path(__file__).read_bytes(), Path(tiago_pro.__file__).read_bytes())
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()[:20]

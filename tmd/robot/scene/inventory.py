@@ -64,7 +64,7 @@ class Inventory(Catalogue):
         return self._links[whole, link]
 
     def owner(self, body: int, link: int = -1) -> str | None:
-        """Return the object or part that a link belongs to; None for the robot and other bodies outside of the scene."""
+        """Return the object or part that a link belongs to; None for the robot and others outside of the scene."""
         return self._named.get((body, link), self._owners.get(body))
 
     def frame(self, whole: str, link: str) -> Pose:

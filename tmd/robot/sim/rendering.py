@@ -48,7 +48,7 @@ def _advice() -> str:
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Discard the output of C code: standard output belongs to the results, standard error to the program's messages."""
+    """Discard the output of C code: standard output is for results, standard error for the program's messages."""
     sys.stdout.flush()
     sys.stderr.flush()
     library = ctypes.CDLL(None)

@@ -97,8 +97,8 @@ class Simulator(Engine):
             pose: Of the root's frame in the world.
             fixed: The root is fixed to the world.
             own_inertia: Take the inertia tensors of the file; else they are computed from the collision shapes.
-            sleeps: After two seconds at rest, leave it out of the computation until something that moves touches it: a room
-                at rest costs next to nothing.
+            sleeps: After two seconds at rest, leave it out of the computation until something that moves touches it: a
+                room at rest costs next to nothing.
 
         Raises:
             TmdError: pybullet cannot read the file.
@@ -180,7 +180,7 @@ class Simulator(Engine):
             self._bullet.changeDynamics(each, -1, activationState=state, physicsClientId=self.client)
 
     def motion(self, body: int) -> tuple[Pose, Vector, Vector]:
-        """Return the exact state of a root, for :meth:`set_motion`: the frame of its mass, linear and angular velocity."""
+        """Return the exact state of a root, for :meth:`set_motion`: frame of its mass, linear and angular velocity."""
         position, orientation = self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
         linear, angular = self._bullet.getBaseVelocity(body, physicsClientId=self.client)
         return Pose(position, orientation), linear, angular

@@ -44,11 +44,7 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
 
 
 def _refuse_to_spill(cell: Cell, name: str) -> None:
-    """What lies is not opened as long as something is in it.
-
-    Raises:
-        SkillError: It does, and what is in it would run out.
-    """
+    """Refuse to open what lies as long as something is in it."""
     if not cell.scene.is_item(name) or not cell.scene.shown(name):
         return
     limit, tilt = cell.spills_when_open_from(name), cell.tilt(name)
@@ -73,9 +69,9 @@ def _swing_somehow(cell: Cell, name: str, attempt: int, goals: Sequence[Sequence
 
 
 def _goals(cell: Cell, name: str, opened: bool) -> list[tuple[float, ...]]:
-    """How far open a thing may be at the end, best first.
+    """Return goals of how far open a thing may be at the end, best first.
 
-    From no one place may a hand get all the way: then a part of it is done from here, and the rest from elsewhere.
+    If no place lets a hand get all the way, a part of it is done from here, and the rest from elsewhere.
     """
     now, door = cell.way(name), _handle(cell, name).kind == "door"
     if not opened:
@@ -99,7 +95,7 @@ def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
 
 
 def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
-    """The heading from which a door is best opened: its front, and somewhat off the side of its hinges."""
+    """Return the heading from which a door is best opened: its front, and somewhat off the side of its hinges."""
     front = cell.front(name)
     if front is None or handle.kind != "door":
         return front
@@ -109,7 +105,7 @@ def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
 
 
 def _closed_grasp(cell: Cell, name: str, handle: Handle) -> Vector:
-    """Where the handle of a door is when it is shut."""
+    """Return the position of a door's handle when it is shut."""
     start = cell.sim.joint_position(handle.body, handle.index)
     cell.sim.set_joint(handle.body, handle.index, handle.closed)
     shut = _handle(cell, name).grasp.position
@@ -118,7 +114,7 @@ def _closed_grasp(cell: Cell, name: str, handle: Handle) -> Vector:
 
 
 def _out_of_its_way(cell: Cell, name: str, handle: Handle) -> Accept:
-    """Asks whether a door passes the robot; the same place is asked about once."""
+    """Return a check whether a door passes the robot, which remembers its answers."""
     known: dict[tuple[Base, float, str], bool] = {}
 
     def accept(option: Option, base: Base) -> bool:
@@ -131,12 +127,9 @@ def _out_of_its_way(cell: Cell, name: str, handle: Handle) -> Accept:
 
 
 def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]:
-    """Ways to open or close something with a free hand; the spot of an option says whether it is pulled or pushed.
+    """Return ways to open or close something with a free hand; ``spot`` of an option: whether it is pulled or pushed.
 
-    Args:
-        cell: Robot and scene.
-        name: The door, drawer or lid.
-        goals: How far open it may be at the end (1 is as far as it goes), best first.
+    ``goals`` are shares of the whole way (1 is as far as it goes), best first.
     """
     handle, hands = _handle(cell, name), cell.free()
     start = cell.sim.joint_position(handle.body, handle.index)
@@ -156,7 +149,7 @@ def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]
 
 
 def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) -> list[Option]:
-    """The ways along which a lid does not swing into the hand that lifts it."""
+    """Return the ways along which a lid does not swing into the hand that lifts it."""
     start = cell.sim.joint_position(handle.body, handle.index)
     kept = list(options)
     for side in sorted({option.side for option in options}):
@@ -174,14 +167,14 @@ def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) 
 
 
 def _end(handle: Handle, part: float) -> float:
-    """The joint's position when it is open for a part of its way."""
+    """Return the joint's position when it is open for a part of its way."""
     return handle.closed + part * (handle.open - handle.closed)
 
 
 def _ways(
     handle: Handle, tools: Mapping[float, Pose], way: float, headings: Sequence[tuple[float, float]] | None = None
 ) -> Iterator[tuple[int, tuple[Pose, ...]]]:
-    """Tool poses that move a handle, each with whether it is pushed: before it, at it, and along."""
+    """Yield tool poses that move a handle (before it, at it, and along), each with whether it is pushed."""
     pushes = handle.kind == "flap" or headings is not None
     if headings is None:
         headings = ARTICULATION.pushes if pushes else ARTICULATION.pulls if handle.turns else ARTICULATION.pulls[:1]
@@ -196,7 +189,7 @@ def _ways(
 
 
 def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> dict[float, Pose]:
-    """The tool at the handle for shares of the way, if the hand turned with it."""
+    """Return the tool at the handle for shares of the way, if the hand turned with it."""
     found = {}
     for number in range(ARTICULATION.waypoints + 1):
         share = number / ARTICULATION.waypoints
@@ -207,7 +200,7 @@ def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> 
 
 
 def _turned(tool: Pose, handle: Handle, angle: float, pushes: bool) -> Pose:
-    """``tool`` turned back about the joint's axis: through the handle, or through the finger tips that push."""
+    """Return ``tool`` turned back about the joint's axis: through the handle, or through the finger tips that push."""
     tips = TIP if pushes else 0.0
     turned = Pose(tool.apply((tips, 0.0, 0.0)), tool.orientation).spun(Pose.about(handle.axis, -angle))
     return turned * Pose((-tips, 0.0, 0.0))
@@ -286,7 +279,7 @@ def push(cell: Cell, name: str, attempt: int) -> str:
 
 
 class _Farthest:
-    """Remembers how far a joint was moved at most."""
+    """Record of the farthest way of a joint."""
 
     def __init__(self, handle: Handle) -> None:
         self.handle = handle
@@ -335,5 +328,5 @@ def _handle(cell: Cell, name: str) -> Handle:
 
 
 def _rolled(tool: Pose, angle: float) -> Pose:
-    """The tool turned about the way it points."""
+    """Return the tool turned about the way it points."""
     return tool * Pose.about((1.0, 0.0, 0.0), angle)

@@ -1,4 +1,4 @@
-"""Holding a thing out for the other hand: what is in one hand can be opened, filled and emptied by the other.
+"""Holding a thing out for the other hand, which then opens, fills or empties it.
 
 The base stays where it is. The arm that holds the thing brings it to places in front of the robot, upright, with
 different sides to the front, until the other arm can do what it is to do with it.
@@ -43,17 +43,17 @@ def reach_for(
     front: float | None = None,
     accept: Accept | None = None,
 ) -> Option:
-    """Bring a hand through the poses of an option that has to do with ``name``; if that is held, it is held out.
+    """Bring a hand through the poses of an option for ``name``; if that is held, it is held out.
 
     Args:
         cell: Robot and scene.
-        name: What the options are about.
-        options: Makes them for where it is now.
-        focus: Where to stand round, if it is not held.
-        attempt: How often it was tried before.
+        name: The thing that the options are for.
+        options: Makes them for its present pose.
+        focus: The place to stand round, if it is not held.
+        attempt: Number of earlier tries.
         stop: Number of poses to go to.
         front: The heading of the side it is reached from; None: that of what it is a part of.
-        accept: As for :func:`tmd.robot.skills.stance_search.reach`; what is held out is not asked about.
+        accept: As for :func:`tmd.robot.skills.stance_search.reach`; not called for what is held out.
 
     Raises:
         SkillError: As :func:`tmd.robot.skills.stance_search.reach`.
@@ -93,7 +93,7 @@ def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[O
 
 
 def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Option]]) -> Iterator[tuple[float, ...]]:
-    """Positions of the arm that holds a thing from which the other arm can do what it is to do."""
+    """Yield positions of the arm that holds a thing from which the other arm can do its part."""
     robot = cell.robot
     grip, start = cell.in_tool(side, item), cell.sim.pose(cell.scene.bodies[item])
     base, torso = robot.base(), robot.torso()
@@ -141,7 +141,7 @@ def _as_if(cell: Cell, side: str, item: str, arm: Sequence[float]) -> Iterator[N
 
 
 def _bring(cell: Cell, side: str, goal: Sequence[float]) -> bool:
-    """Move the arm that holds the thing; whether it got there."""
+    """Move the arm that holds the thing; return whether it got there."""
     robot = cell.robot
     path = plan_arm(robot, side, goal, rng=cell.rng, budget=200)
     return path is not None and robot.move_arm(side, path)

@@ -61,7 +61,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
 
 
 def pick_options(cell: Cell, item: str) -> list[Option]:
-    """Ways to take an item with a free hand, the nearest hand first."""
+    """Return ways to take an item with a free hand, the nearest hand first."""
     here = cell.sim.pose(cell.scene.bodies[item])
     links = cell.links(item)
     _, high = cell.scene.size(item)
@@ -82,13 +82,13 @@ def pick_options(cell: Cell, item: str) -> list[Option]:
 
 
 def _held_badly(cell: Cell, item: str, grip: Pose) -> bool:
-    """Whether it was held like this when something could not be done with it."""
+    """Return whether it was held like this when something could not be done with it."""
     known = cell.unfit_grips.get(item, ())
     return any(grip.distance(other) < _ALIKE[0] and grip.angle(other) < _ALIKE[1] for other in known)
 
 
 def _above_ground(cell: Cell, item: str, tool: Pose) -> Pose:
-    """A way to take from above what lies, so high that the finger tips do not reach into what it lies on."""
+    """Return a grasp from above so high that the finger tips do not reach into the ground."""
     x, y, z = tool.position
     lowest = max(cell.sim.extents(cell.scene.bodies[item])[0][2], 0.0) + TIP + GRASP.above_ground
     down = tool.rotate((1.0, 0.0, 0.0))[2] < -GRASP.steep
@@ -96,7 +96,7 @@ def _above_ground(cell: Cell, item: str, tool: Pose) -> Pose:
 
 
 def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
-    """Tool poses for a thing that lies or leans: across its axis, and the usual ones turned about the fingers' axis.
+    """Return tool poses for a thing that lies or leans: across its axis, and the usual ones about the fingers' axis.
 
     Turned so, the fingers meet the same two sides, and the hand comes from where there is room: from above first.
     """
@@ -125,7 +125,7 @@ def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
 
 
 def _across(cell: Cell, item: str) -> list[Pose]:
-    """Tool poses from above across each level side of a thing that the fingers get round, its middle first."""
+    """Return tool poses from above across each level side of a thing that the fingers get round, its middle first."""
     here = cell.sim.pose(cell.scene.bodies[item])
     low, high = cell.scene.size(item)
     middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
@@ -149,12 +149,12 @@ def _across(cell: Cell, item: str) -> list[Pose]:
 
 
 def _of_bar(grasp: Grasp) -> bool:
-    """Whether it is one of a bar along x, round which the hand may be anywhere: taken from its end."""
+    """Return whether it is a grasp of a bar along x, taken from its end, round which the hand may be anywhere."""
     return grasp.opening < GRASP.bar and grasp.tool.approach == INTO
 
 
 def _width(cell: Cell, item: str, along: Vector) -> float:
-    """How wide an item is along a level direction of its own frame; what is round is as wide as it is in y."""
+    """Return the width of an item along a level direction of its own frame; round things are as wide as in y."""
     low, high = cell.scene.size(item)
     depth, width = high[0] - low[0], high[1] - low[1]
     if cell.scene.opening(item) is not None or abs(depth - width) < 0.01:
@@ -163,14 +163,14 @@ def _width(cell: Cell, item: str, along: Vector) -> float:
 
 
 def _sideways(cell: Cell, item: str) -> Vector | None:
-    """The direction in which the hand enters the niche or the cupboard that an item is in."""
+    """Return the direction in which the hand enters the niche or the cupboard that an item is in."""
     place = cell.support(item)
     entry = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
     return None if abs(entry[2]) > 0.5 else entry
 
 
 def _starts(tool: Pose, entry: Vector | None) -> list[Pose]:
-    """Where a hand begins to go straight to a thing: outside of what that is in if the fingers pass it, or close."""
+    """Return the starts of a straight way to a thing: outside of its niche if the fingers pass it, or close."""
     close = tool * Pose((-GRASP.approach, 0.0, 0.0))
     if entry is None:
         return [close]
@@ -182,14 +182,8 @@ def _starts(tool: Pose, entry: Vector | None) -> list[Pose]:
 def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, filled: bool = False) -> str:
     """Put ``item`` down on, in or next to ``target``, upright.
 
-    Args:
-        cell: Robot and scene.
-        item: What is held.
-        target: Where it goes.
-        relation: How.
-        attempt: How often this was tried before.
-        filled: It is to be filled there by what runs from a spout, so it goes below that and nowhere else. A vessel
-            goes there anyway where there is room.
+    A ``filled`` item is to be filled there by a stream from a spout, so it goes below that and nowhere else; any vessel
+    goes there if there is room.
 
     Raises:
         SkillError: It is not held, there is no room, the place cannot be reached, or the item ends up elsewhere, or
@@ -230,7 +224,7 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, fi
 
 
 def _occupied(cell: Cell, item: str, target: str) -> str:
-    """The spout of what an item is to be filled at, and what stands below it."""
+    """Return the spout that an item is to be filled at, and what stands below it."""
     whole = cell.whole(target)
     frame = cell.sim.pose(cell.scene.bodies[whole])
     for part, at in cell.scene.spouts(whole).items():
@@ -243,7 +237,7 @@ def _occupied(cell: Cell, item: str, target: str) -> str:
 
 
 def _standing_there(cell: Cell, item: str, target: str, relation: str) -> str:
-    """What stands where an item should go."""
+    """Name what stands where an item should go."""
     there = [other for other in cell.scene.items() if other != item and cell.support(other) == (target, relation)]
     return f": {', '.join(there[:4])} {'stands' if len(there) == 1 else 'stand'} there" if there else ""
 
@@ -251,11 +245,7 @@ def _standing_there(cell: Cell, item: str, target: str, relation: str) -> str:
 def _reach_best(
     cell: Cell, item: str, options: Sequence[Option], focus: Pose, target: str, relation: str, attempt: int
 ) -> None:
-    """Bring a thing to where it is let go of: best is where the empty hand gets away, and gets at it again.
-
-    Raises:
-        SkillError: As :func:`tmd.robot.skills.stance_search.reach`.
-    """
+    """Bring a thing to its place, best so that the empty hand gets away, and gets at it again."""
     if cell.side_of(cell.whole(target)) is not None:  # into what is in the other hand, which holds it out
         side = options[0].side
 
@@ -281,7 +271,7 @@ def _reach_best(
 
 
 def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> tuple[list[Option], list[Option]]:
-    """Ways to put an item down with the hand that holds it: where a stream would run into it, and elsewhere."""
+    """Return ways to put an item down with the hand that holds it: where a stream runs into it, and elsewhere."""
     grip = cell.in_tool(side, item).inverse()
     back = tuple(-value * GRASP.approach for value in cell.scene.entry(target, relation))
     links = cell.links(item)
@@ -299,7 +289,7 @@ def place_options(cell: Cell, side: str, item: str, target: str, relation: str) 
 
 
 def laid_options(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
-    """Ways to let go of an item just above a place, as it is held, with the hand straight above it.
+    """Return ways to let go of an item just above a place, as it is held, with the hand straight above it.
 
     It lies there, or falls over, and can be taken in another way: as it is held it can be put down upright nowhere.
     """
@@ -321,7 +311,7 @@ def laid_options(cell: Cell, side: str, item: str, target: str, relation: str) -
 
 
 def _to_be_taken_again(cell: Cell, item: str, options: Sequence[Option], entry: Vector) -> list[Option]:
-    """Of ways to put a thing into a niche or a cupboard, those after which a grasp points the way the hand goes in."""
+    """Select ways to put a thing into a niche or a cupboard after which a grasp points the way the hand enters."""
     if abs(entry[2]) > 0.5:
         return []
     grasps = [grasp.tool.pose().rotate((1.0, 0.0, 0.0)) for grasp in cell.scene.grasps(item)]
@@ -334,7 +324,7 @@ def _to_be_taken_again(cell: Cell, item: str, options: Sequence[Option], entry: 
 
 
 def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
-    """Let go of ``item`` over ``target``: it is put down where that can be reached, and falls on the floor else.
+    """Let go of ``item`` over ``target``: it is put down if that can be reached, and otherwise falls on the floor.
 
     Raises:
         SkillError: As :func:`place`.
@@ -354,7 +344,7 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
 
 
 def _gap_to_let_go(cell: Cell, side: str, item: str) -> float:
-    """How wide a hand opens that lets go: as wide as it can, or as little as it must where a finger is behind a bar."""
+    """Return the gap of a hand that lets go: as wide as possible, or small if a finger is behind a bar."""
     _, across, _ = cell.in_tool(side, item).inverse().rotate((0.0, 1.0, 0.0))
     behind = abs(across) < _ALONG and any(map(_of_bar, cell.scene.grasps(item)))
     return GRASP.bar if behind else MOTOR.gripper_gap
@@ -376,9 +366,9 @@ def _let_off(cell: Cell, side: str, chosen: Option) -> None:
 
 
 def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
-    """Draw the hand back: along ``away``, or the way it points; a little where there is no room for more.
+    """Draw the hand back: along ``away``, or the way it points; a little if there is no room for more.
 
-    What cannot be drawn back straight is left to the planner of the next motion.
+    If that is not possible either, it is left to the planner of the next motion.
     """
     here = cell.robot.tool(side)
     for share in (1.0, 0.5):
@@ -392,13 +382,13 @@ def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
 
 
 def _out(cell: Cell, below: tuple[str, str] | None) -> Vector:
-    """The direction in which a thing is taken from where it is."""
+    """Return the direction in which a thing is taken from its place."""
     x, y, z = cell.scene.entry(*below) if below is not None else (0.0, 0.0, -1.0)
     return (-x, -y, -z)
 
 
 def _nearest_first(cell: Cell, pose: Pose) -> list[str]:
-    """The free arms, the one on whose side a thing is first."""
+    """Return the free arms, first the one on whose side a thing is."""
     _, left, _ = cell.robot.base_link().inverse().apply(pose.position)
     order = ("left", "right") if left > 0 else ("right", "left")
     return [side for side in order if side in cell.free()]

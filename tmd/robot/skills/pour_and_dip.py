@@ -21,12 +21,12 @@ _SQUEEZE = 40.0
 
 @dataclass(frozen=True, slots=True)
 class Mouth:
-    """Where contents leave a thing that is tipped.
+    """The place at which contents leave a thing that is tipped, in the thing's frame.
 
     Attributes:
-        at: In the thing's frame.
-        out: The direction that must point down for contents to leave, in the thing's frame.
-        turn: The axis about which it is tipped, in the thing's frame.
+        at: The point.
+        out: The direction that must point down for contents to leave.
+        turn: The axis about which it is tipped.
         both: It may be tipped either way.
     """
 
@@ -37,7 +37,7 @@ class Mouth:
 
 
 def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
-    """The mouths of what is held, best first.
+    """Return the mouths of what is held, best first.
 
     It is the far end of a long flat thing, the underside of a packet that hangs from the hand, and else the rim: on
     either side of the wrist, towards the hand and away from it.
@@ -65,14 +65,14 @@ def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
 
 
 def _rim(low: Vector, high: Vector, top: float, axis: Vector) -> Mouth:
-    """The point of the rim that is lowest when a vessel is tipped about ``axis``."""
+    """Return the point of the rim that is lowest when a vessel is tipped about ``axis``."""
     x, y = axis[1], -axis[0]
     at = ((high if x > 0 else low)[0] * abs(x), (high if y > 0 else low)[1] * abs(y), top)
     return Mouth(at, (0.0, 0.0, 1.0), axis)
 
 
 def _axes(tool: Pose, middle: Sequence[float]) -> list[Vector]:
-    """To either side by a roll of the wrist, then away from the hand and towards it."""
+    """Return axes: to either side by a roll of the wrist, then away from the hand and towards it."""
     x, y = middle[0] - tool.position[0], middle[1] - tool.position[1]
     if hypot(x, y) < 0.01:  # the hand is above: how it is turned decides
         x, y, _ = tool.rotate((0.0, 1.0, 0.0))
@@ -128,10 +128,10 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
 def tip_options(
     cell: Cell, item: str, target: str, known: Sequence[Mouth], height: float, near: float, *, closed: bool
 ) -> list[Option]:
-    """Ways to tip what is held over a rim, and as near to its edge; the spot of an option is the number of its mouth.
+    """Return ways to tip what is held over a rim, and as near to its edge; ``spot`` of an option: number of its mouth.
 
-    Before a niche a thing is tipped outside, as far as nothing runs out: what is ``closed`` until it is squeezed all
-    the way.
+    Before a niche a thing is tipped outside, as far as nothing runs out: a ``closed`` one all the way, since nothing
+    runs out until it is squeezed.
     """
     side = cell.holding(item)
     grip = cell.in_tool(side, item).inverse()
@@ -164,7 +164,7 @@ def tip_options(
 
 
 def before(cell: Cell, target: str, first: Pose) -> tuple[Pose, ...]:
-    """Where the hand begins to go straight to ``first``: outside of the niche or the cupboard that a thing is in."""
+    """Return the start of a straight way to ``first``, outside of the niche or cupboard of ``target``; else nothing."""
     place = cell.support(target)
     x, y, z = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
     if abs(z) > 0.5:
@@ -199,7 +199,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
 
 
 def _head(cell: Cell, item: str, side: str) -> Mouth:
-    """What is dipped of a thing that is held: the underside of its far end."""
+    """Return the part of a held thing that is dipped: the underside of its far end."""
     mouth = mouths(cell, item, side)[0]
     low, _ = cell.scene.size(item)
     x, y, _ = mouth.at
@@ -208,7 +208,7 @@ def _head(cell: Cell, item: str, side: str) -> Mouth:
 
 
 def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
-    """Ways to bring the end of what is held below a rim and not through it."""
+    """Return ways to bring the end of what is held below a rim and not through it."""
     side = cell.holding(item)
     how, grip = _head(cell, item, side), cell.in_tool(side, item).inverse()
     ignore = cell.links(item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
@@ -237,7 +237,7 @@ def _heading(number: int) -> Pose:
 
 
 def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[float]:
-    """How deep a thing would be in another one at some poses, in metres; it stays where it is, to the bit."""
+    """Return how deep a thing would be in another one at some poses, in metres; it stays in place, to the bit."""
     body, other = cell.scene.bodies[item], cell.scene.place(target)[0]
     motion = cell.sim.motion(body)
     found = []
@@ -251,11 +251,7 @@ def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[f
 
 
 def _go_back(cell: Cell, chosen: Option) -> None:
-    """Bring what was tipped or dipped back the way it came, or any way that there is, and tuck the arms.
-
-    Raises:
-        SkillError: There is none.
-    """
+    """Bring what was tipped or dipped back the way it came, or any way that there is, and tuck the arms."""
     try:
         follow(cell, chosen.side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
     except SkillError:
@@ -266,18 +262,14 @@ def _go_back(cell: Cell, chosen: Option) -> None:
 
 
 def _refuse_fallen(cell: Cell, target: str) -> None:
-    """What lies on its side takes nothing.
-
-    Raises:
-        SkillError: It does.
-    """
+    """Refuse to put something into a thing that lies on its side."""
     if cell.scene.is_item(target) and cell.scene.stands(target) and cell.tilt(target) > CONTACT.upright:
         told = f"{target} leans by {degrees(cell.tilt(target)):.0f} degrees"
         raise SkillError(SkillPhase.PRECONDITION, f"{told}: nothing can be put into it")
 
 
 def _overs(cell: Cell, target: str, height: float) -> list[Vector]:
-    """Points over a rim, or over different places of a basin, at a height above it; best first."""
+    """Return points over a rim, or over different places of a basin, at a height above it; best first."""
     if cell.scene.is_item(target):
         opening = cell.scene.opening(target)
         x, y, _ = cell.centre(target)
@@ -295,7 +287,7 @@ def _overs(cell: Cell, target: str, height: float) -> list[Vector]:
 
 
 def _basin(cell: Cell, target: str) -> tuple[Pose, Region] | None:
-    """What things are put into from above, and its frame."""
+    """Return the region that is filled from above, and its frame."""
     for whole, region in cell.scene.regions(target, "in"):
         if region.entry[2] < -0.5:
             return cell.scene.frame(whole, region.link), region
@@ -303,7 +295,7 @@ def _basin(cell: Cell, target: str) -> tuple[Pose, Region] | None:
 
 
 def _rim_height(cell: Cell, target: str) -> float:
-    """The height of the rim of a vessel, or of its top."""
+    """Return the height of the rim of a vessel, or of its top."""
     opening = cell.scene.opening(target) if cell.scene.is_item(target) else None
     if opening is None:
         return cell.top(target)
@@ -311,20 +303,20 @@ def _rim_height(cell: Cell, target: str) -> float:
 
 
 def _held_at(stood: Pose, how: Mouth, at: Vector, angle: float) -> Pose:
-    """The thing's frame when it is turned by ``angle`` about its tipping axis, with its mouth at a point."""
+    """Return the thing's frame when it is turned by ``angle`` about its tipping axis, with its mouth at a point."""
     turned = stood * Pose.about(how.turn, angle)
     offset = turned.rotate(how.at)
     return Pose((at[0] - offset[0], at[1] - offset[1], at[2] - offset[2]), turned.orientation)
 
 
 def _over_rim(stood: Pose, how: Mouth, over: Vector, angle: float) -> Pose:
-    """As :func:`_held_at`, but as much higher as the thing reaches below its mouth: it comes down as it is tipped."""
+    """Return :func:`_held_at` raised by as much as the thing reaches below its mouth: it comes down as it is tipped."""
     below = max(0.0, how.at[2] * cos(angle))
     return _held_at(stood, how, (over[0], over[1], over[2] + below), angle)
 
 
 def _leaning(stood: Pose, how: Mouth, angle: float) -> Pose:
-    """The frame with the mouth's end lower than the rest, by ``angle``."""
+    """Return the frame with the mouth's end lower than the rest, by ``angle``."""
     x, y, _ = how.turn
     # across the long side; towards the mouth
     towards = 1.0 if x * how.at[0] + y * how.at[1] > 0 else -1.0
@@ -332,12 +324,12 @@ def _leaning(stood: Pose, how: Mouth, angle: float) -> Pose:
 
 
 def _tilt(here: Pose, how: Mouth) -> float:
-    """Radians between the mouth's direction and straight up."""
+    """Return the radians between the mouth's direction and straight up."""
     return acos(max(-1.0, min(1.0, here.rotate(how.out)[2])))
 
 
 def _beside(cell: Cell, point: Vector, target: str) -> float:
-    """How far a point is outside of the opening of ``target``, its basin or the box round it, on the floor plan."""
+    """Return the distance of a point from the opening of ``target``, its basin or its box, on the floor plan."""
     opening = cell.scene.opening(target) if cell.scene.is_item(target) else None
     if opening is not None:
         x, y, _ = cell.sim.pose(cell.scene.bodies[target]).apply(opening.centre)

@@ -47,12 +47,7 @@ class SkillEntry(BaseModel):
 
 
 class Exposure(BaseModel):
-    """A fact that comes of another one about the same thing that holds for a time.
-
-    Attributes:
-        to: The predicate of the other one.
-        seconds: How long, in simulated seconds.
-    """
+    """A fact that follows from another one (predicate ``to``) about the same thing, after some seconds."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True)
     to: str
@@ -77,16 +72,7 @@ class SkillsFile(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class SkillTask:
-    """What a skill is asked to do.
-
-    Attributes:
-        skill: Which.
-        object: What it is done with or to; empty where there is nothing.
-        target: Where it goes, or what it goes into.
-        relation: How it shall be there: ``on``, ``in``, ``next_to``.
-        setting: Of a knob.
-        seconds: How long.
-    """
+    """The task of a skill: the thing, its target and relation (``on``, ``in``, ``next_to``), a knob's setting, time."""
 
     skill: SkillName
     object: str = ""
@@ -110,7 +96,7 @@ class Skills:
     domain: Domain
 
     def task(self, instruction: Instruction) -> SkillTask:
-        """What ``instruction`` asks of the robot.
+        """Return the task of an instruction.
 
         Raises:
             TmdError: ``skills.yaml`` has no skill for it.
@@ -135,7 +121,7 @@ _USUAL: Mapping[str, Sensor | Confirmation] = {
 
 
 def visible(folder: DomainFolder) -> Skills:
-    """What can be seen of a domain's states: as ``skills.yaml`` says or, without one, by the usual names.
+    """Return the visible predicates of a domain: by ``skills.yaml`` or, without one, by the usual names.
 
     Raises:
         TmdError: There is a file, and it is wrong.
@@ -152,7 +138,7 @@ def visible(folder: DomainFolder) -> Skills:
 
 
 def load_skills(folder: DomainFolder, report: Report | None = None) -> Skills:
-    """The skills of a domain; ``report`` takes the faults of the file.
+    """Load the skills of a domain; ``report`` takes the faults of the file.
 
     Raises:
         TmdError: The file is missing, or does not fit the domain; with the place.

@@ -1,4 +1,4 @@
-"""Getting a hand somewhere: where to stand, how high, with which arm, and the way there.
+"""Search for a stance: the place, the torso height, the arm, and the way there, to bring a hand somewhere.
 
 A skill offers *options*: sequences of tool poses any of which would do. Each is tried from where the robot stands,
 then from places round what is to be reached, nearest to its front first; the first one that has postures for all
@@ -44,8 +44,8 @@ class Option:
         side: The arm.
         poses: Of the tool in the world: the first is reached freely, the others one after the other in straight lines.
         ignore: (body, link) that the hand may touch at the first pose and on the way along the others.
-        spot: What was chosen with it, for the skill.
-        part: How far open something is at the end.
+        spot: A number for the skill.
+        part: Share of a door's whole way at the end.
     """
 
     side: str
@@ -80,14 +80,14 @@ def reach(
 
     Args:
         cell: Robot and scene.
-        what: What is to be reached, for people.
-        options: What would do, best first.
-        focus: Where that is.
-        front: The heading of the side it is reached from, where it has one.
-        attempt: How often this was tried before; later tries begin farther down the list.
+        what: Name of the goal for messages.
+        options: Alternatives, best first.
+        focus: Pose of the goal.
+        front: The heading of the side it is reached from, if it has one.
+        attempt: Number of earlier tries; later tries begin farther down the list.
         stop: Number of poses to go to; the others must be possible from there.
         stay: Neither the base nor the torso may move.
-        accept: Says of an option from a base whether it will do.
+        accept: Returns whether an option from a base will do.
 
     Raises:
         SkillError: None can be reached (stance), there is no way (path), the robot did not get there (execution), or
@@ -134,11 +134,7 @@ def reach(
 
 
 def _timely(found: Iterator[StanceCandidate], said: Sequence[SkillError]) -> Iterator[StanceCandidate]:
-    """The same; where they take too long, what was said last is told with that.
-
-    Raises:
-        SkillError: They take too long.
-    """
+    """Pass candidates on; if they take too long, the error names the last failure as well."""
     try:
         yield from found
     except SkillError as error:
@@ -155,7 +151,7 @@ def _insist(cell: Cell, what: str, candidate: StanceCandidate, stop: int | None)
 
 
 def _in_the_way(cell: Cell, options: Sequence[Option]) -> str:
-    """What a hand would be in there."""
+    """Name what a hand would be in there."""
     ways = [(option.side, option.poses[-1:], option.ignore) for option in options]
     told = obstruction.of_hand(cell, ways[:: max(1, len(ways) // _EXPLAINED)])
     return f": {told}" if told else ""
@@ -164,7 +160,7 @@ def _in_the_way(cell: Cell, options: Sequence[Option]) -> str:
 def _unreached(
     cell: Cell, what: str, options: Sequence[Option], focus: Pose, front: float | None, *, stay: bool
 ) -> str:
-    """Why no place to stand does, with what is in the way."""
+    """Explain why no place to stand will do."""
     said = f"no place to stand reaches {what}, {len(options)} ways were tried"
     here = cell.robot.base()
     usual = [here] if stay else list(stances(cell, focus, front, STANCE.distances[:2]))
@@ -179,7 +175,7 @@ def _unreached(
 
 
 def with_room(cell: Cell, options: Sequence[Option]) -> list[Option]:
-    """The options whose poses have room for the hand and for what it holds, wherever the robot stands."""
+    """Return the options whose poses have room for the hand and for what it holds, wherever the robot stands."""
     checkers: dict[tuple[str, Links], HandChecker] = {}
     found = []
     for option in options:
@@ -203,9 +199,9 @@ def candidates(
     stay: bool = False,
     accept: Accept | None = None,
 ) -> Iterator[StanceCandidate]:
-    """Options from places to stand for which all poses have postures without collisions.
+    """Yield options from places to stand for which all poses have postures without collisions.
 
-    The search ends when its questions have cost more than ``patience``.
+    The search ends when its checks have cost more than ``patience``.
     """
     if not options:
         return
@@ -231,7 +227,7 @@ def candidates(
 
 
 def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
-    """Places to stand where the robot touches nothing: the usual ones, then many more between them."""
+    """Yield places to stand where the robot touches nothing: the usual ones, then many more between them."""
     here = cell.robot.base()
     usual = list(stances(cell, focus, front))
     yield from (base for base, free in zip(usual, cell.robot.free_bases(usual), strict=True) if free or base == here)
@@ -250,7 +246,7 @@ def _close(one: Base, other: Base) -> bool:
 def stances(
     cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = STANCE.distances
 ) -> Iterator[Base]:
-    """Where to stand: here, then round the focus."""
+    """Yield places to stand: here, then round the focus."""
     x, y, z = focus.position
     if z < STANCE.low:
         distances = (*STANCE.low_distances, *(d for d in distances if d > STANCE.low_distances[-1]))
@@ -269,7 +265,7 @@ def _round(
     swings: Sequence[float],
     turns: Sequence[float],
 ) -> Iterator[Base]:
-    """Places round the focus; without a front, the robot's own side is the front."""
+    """Yield places round the focus; without a front, the robot's own side is the front."""
     x, y, _ = focus.position
     here = cell.robot.base()
     middle = front if front is not None else atan2(here[1] - y, here[0] - x)
@@ -295,11 +291,7 @@ def get_to(cell: Cell, base: Base, torso: float) -> None:
 
 
 def _drive(cell: Cell, base: Base) -> None:
-    """Drive; slowly where there is little room, for there the robot must be exact.
-
-    Raises:
-        SkillError: There is no way, or the robot did not get there.
-    """
+    """Drive; slowly in little room, where the robot must be exact."""
     for away, pace in STANCE.clearances:
         path = plan_base(cell.robot, base, rng=cell.rng, clearance=away)
         if path is None:
@@ -321,7 +313,7 @@ def _lift(cell: Cell, torso: float) -> None:
 
 
 def _sticks(cell: Cell, torso: float) -> bool:
-    """Whether the arms, or what they hold, would be in something on the way of the torso."""
+    """Return whether the arms, or what they hold, would be in something on the way of the torso."""
     here = cell.robot.torso()
     steps = ceil(abs(torso - here) / STANCE.torso_step)
     heights = [here + (torso - here) * step / steps for step in range(1, steps + 1)]
@@ -365,7 +357,7 @@ def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int =
 
 
 def _level(cell: Cell, option: Option, whole: Sequence[Pose]) -> list[tuple[float, ...]] | None:
-    """A straight way to the first pose for what is carried upright, from whose end the others can be reached."""
+    """Return a straight way to the first pose for what is carried upright, from whose end the others can be reached."""
     if cell.robot.keeps_level(option.side) is None:
         return None
     path = plan_level(cell.robot, option.side, option.poses[0], ignore=option.ignore)
@@ -375,13 +367,13 @@ def _level(cell: Cell, option: Option, whole: Sequence[Pose]) -> list[tuple[floa
 
 
 def _held_up(cell: Cell) -> str:
-    """What the robot presses against."""
+    """Name what the robot presses against."""
     told = obstruction.of_posture(cell)
     return f": {told}" if told else ""
 
 
 def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[bool, int]:
-    """Whether there is a posture for the last pose, and a motion through all of them; and what it cost to ask."""
+    """Return whether there are a posture for the last pose and a motion through all, and the cost of this check."""
     robot, side = cell.robot, option.side
     found = robot.solve(side, option.poses[-1], base=base, torso=torso)[: STANCE.max_postures]
     if not found:
@@ -394,7 +386,7 @@ def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[boo
 
 
 def _heights(cell: Cell, hand: float) -> list[float]:
-    """Torso heights: as it is, then those that suit a hand at a height."""
+    """Return torso heights: the present one, then those that suit a hand at a height."""
     here = cell.robot.torso()
     found = [here]
     for above in STANCE.shoulder_above_hand:

@@ -1,4 +1,4 @@
-"""The place of a film's camera: for each instruction the angle that best shows the hands and the thing.
+"""The camera of a film: for each instruction the angle that best shows the hands and the thing.
 
 Angles round the subject are compared by what rays from there meet: a point that something hides counts nothing.
 Rays move nothing, so a run is the same with and without a film.
@@ -40,7 +40,7 @@ class View:
 
     @property
     def eye(self) -> Vector:
-        """Where the camera is."""
+        """The position of the camera."""
         x, y, z = self.target
         flat = self.distance * math.cos(self.height)
         return (
@@ -52,7 +52,7 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class _Point:
-    """Something that should be seen: the bodies whose surface it is on, and how much it matters."""
+    """A point to show: the bodies whose surface it is on, and its weight."""
 
     place: Vector
     bodies: tuple[int, ...]
@@ -61,9 +61,6 @@ class _Point:
 
 class Camera:
     """The camera of one film.
-
-    Args:
-        cell: Robot and scene.
 
     Attributes:
         view: The chosen view.
@@ -77,18 +74,16 @@ class Camera:
         self.view = _overview(cell)
 
     def follow(self, names: Sequence[str], *, wide: bool) -> None:
-        """Choose the view from now on.
+        """Choose the view of some objects and parts (none: the former ones) from now on.
 
-        Args:
-            names: Objects and parts; none: what it was before.
-            wide: Show the whole robot on its way there, not its hands.
+        A ``wide`` view shows the whole robot on its way there, not its hands.
         """
         self._names = tuple(dict.fromkeys(names)) or self._names
         self.wide = wide
         self.view = self.best()
 
     def best(self) -> View:
-        """The angle that shows most now."""
+        """Return the angle that shows most now."""
         if not self._names:
             return _overview(self._cell)
         points = self._points()
@@ -134,7 +129,7 @@ class Camera:
         return hit.body in point.bodies and (near or hit.body != self._cell.robot.body)
 
     def _inside(self, eye: Vector) -> bool:
-        """Whether the camera would stand in something, or so near that it fills the picture."""
+        """Return whether the camera would be in something, or so near that it fills the picture."""
         for name, body in self._cell.scene.bodies.items():
             if name in self._cell.scene.blueprints and not self._cell.scene.is_item(name):
                 low, high = self._cell.sim.extents(body)
@@ -144,7 +139,7 @@ class Camera:
 
 
 def _overview(cell: Cell) -> View:
-    """The whole room, from its open side."""
+    """Return a view of the whole room, from its open side."""
     eye, target = cell.scene.viewpoint()
     x, y, z = (e - t for e, t in zip(eye, target, strict=True))
     distance = math.hypot(x, y, z)
@@ -152,6 +147,6 @@ def _overview(cell: Cell) -> View:
 
 
 def _ball(places: Sequence[Vector]) -> tuple[Vector, float]:
-    """The middle of some points, and how far the farthest is from it."""
+    """Return the middle of some points, and the distance of the farthest."""
     x, y, z = ((min(values) + max(values)) / 2 for values in zip(*places, strict=True))
     return (x, y, z), max(math.dist((x, y, z), place) for place in places)

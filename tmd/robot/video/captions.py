@@ -1,4 +1,4 @@
-"""What stands under the pictures: the instruction, what was said, and the facts that were checked."""
+"""Captions under pictures: the instruction, the words of the request, and the checked facts."""
 
 from __future__ import annotations
 
@@ -44,9 +44,9 @@ class Caption:
     Attributes:
         title: The instruction.
         number: Its place in the plan.
-        said: What it is for.
+        said: Its purpose.
         facts: Each fact with its mark.
-        note: What was measured, or why it failed.
+        note: Measurements, or the reason of a failure.
         badge: One word at the right: ``ok``, ``failed``; empty while it is being done.
     """
 
@@ -71,20 +71,12 @@ def pillow() -> None:
 
 
 def caption_height(width: int) -> int:
-    """Pixels under a picture of this width; even, as films need it."""
+    """Return the pixels under a picture of this width; even, as films need it."""
     return 2 * round(HEIGHT * width / _USUAL / 2)
 
 
 def under(picture: Pixels, caption: Caption) -> Pixels:
-    """The picture with its caption under it.
-
-    Args:
-        picture: (height, width, 3), RGB.
-        caption: What to write.
-
-    Returns:
-        (height + caption_height(width), width, 3), RGB.
-    """
+    """Return the picture (height, width, 3) with its caption under it: ``caption_height(width)`` pixels higher."""
     from PIL import Image
 
     height, width, _ = picture.shape
@@ -95,7 +87,7 @@ def under(picture: Pixels, caption: Caption) -> Pixels:
 
 
 def filmstrip(pictures: Sequence[Pixels]) -> Image:
-    """Pictures of one size, in reading order, on one sheet of at most four columns."""
+    """Arrange pictures of one size, in reading order, on one sheet of at most four columns."""
     from PIL import Image
 
     columns = min(_COLUMNS, max(1, math.ceil(math.sqrt(len(pictures)))))
@@ -146,7 +138,7 @@ def _facts(
     unit: float,
     place: tuple[float, float, float],
 ) -> int:
-    """Draw facts beside each other on at most two rows; returns the rows that were used."""
+    """Draw facts beside each other on at most two rows; return the rows that were used."""
     left, right, top = place
     x, row, step, gap = left, 0, 20 * unit, 18 * unit
     for index, (fact, mark) in enumerate(facts):
@@ -167,7 +159,7 @@ def _facts(
 
 
 def _mark(draw: ImageDraw, place: tuple[float, float], mark: Mark, size: float) -> None:
-    """A ring, a tick, three dots, a question mark or a cross: drawn, because not every font has them."""
+    """Draw a ring, a tick, three dots, a question mark or a cross, since not every font has them."""
     x, y = place
     colour, width = _COLOURS[mark], max(1, round(size / 5))
 
@@ -193,7 +185,7 @@ def _mark(draw: ImageDraw, place: tuple[float, float], mark: Mark, size: float) 
 
 
 def _fitted(draw: ImageDraw, text: str, font: Font, width: float) -> str:
-    """The text, cut with dots where it is too wide."""
+    """Cut the text with dots if it is too wide."""
     if draw.textlength(text, font) <= width:
         return text
     while text and draw.textlength(text + "…", font) > width:
@@ -202,7 +194,7 @@ def _fitted(draw: ImageDraw, text: str, font: Font, width: float) -> str:
 
 
 def _wrapped(draw: ImageDraw, text: str, font: Font, width: float, most: int) -> list[str]:
-    """The text on at most ``most`` lines; what is left over is cut."""
+    """Wrap the text to at most ``most`` lines; the rest is cut."""
     lines: list[str] = []
     words = text.split()
     while words and len(lines) < most:
@@ -215,7 +207,7 @@ def _wrapped(draw: ImageDraw, text: str, font: Font, width: float, most: int) ->
 
 
 def _fitting(draw: ImageDraw, words: Sequence[str], font: Font, width: float) -> Iterator[int]:
-    """How many leading words fit on a line, from one up."""
+    """Yield the numbers of leading words that fit on a line, from one up."""
     for count in range(1, len(words) + 1):
         if draw.textlength(" ".join(words[:count]), font) > width:
             return
@@ -224,7 +216,7 @@ def _fitting(draw: ImageDraw, words: Sequence[str], font: Font, width: float) ->
 
 @cache
 def _font(size: int, bold: bool) -> Font:
-    """The font that comes with matplotlib; Pillow's own where that is not as expected."""
+    """Return the font that comes with matplotlib, or else Pillow's own."""
     from PIL import ImageFont
 
     found = importlib.util.find_spec("matplotlib")

@@ -30,19 +30,19 @@ class MovieFile:
     """A film that is being written.
 
     Args:
-        path: Where it goes.
+        path: Its destination.
         size: Width and height of every picture, in pixels; even numbers.
         fps: Pictures a second.
         small: Spare bytes rather than detail: an MP4 is a third as large.
 
     Attributes:
-        pictures: How many were added.
-        last: The one that was added last; ``None`` for none.
+        pictures: The number of pictures so far.
+        last: The last of them; ``None`` without one.
 
     Raises:
-        MissingToolError: What writes films of this kind is not installed.
+        MissingToolError: A package that writes films of this kind is not installed.
         OutputError: It cannot be written there.
-        TmdError: The suffix says no kind of film that is known.
+        TmdError: The suffix is not that of a known kind of film.
     """
 
     def __init__(self, path: Path, size: tuple[int, int], fps: int, *, small: bool = False) -> None:
