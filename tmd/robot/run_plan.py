@@ -18,8 +18,8 @@ from tmd.robot.video.movie_file import MovieFile
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
+# Receives the simulation before the first instruction, and returns listeners of the run.
 Prepare = Callable[[SimulationSession], Sequence[Listener]]
-"""Is given the simulation before the first instruction, and returns who is told how the run goes."""
 
 
 @dataclass(frozen=True, slots=True)

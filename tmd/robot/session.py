@@ -25,9 +25,9 @@ from tmd.robot.skills.skill_file import load_skills
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
+# Seconds that a kinematic tick is shown for: it is a stride of a few centimetres. Drawing takes most of the time of a
+# film, and with these there are as many pictures as under physics.
 TICK = 1 / 30
-"""Seconds that a kinematic tick is shown for: it is a stride of a few centimetres. Drawing takes most of the time of a
-film, and with these there are as many pictures as under physics."""
 
 
 class SimulationSession:

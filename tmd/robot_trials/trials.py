@@ -79,8 +79,8 @@ def _works(line: PredictionRecord) -> bool:
 
 
 PICTURE = (400, 300)
+# Small films: they stand in a page.
 FPS = 5
-"""Small films: they stand in a page."""
 
 
 @dataclass(frozen=True, slots=True)

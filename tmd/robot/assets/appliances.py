@@ -9,8 +9,8 @@ from tmd.robot.assets.fittings import DOOR, DOWN, INTO, button, door, fronts, kn
 from tmd.robot.assets.furniture import ROOM, WALL, chamber
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
+# Width of a side board.
 SIDE = 0.34
-"""Width of a side board."""
 
 
 def cooker(model: UrdfModel, look: Appearance, parts: Parts) -> None:

@@ -13,17 +13,17 @@ from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 from tmd.robot.sim.pose import Vector
 
 INTO, DOWN, LEFT, UP = (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+# Width of handle bars.
 BAR = 0.018
-"""Width of handle bars."""
+# From a door's face to the middle of its handle: the finger tips reach 18 mm beyond the tool.
 STAND_OFF = 0.05
-"""From a door's face to the middle of its handle: the finger tips reach 18 mm beyond the tool."""
+# Thickness of doors.
 DOOR = 0.02
-"""How thick doors are."""
+# Reach of the finger tips beyond the tool's frame.
 TIP = 0.018
-"""How far the finger tips reach beyond the tool's frame."""
 WIDE_OPEN = 1.57
+# Way of buttons.
 BUTTON = 0.012
-"""How far buttons go down."""
 _FAST = {"knob": 0.12, "door": 1.2}
 
 

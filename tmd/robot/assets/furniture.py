@@ -8,14 +8,14 @@ from tmd.robot.assets.fittings import BAR, DOOR, DOWN, INTO, STAND_OFF, UP, bar_
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
 WALL = 0.02
+# Distances of things from a front edge.
 ROWS = (0.13, 0.29)
-"""How far behind a front edge things stand."""
+# Allowed overhang of a handle over a front edge.
 OVERHANG = 0.06
-"""How far a handle may stick out over a front edge."""
+# Of a basket and a bin: a hand that holds a thing gets to its floor.
 DEEP = 0.2
-"""Of a basket and a bin: a hand that holds a thing gets to its floor."""
+# The height above a surface that still counts as on it.
 ROOM = 0.6
-"""The height above a surface that still counts as on it."""
 
 
 def surface(model: UrdfModel, front: float, width: float, top: float, depth: float) -> None:

@@ -150,8 +150,8 @@ def window(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, sill, "oak")
 
 
+# A stop: an arm in front of the bin does not get to a lid that leans back.
 _LIFTED = math.radians(80)
-"""A stop: an arm in front of the bin does not get to a lid that leans back."""
 
 
 def bin_(model: UrdfModel, look: Appearance, parts: Parts) -> None:

@@ -40,20 +40,20 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 _ADVICE = "pip install 'tmd[meshes]'"
+# Metres: what is smaller or larger is in other units.
 _SMALLEST, _LARGEST = 0.01, 6.0
-"""Metres: what is smaller or larger is in other units."""
+# For V-HACD: a mug then keeps its hollow, with walls that are a millimetre too thick.
 _PIECES = {"maxConvexHulls": 32, "resolution": 100_000, "maxNumVerticesPerCH": 32}
-"""For V-HACD: a mug then keeps its hollow, with walls that are a millimetre too thick."""
+# Metres: what is at most so wide fits between the fingers.
 _NARROW = 0.07
-"""Metres: what is at most so wide fits between the fingers."""
+# Metres: a wall of so much is taken at its rim.
 _RIM = 0.02
-"""Metres: a wall of so much is taken at its rim."""
+# Metres from the tool's frame back to the palm.
 _PALM = 0.05
-"""Metres from the tool's frame back to the palm."""
+# Formats of the simulator.
 _READ = (".obj", ".stl", ".dae")
-"""What the simulator reads itself."""
+# N or N·m that hold a joint where it is left, as in the scene's own kinds; of a button: its spring.
 _FRICTION = {"door": 1.2, "flap": 1.2, "drawer": 5.0, "slide": 4.0, "lid": 0.03, "knob": 0.12, "button": 6.0}
-"""N or N·m that hold a joint where it is left, as in the scene's own kinds; of a button: its spring."""
 _SLIDES = ("drawer", "slide", "button")
 
 
@@ -306,8 +306,8 @@ class _Source:
     root: ET.Element
     tree: Tree | None
     first: str
+    # The link that each joint moves.
     moved: dict[str, str] = field(default_factory=dict)
-    """The link that each joint moves."""
 
     def link(self, name: str) -> str:
         """Return a link's name in the model."""

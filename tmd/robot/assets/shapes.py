@@ -24,8 +24,8 @@ from tmd.world.folder import DomainFolder
 from tmd.world.shape import Shape
 
 _PLAIN = {"item": "block", "part": "plain_part", "fixture": "counter"}
+# Limits of a size, as shares of the kind's own.
 LEAST, MOST = 0.5, 2.5
-"""A size may be so much of the kind's own."""
 
 
 @dataclass(frozen=True, slots=True)

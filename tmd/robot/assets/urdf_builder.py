@@ -17,8 +17,8 @@ from tmd.robot.assets.features import Grasp, Grip, Lamp, Opening, Region
 from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose, Vector
 
+# The name of the whole object among its parts and links.
 ROOT = ""
-"""The name of the whole object among its parts and links."""
 _INVISIBLE = (0.0, 0.0, 0.0, 0.0)
 _TURNED = {"x": (0.0, math.pi / 2, 0.0), "y": (math.pi / 2, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
 

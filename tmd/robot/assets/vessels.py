@@ -16,11 +16,11 @@ from tmd.robot.assets.fittings import DOWN, INTO, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 from tmd.robot.sim.pose import Vector
 
+# The fingers are opened by so much more than the width of a thing.
 CLEARANCE = 0.02
-"""How much wider than what they take the fingers stand open."""
 WIDEST = 0.085
+# Radians that a lid opens.
 WIDE = 1.75
-"""Radians that a lid opens."""
 _AXES: tuple[Vector, ...] = ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
 
 

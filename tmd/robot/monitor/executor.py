@@ -20,20 +20,16 @@ from tmd.robot.monitor.observation import Mismatch, Observer
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillPhase, SkillStatus
 from tmd.robot.skills.skill_file import Skills
 
+# Maximum number of tries before a way round is searched, by the stage of the failure. Another try finds
+# another path, and no other place to stand. What failed at other stages was within reach.
 TRIES = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 2}
-"""So often something is tried before a way round it is looked for, by the stage at which it fails.
 
-Another try finds another path, and no other place to stand. What failed at other stages was within reach.
-"""
-
+# Maximum number of tries while nothing has moved, by the stage of the failure; two for other stages. Paths
+# are drawn at random: another try may find one.
 AGAIN = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 3}
-"""So often the same instruction is tried while nothing has moved, by the stage at which it fails; others twice.
 
-Paths are drawn at random: another try may find one.
-"""
-
+# Cost of dropping a thing, in instructions: from the floor it is hard to take.
 DROP = 6
-"""What lands on the floor is hard to take from there: letting go of it costs as much as six other instructions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,10 +150,10 @@ def careful(task: Task, skills: Skills) -> Task:
     return replace(task, operators=operators, by_instruction={o.instruction: o for o in operators})
 
 
+# Maximum number of times the executor replans before the robot stops.
 MOST_REPAIRS = 6
-"""Maximum number of times the executor replans before the robot stops."""
+# Generated states after which the search for another plan to the same end gives up.
 _NEW_PLAN_CAP = 1000
-"""Generated states after which the search for another plan to the same end gives up."""
 
 
 class Performer(Protocol):

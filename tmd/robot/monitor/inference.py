@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from tmd.robot.skills.robot_context import Cell
 
 
+# Skills that fail where the contents do not get over the rim.
 _POURING = ("tip", "squeeze", "dip")
-"""Skills that fail where the contents do not get over the rim."""
 
 
 @dataclass

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from tmd.robot.skills.robot_context import Cell
 
 
+# Metres within which things are near.
 REACH = 1.1
-"""Metres within which things are near."""
 
 
 class Observer:

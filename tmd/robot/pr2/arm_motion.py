@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 Arm = tuple[float, ...]
 Base = tuple[float, float, float]
 
+# Maximum motion of each joint between two checks, in radians: 2 to 4 cm at the hand.
 STRIDES = np.array([0.04, 0.04, 0.06, 0.06, 0.12, 0.12, 0.25])
-"""How far each joint may move between two checks: 2 to 4 cm at the hand."""
+# Microseconds of following a pose, about.
 _TRACK_WORK = 80
-"""Microseconds of following a pose, about."""
 
 
 def plan_arm(

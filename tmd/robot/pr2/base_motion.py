@@ -28,8 +28,8 @@ Base = tuple[float, float, float]
 Place = tuple[int, int]
 Cell = tuple[int, int, int]
 
+# Maximum motion of the base between two checks: metres, radians.
 STRIDES = np.array([0.04, 0.04, 0.08])
-"""How far the base may move between two checks."""
 _ALL_HEADINGS = sorted(range(-BASE_MOTION.grid_headings // 2, BASE_MOTION.grid_headings // 2), key=abs)
 _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 

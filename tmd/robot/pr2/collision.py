@@ -23,10 +23,10 @@ from tmd.robot.sim.pose import Pose, Vector
 if TYPE_CHECKING:
     from tmd.robot.sim.simulator import Simulator
 
+# The robot's link (a tool frame stands for what that hand holds), what it touches (body, link), and how deep.
 Collision: TypeAlias = tuple[str, int, int, float]
-"""The robot's link (a tool frame stands for what that hand holds), what it touches (body, link), and how deep."""
+# Bodies and links that may be touched; None: all links of the body.
 Ignored: TypeAlias = Collection[tuple[int, int | None]]
-"""Bodies and links that may be touched; None: all links of the body."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +46,8 @@ class LinkBox:
     half: Array
 
 
+# Microseconds of comparing boxes, about: for a batch, and for each configuration in it.
 _BATCH_WORK = (130, 8)
-"""Microseconds of comparing boxes, about: for a batch, and for each configuration in it."""
 
 
 class CollisionModel(Protocol):
@@ -107,8 +107,8 @@ class CollisionChecker:
         self._helds = [held for held in everything if arm in (None, held.side)]
         self._others = [held for held in everything if held not in self._helds]
         self._undo = ExitStack()
+        # Allowed depths of pairs in each other; other pairs may not touch.
         self.allowed: dict[tuple[str, int, int], float] = {}
-        """How deep pairs may be in each other; those that are not named here: not at all."""
         self._ends: list[tuple[Array, Array, dict[tuple[str, int, int], float]]] = []
         tree = robot.tree
         top = tree.root if arm is None else f"{arm[0]}_shoulder_pan_link"

@@ -23,8 +23,8 @@ from tmd.robot.sim.pose import Pose
 
 _ROLL = 2
 _DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
+# Metres and radians: a descent from all of whose starts the pose is reached so well has ended.
 _EXACT = 1e-7
-"""Metres and radians: a descent from all of whose starts the pose is reached so well has ended."""
 _PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
 

@@ -33,10 +33,10 @@ ARMS = ("right", "left")
 _TORSO_START = 0.15
 _FINGER_RANGE = (0.0, 0.548)
 _TOUCHING = 0.002
+# Microseconds of the inverse kinematics of a pose, about.
 _SOLVE_WORK = 350
-"""Microseconds of the inverse kinematics of a pose, about."""
+# Half of the angle of view, radians: to the sides, up and down.
 _VIEW = (0.75, 0.6)
-"""Half of the angle of view, radians: to the sides, up and down."""
 
 
 class Pr2:

@@ -17,10 +17,10 @@ from tmd.robot.parameters import ARM_MOTION
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.trajectory import dense
 
+# Returns whether all of (n, k) configurations are free.
 Free = Callable[[Array], bool]
-"""Whether all of (n, k) configurations are free."""
+# A configuration (k,) nearby that keeps a constraint; None if there is none.
 Project = Callable[[Array], Array | None]
-"""A configuration (k,) nearby that keeps a constraint; None if there is none."""
 
 
 @dataclass

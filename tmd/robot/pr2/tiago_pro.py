@@ -17,26 +17,21 @@ from tmd.robot.pr2.kinematics import origin, set_origin
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.urdf_files import end_of
 
+# Radians that the fingers turn from open to closed.
 CLOSED = 0.8028514559173916
-"""Radians that the fingers turn from open to closed."""
+# Metres between the frames of the finger tips when their surfaces would meet: they come to 8 mm of each other.
 TIP_OFFSET = 0.023
-"""Metres between the frames of the finger tips when their surfaces would meet: they come to 8 mm of each other."""
+# Metres from the palm's frame to the tool's. The finger tips then reach 1 mm (open) to 18 mm (closed) beyond it, for
+# they swing forward as they close: a hand comes as near to the table as the PR2's, which reaches 18 mm.
 TOOL_AHEAD = 0.158
-"""Metres from the palm's frame to the tool's.
-
-The finger tips then reach 1 mm (open) to 18 mm (closed) beyond it, for they swing forward as they close: a hand comes
-as near to the table as the PR2's, which reaches 18 mm.
-"""
+# The camera, in the frame of head_tilt_link.
 EYE = (0.06, 0.0, 0.168)
-"""The camera, in the frame of head_tilt_link."""
+# Above the base, 0.27 m to the front and 0.37 m to the sides at most, the hands look ahead. The best of 200 000 random
+# postures, by how far they reach beyond the base and its height, that touch nothing.
 TUCKED: dict[str, tuple[float, ...]] = {
     "right": (-0.637, -2.299, 2.491, -2.296, 2.943, 0.958, -2.004),
     "left": (0.637, -2.299, -2.491, -2.296, -2.943, 0.958, 2.004),
 }
-"""Above the base, 0.27 m to the front and 0.37 m to the sides at most, the hands look ahead.
-
-The best of 200 000 random postures, by how far they reach beyond the base and its height, that touch nothing.
-"""
 _ARM = (
     "shoulder_pan", "shoulder_lift", "upper_arm_roll", "elbow_flex", "forearm_roll", "wrist_flex", "wrist_roll",
 )  # fmt: skip
@@ -78,10 +73,10 @@ def _own_joints() -> dict[str, tuple[str, float, float]]:
     return found
 
 
+# By the names of the skills: the robot's own name of a joint, and sign and shift from a position here to one there.
 OWN_JOINTS = _own_joints()
-"""By the names of the skills: the robot's own name of a joint, and sign and shift from a position here to one there."""
+# Finger joints besides the four of the PR2.
 COUPLED = ("gripper_l_outer_finger_joint", "gripper_r_outer_finger_joint")
-"""Finger joints besides the four of the PR2."""
 
 
 def missing_joints(root: ET.Element) -> list[str] | None:

@@ -40,24 +40,22 @@ FINGERS = (
     "gripper_r_finger_tip_joint",
 )
 TOOL = "gripper_tool_frame"
+# For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most. Found
+# by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms lie
+# across each other, and one in the way of the other.
 TUCKED = {
     "right": (-0.192, 1.046, -0.883, -2.301, 1.193, -1.594, 1.345),
     "left": (0.192, 1.046, 0.883, -2.301, -1.193, -1.594, -1.345),
 }
-"""For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most.
-
-Found by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms
-lie across each other, and one in the way of the other.
-"""
+# The robots of ``example-robot-data`` that the skills can move.
 ROBOTS = {"pr2": "pr2_description/urdf/pr2.urdf", "tiago_pro": "tiago_pro_description/robots/tiago_pro.urdf"}
-"""The robots of ``example-robot-data`` that the skills can move."""
 _DISTRIBUTION = "example-robot-data"
 _ADVICE = "pip install 'tmd[robot]'"
 _WITH_HANDS = "the skills take things: name a PR2 or a TIAGo Pro with both of its grippers"
 _ANOTHER = "the skills move a PR2 or a TIAGo Pro: leave --urdf out, or say --robot tiago_pro"
 _FRAME_MASS = 1e-3
+# Metres: the range of the base's two sliding joints, more than any room.
 _HALL = 100.0
-"""Metres: the range of the base's two sliding joints, more than any room."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,8 +13,8 @@ from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
 FLOOR = "floor"
+# A thing that is so many times as high as wide falls over.
 TALL = 1.2
-"""What is so many times as high as it is wide falls over."""
 
 
 def built(environment: Environment, folder: DomainFolder) -> tuple[dict[str, Blueprint], dict[str, list[str]]]:

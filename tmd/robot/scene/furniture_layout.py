@@ -12,14 +12,14 @@ from dataclasses import dataclass
 
 from tmd.robot.sim.pose import Pose, Vector
 
+# From the middle of the room to the fronts, at least.
 FREE_FLOOR = 1.75
-"""From the middle of the room to the fronts, at least."""
+# Between neighbours.
 GAP = 0.12
-"""Between neighbours."""
+# Beside the outermost fixture of a wall.
 CORNER = 0.35
-"""Beside the outermost fixture of a wall."""
+# x and y of the lower and of the upper corner, in the thing's own frame.
 Footprint = tuple[float, float, float, float]
-"""x and y of the lower and of the upper corner, in the thing's own frame."""
 
 
 @dataclass(frozen=True, slots=True)

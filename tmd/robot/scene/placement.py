@@ -15,16 +15,16 @@ from tmd.robot.scene.furniture_layout import Footprint, Room, apart, arrange, fl
 from tmd.robot.sim.pose import Pose
 from tmd.world.environment import Environment
 
+# Between items, the first that fits.
 GAPS = (0.1, 0.07, 0.05)
-"""Between items, the first that fits."""
+# Turns of things that do not fit with their front to the front, in radians.
 TURNS = (0.0, 0.8, -0.8, 1.57, -1.57)
-"""How things may be turned where they do not fit with their front to the front."""
+# Items from this height on stand behind the lower ones.
 TALL = 0.12
-"""Items from this height on stand behind the lower ones."""
 JITTER = 0.003
 _OPEN = "opened"
+# Footprint of the robot.
 _ROBOT: Footprint = (-0.35, -0.35, 0.35, 0.35)
-"""What the robot stands on."""
 
 
 class Placing:

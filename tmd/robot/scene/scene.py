@@ -32,14 +32,14 @@ if TYPE_CHECKING:
 
 __all__ = ["FLOOR", "OVERLAP", "SETTLE", "Handle", "Scene", "Spot"]
 
+# Steps of physics before the scene is ready.
 SETTLE = 240
-"""Steps of physics before the scene is ready."""
+# Metres that two things may be in each other.
 OVERLAP = 0.002
-"""Metres that two things may be in each other."""
+# Ticks between two looks at where lids are.
 _LIDS_EVERY = 4
-"""Ticks between two looks at where lids are."""
+# Radians, or metres, that a lid has moved when somebody moved it.
 _LID_MOVED = 0.01
-"""Radians, or metres, that a lid has moved when somebody moved it."""
 _OPENED, _SET_TO, _CONTAINS = "opened", "set_to", "contains"
 
 
@@ -78,8 +78,8 @@ class Scene(Inventory):
             for name, entry in environment.objects.items()
         }
         self._shown: dict[str, tuple[str, ...]] = {}
+        # The friction of the joints of items, and where each was when it was last seen to have moved.
         self._lids: dict[tuple[int, str], tuple[float, float]] = {}
-        """The friction of the joints of items, and where each was when it was last seen to have moved."""
         with tempfile.TemporaryDirectory(prefix="tmd-scene-") as directory:
             self._load(Path(directory), rng)
         self.index()

@@ -15,19 +15,19 @@ from tmd.robot.scene.inventory import Inventory
 from tmd.robot.scene.placement import TURNS
 from tmd.robot.sim.pose import Pose, Vector
 
+# Between two items that stand side by side, at least.
 GAP = 0.05
-"""Between two items that stand side by side, at least."""
+# The same in a basket or a bag, which nothing is to be taken out of in order.
 HEAP_GAP = 0.01
-"""The same in a basket or a bag, which nothing is to be taken out of in order."""
+# The same where no spot of a region has GAP around it: hands get in from above still.
 TIGHT_GAP = 0.02
-"""The same where no spot of a region has :data:`GAP` around it: hands get in from above still."""
+# Between the places that are tried then, all over the region.
 PITCH = 0.03
-"""Between the places that are tried then, all over the region."""
+# Between spots that count as different.
 APART = 0.15
-"""Between spots that count as different."""
 _TOUCH = 0.004
+# Above what lies in a heap already.
 _ON_TOP = 0.004
-"""Above what lies in a heap already."""
 
 
 @dataclass(frozen=True, slots=True)

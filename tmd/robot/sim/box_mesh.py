@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+# The mesh that boxes are drawn by: a unit cube with a normal for every face. Boxes drawn as boxes are shaded round.
 CUBE = "cube.obj"
-"""The mesh that boxes are drawn by: a unit cube with a normal for every face. Boxes drawn as boxes are shaded round."""
 
 
 def cube() -> str:

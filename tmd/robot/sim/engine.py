@@ -16,8 +16,8 @@ from tmd.robot.sim.rendering import egl_starts, pybullet, quiet, window_opens
 STEPS_PER_SECOND = 240
 ITERATIONS = 50
 GRAVITY = 9.81
+# Microseconds of a step, about.
 _STEP_WORK = 500
-"""Microseconds of a step, about."""
 
 
 class Engine:

@@ -48,8 +48,8 @@ class Joint:
 _LEAST_DISTANCE = 1e-6
 # Approximate cost of a distance query, in microseconds.
 _QUERY_WORK = 18
+# Maximum force of a weld or a pin, in newtons: more than any item weighs, and less than what tears furniture.
 WELD_FORCE = 500.0
-"""Maximum force of a weld or a pin, in newtons: more than any item weighs, and less than what tears furniture."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,14 +17,14 @@ from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Accept, Base, Links, Option, follow, reach
 
 _PULLED, _PUSHED = 0, 1
+# Radians by which the hand is turned about the way a finger points.
 _ROLLS = (0.0, pi / 2)
-"""Radians by which the hand is turned about the way a finger points."""
+# A lid's tab is taken from the front, or from a side: then the hand points along the hinge, and only rolls.
 _SIDES = (
     Pose((0.0, 0.0, 0.0)),
     Pose((0.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)),
     Pose((0.0, 0.0, 0.0), (0.5, -0.5, -0.5, 0.5)),
 )
-"""A lid's tab is taken from the front, or from a side: then the hand points along the hinge, and only rolls."""
 
 
 def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:

@@ -19,17 +19,17 @@ from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Accept, Option, candidates, get_to, reach, with_room
 
 _TURNS = 8
+# Places to hold a thing out: metres up, ahead, and to the side of the arm that holds it; and the number of its turn.
 _PLACES = tuple(product(product((0.8, 1.1, 0.95), (0.5, 0.6), (0.1, 0.22, 0.0)), range(_TURNS)))
-"""Where the thing is held out: metres up, ahead, and to the side of the arm that holds it; and how it is turned."""
+# Places that follow each other are not alike.
 _STRIDE = 29
-"""Places that follow each other are not alike."""
 _POSTURES = 4
+# Maximum number of places thought through at one stand.
 _MOST_ASKED = 16
-"""Maximum number of places thought through at one stand."""
+# Metres that the robot goes back, and radians that it turns.
 _STANDS = ((0.0, 0.0), *product((0.4, 0.6, 0.0), (pi / 2, -pi / 2, pi, 0.0)))
-"""Metres that the robot goes back, and radians that it turns."""
+# Maximum number of places tried from one stand, and in all.
 _MOST_HERE, _MOST = 4, 24
-"""Maximum number of places tried from one stand, and in all."""
 
 
 def reach_for(
@@ -125,7 +125,7 @@ def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Opt
 
 @contextmanager
 def _as_if(cell: Cell, side: str, item: str, arm: Sequence[float]) -> Iterator[None]:
-    """As if an arm, and what it holds, were elsewhere; afterwards all is where it was, to the bit."""
+    """Put an arm, and what it holds, elsewhere for a while; afterwards all is where it was, to the bit."""
     sim, robot, body = cell.sim, cell.robot, cell.scene.bodies[item]
     grip = cell.in_tool(side, item)
     joints = [robot.joint_index[name] for name in robot.arm_joints[side]]

@@ -18,14 +18,14 @@ from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
 
+# Metres between the fingers of a hand that is about to take something.
 _OPEN = 0.08
-"""Metres between the fingers of a hand that is about to take something."""
+# Fingers that open less than this (cosine) along the y axis of a thing with a bar are above and below the bar.
 _ALONG = 0.7
-"""Fingers that open less than this (cosine) along the y axis of a thing with a bar are above and below the bar."""
+# Angles to straight down at which what lies is taken.
 _LEANS = (0.0, 0.6, -0.6, 1.1, -1.1)
-"""Angles to straight down at which what lies is taken."""
+# Metres and radians between grips that count as one.
 _ALIKE = (0.03, 0.5)
-"""Metres and radians between grips that count as one."""
 
 
 def pick(cell: Cell, item: str, attempt: int) -> str:

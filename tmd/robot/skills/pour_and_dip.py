@@ -102,7 +102,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     body = cell.scene.bodies[item]
 
     def over_rim() -> bool:
-        """Whether what runs out now gets where it should."""
+        """Return whether what runs out now gets where it should."""
         here = cell.sim.pose(body)
         return any(_beside(cell, here.apply(how.at), target) <= POURING.mouth_offset for how in known)
 

@@ -22,8 +22,8 @@ from tmd.robot.video.captions import Pixels, pillow
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
+# Width and height of a picture of the room, in pixels.
 PICTURE = (960, 640)
-"""Width and height of a picture of the room, in pixels."""
 
 
 @dataclass(frozen=True, slots=True)

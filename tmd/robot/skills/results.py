@@ -11,20 +11,20 @@ from tmd.pddl.model import GroundAtom, Instruction, State
 class SkillPhase(StrEnum):
     """The phase of a skill in which something failed."""
 
+    # The start of the skill is not as required.
     PRECONDITION = "precondition"
-    """What the skill starts from is not there."""
+    # No place to stand, and no posture of the arm, reaches what is wanted.
     STANCE = "stance"
-    """No place to stand, and no posture of the arm, reaches what is wanted."""
+    # There is no way there without touching something.
     PATH = "path"
-    """There is no way there without touching something."""
+    # The robot did not get to where it should, within its steps.
     EXECUTION = "execution"
-    """The robot did not get to where it should, within its steps."""
+    # The gripper is where it should be and touches nothing.
     CONTACT = "contact"
-    """The gripper is where it should be and touches nothing."""
+    # Everything was done, and the thing did not move as it should.
     EFFECT = "effect"
-    """Everything was done, and the thing did not move as it should."""
+    # It would have taken longer than an instruction may.
     TIME = "time"
-    """It would have taken longer than an instruction may."""
 
 
 class SkillError(Exception):
@@ -39,12 +39,12 @@ class SkillError(Exception):
 class Basis(StrEnum):
     """The basis of an effect."""
 
+    # A sensor of the simulation shows it.
     MEASURED = "measured"
-    """A sensor of the simulation shows it."""
+    # It follows from measurements, by a rule that is given with it.
     INFERRED = "inferred"
-    """It follows from what was measured, by a rule that is told with it."""
+    # PDDL says so, and nothing speaks against it.
     ASSUMED = "assumed"
-    """PDDL says so, and nothing speaks against it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,12 +101,12 @@ class ExecutedStep:
 class SkillStatus(StrEnum):
     """The end of an execution."""
 
+    # Every instruction was done, and every effect is as predicted.
     DONE = "done"
-    """Every instruction was done, and every effect is as predicted."""
+    # Something was not as predicted, the executor replanned if needed, and all that the plan is for holds.
     RECOVERED = "recovered"
-    """Something was not as predicted, the executor replanned if needed, and all that the plan is for holds."""
+    # It could not be done; the reason says why.
     STOPPED = "stopped"
-    """It could not be done; the reason says why."""
 
 
 @dataclass(frozen=True, slots=True)

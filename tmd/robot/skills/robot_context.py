@@ -22,15 +22,15 @@ from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, WELD_FORCE, Simulator
 from tmd.robot.skills.results import SkillError, SkillPhase
 
+# Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid.
 _PAST = tuple((0.0, 0.0, away) for away in (0.1, -0.1, 0.05, -0.05))
-"""Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid."""
+# Samples for a way of the arm where there is no other place to tuck it.
 _LONG = 2000
-"""Samples for a way of the arm where there is no other place to tuck it."""
 _NEARBY = 300
+# Steps between two looks at what leans.
 _LEANING_EVERY = 8
-"""Steps between two looks at what leans."""
+# Radians below which nothing leans.
 _LEVEL = 0.05
-"""Radians below which nothing leans."""
 
 
 def _nothing(*_: str) -> None:

@@ -20,8 +20,9 @@ SkillName: TypeAlias = Literal[
 Sensor: TypeAlias = Literal["held", "one_hand", "two_hands", "support", "joint", "setting"]
 Confirmation: TypeAlias = Literal["reach"]
 
+# Number of arguments of a predicate for each sensor.
 _ARITY = {"held": 2, "one_hand": 1, "two_hands": 1, "support": 3, "joint": 1, "setting": 2, "reach": 2}
-"""How many arguments a predicate has that the sensor can see."""
+# Roles that a skill needs; other skills need an object.
 _NEEDS: dict[str, tuple[str, ...]] = {
     "place": ("object", "target", "relation"),
     "rotate": ("object", "setting"),
@@ -30,7 +31,6 @@ _NEEDS: dict[str, tuple[str, ...]] = {
     "squeeze": ("object", "target"),
     "wait": (),
 }
-"""What a skill must be told; the others need an object."""
 _ROLES = ("object", "target", "relation", "setting")
 
 
@@ -110,6 +110,7 @@ class Skills:
         return SkillTask(entry.skill, **roles, seconds=entry.seconds)
 
 
+# Sensors of predicates with usual names, in a domain without ``skills.yaml``.
 _USUAL: Mapping[str, Sensor | Confirmation] = {
     "holding": "held",
     "at": "support",
@@ -117,7 +118,6 @@ _USUAL: Mapping[str, Sensor | Confirmation] = {
     "set_to": "setting",
     "near": "reach",
 }
-"""What the predicates of these names are about, in a domain that has no ``skills.yaml``."""
 
 
 def visible(folder: DomainFolder) -> Skills:

@@ -29,10 +29,10 @@ Accept = Callable[["Option", Base], bool]
 _FINE_SWINGS = tuple(sign * 0.15 * step for step in range(10) for sign in ((1, -1) if step else (1,)))
 _FAR_SWINGS = tuple(sign * 0.3 * step for step in range(5, 11) for sign in (1, -1))
 _COARSE = 4.0
+# Ways or places that are looked at to say what is in the way.
 _EXPLAINED = 8
-"""Ways or places that are looked at to say what is in the way."""
+# Samples for a way of the arm: where there are other stances to try, and where there is none.
 _SHORT, _LONG = 300, 2000
-"""Samples for a way of the arm: where there are other stances to try, and where there is none."""
 _SHOULDER_HEIGHT = 0.790675
 
 

@@ -15,18 +15,18 @@ from tmd.robot.pr2.pr2 import ARMS
 from tmd.robot.sim.pose import Vector
 from tmd.robot.skills.robot_context import Cell
 
+# Vertical angle of view in degrees.
 FOV = 50.0
-"""Vertical angle of view in degrees."""
 _TURNS = tuple(math.radians(15.0 * step) for step in range(24))
 _HEIGHTS = tuple(map(math.radians, (28.0, 40.0, 54.0)))
+# Metres round the subject that are in the picture, at least.
 _CLOSE, _WIDE = 0.5, 1.0
-"""Metres round the subject that are in the picture, at least."""
+# A hand that is farther from the thing than this has nothing to do with it.
 _NEAR_HAND = 0.9
-"""A hand that is farther from the thing than this has nothing to do with it."""
+# A ray that gets this near to its goal has met it.
 _SEEN = 0.1
-"""A ray that gets this near to its goal has met it."""
+# The robot's own body counts as seen where it is this near to the point.
 _OWN = 0.35
-"""The robot's own body counts as seen where it is this near to the point."""
 
 
 @dataclass(frozen=True, slots=True)

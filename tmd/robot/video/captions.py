@@ -25,8 +25,8 @@ if TYPE_CHECKING:
 Pixels: TypeAlias = NDArray[np.uint8]
 Mark: TypeAlias = Literal["expected", "measured", "inferred", "assumed", "missing"]
 
+# Of the caption under a picture 640 pixels wide; others have it in proportion.
 HEIGHT = 128
-"""Of the caption under a picture 640 pixels wide; others have it in proportion."""
 _USUAL = 640
 _PAPER, _INK, _PALE = "#1d2127", "#f3f1ec", "#a3a9b3"
 _COLOURS = {

@@ -28,15 +28,15 @@ from tmd.robot.video.movie_file import MovieFile
 PICTURE = (640, 480)
 GIF_PICTURE = (480, 360)
 FPS = {".mp4": 15, ".gif": 10}
+# Seconds for which the checked facts of an instruction are shown.
 _SHOWN = 0.8
-"""Seconds for which the checked facts of an instruction are shown."""
 _FAILURE_SHOWN = 2.0
 _OPENING, _ENDING = 1.5, 2.5
 TILE = (400, 300)
+# Radians beside the middle of a close picture within which the robot's own head, nearer than that, is left out.
 _HEAD = 0.35
-"""Radians beside the middle of a close picture within which the robot's own head, nearer than that, is left out."""
+# Skills that are seen from afar.
 _FAR = ("look", "drive")
-"""Skills that are seen from afar."""
 
 
 def open_movie(

@@ -25,10 +25,10 @@ from tmd.world.folder import DomainFolder
 
 Colour = tuple[float, float, float, float]
 INVISIBLE: Colour = (0.0, 0.0, 0.0, 0.0)
+# Metres from a front, or from an item on the floor, to the middle of the robot.
 _BEFORE = 0.6
-"""Metres from a front, or from an item on the floor, to the middle of the robot."""
+# Places of held things in the robot's frame: in the right hand, in the left.
 HANDS = ((0.62, -0.17, 0.95), (0.62, 0.17, 0.95))
-"""Where what is held is, in the robot's frame: in the right hand, in the left."""
 _SENSES = ("held", "support", "joint", "setting", "reach")
 
 
