@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 import numpy as np
@@ -16,11 +15,11 @@ from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Performer
 from tmd.robot.monitor.listeners import Listener, Order, Recorder, Title
 from tmd.robot.monitor.observation import Observer
 from tmd.robot.scene.scene import Scene
-from tmd.robot.setup import make_cell, show_state
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.performer import RobotPerformer
 from tmd.robot.skills.results import ExecutedStep, Execution
+from tmd.robot.skills.robot_context import make_cell
 from tmd.robot.skills.skill_file import load_skills
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
@@ -76,9 +75,7 @@ class SimulationSession:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.sim.close()
 
     def execute(
@@ -116,7 +113,17 @@ class _Signs:
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """Show what was poured, and what is lit."""
-        show_state(self._stage.cell.scene, self._stage.skills, step.state)
+        scene, skills, state = self._stage.cell.scene, self._stage.skills, step.state
+        contents: dict[str, list[str]] = {}
+        for atom in sorted(state):
+            if atom.predicate == skills.contents and len(atom.args) == 2:
+                contents.setdefault(atom.args[0], []).append(atom.args[1])
+        for name in scene.items():
+            scene.show(name, contents.get(name, ()))
+        for predicate in skills.signs:
+            shown = {atom.args[0] for atom in state if atom.predicate == predicate}
+            for name in scene.names():
+                scene.sign(name, predicate, name in shown)
 
 
 class _Pace:

@@ -83,13 +83,14 @@ def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) ->
     model = UrdfModel(name, mass)
     model.mesh(seen, solids, low, high, colour)
     if hollow is not None:
-        contents(model, hollow.radius, hollow.floor, high[2])
+        radius, floor, outer, wall = hollow
+        contents(model, radius, floor, high[2])
     if shape.grasps:
         _said_grasps(model, shape.grasps)
     else:
         _measured_grasps(model, mesh)
-        if hollow is not None and hollow.wall <= _RIM:
-            rim_grasps(model, hollow.outer, high[2], hollow.wall, (math.pi / 2, 0.0, -math.pi / 2))
+        if hollow is not None and wall <= _RIM:
+            rim_grasps(model, outer, high[2], wall, (math.pi / 2, 0.0, -math.pi / 2))
     for index, region in enumerate(shape.regions):
         if region.link is not None:
             raise ModelFault(("regions", index, "link"), "a mesh has no links", "leave `link` out")
@@ -195,18 +196,8 @@ def _bottom(mesh: trimesh.Trimesh) -> float:
     return float((weights * corners[:, :, 2]).sum(axis=1)[over].max(initial=0.0))
 
 
-@dataclass(frozen=True, slots=True)
-class _Hollow:
-    """The hollow of a vessel: radius and floor of what fills it, and its rim; metres."""
-
-    radius: float
-    floor: float
-    outer: float
-    wall: float
-
-
-def _hollow(mesh: trimesh.Trimesh) -> _Hollow:
-    """Measure the hollow of a vessel."""
+def _hollow(mesh: trimesh.Trimesh) -> tuple[float, float, float, float]:
+    """Return radius and floor of the contents of a vessel, and radius and thickness of its wall, in metres."""
     top, floor = float(mesh.bounds[1][2]), _bottom(mesh)
     level = floor + 0.8 * (top - floor)
     if floor > 0.6 * top:
@@ -217,7 +208,7 @@ def _hollow(mesh: trimesh.Trimesh) -> _Hollow:
         raise ModelFault(("holds",), "it holds nothing: the middle of its underside is not in a hollow", None)
     rim = top - 0.004
     outer = float(np.abs(_cut(mesh, rim)[:, :, 1]).max())
-    return _Hollow(radius - 0.002, max(floor, 0.001), outer, outer - _radius(mesh, rim))
+    return radius - 0.002, max(floor, 0.001), outer, outer - _radius(mesh, rim)
 
 
 def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh) -> None:

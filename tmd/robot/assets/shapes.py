@@ -72,16 +72,15 @@ class Shapes:
                 key = "mesh" if vertex.shape.mesh else "urdf"
                 raise self._error(vertex.class_name, class_name, part, (key,), message, "say `urdf:` for the whole")
         look = self._look(class_name, vertices[ROOT].shape, sort, class_name, None)
-        parts = Parts(
-            {
-                name: self._look(vertex.class_name, vertex.shape, "part", class_name, name)
-                for name, vertex in vertices.items()
-                if name != ROOT
-            }
-        )
-        parts = Parts(
-            {name: self._like_its_whole(part, vertices[name].shape, look) for name, part in parts.looks.items()}
-        )
+        parts = Parts({})
+        for name, vertex in vertices.items():
+            if name != ROOT:
+                part_look = self._look(vertex.class_name, vertex.shape, "part", class_name, name)
+                # a door without a colour has that of the object it closes
+                plain = vertex.shape is None or vertex.shape.colour is None
+                if plain and part_look.kind in ("door", "latched_door", "lid"):
+                    part_look = replace(part_look, colour=look.colour)
+                parts.looks[name] = part_look
         kind = KINDS[look.kind]
         if vertices[ROOT].shape is not None:
             self._check_parts(class_name, kind, look, parts)
@@ -119,12 +118,6 @@ class Shapes:
         look = Appearance(key, size, shape.colour or usual.colour, usual.accent, model.links[URDF_ROOT].mass)
         return Blueprint(class_name, sort, look, model, model.text())
 
-    def _like_its_whole(self, look: Appearance, shape: Shape | None, whole: Appearance) -> Appearance:
-        """Give a door without a colour that of the object it closes."""
-        if look.kind not in ("door", "latched_door", "lid") or (shape is not None and shape.colour is not None):
-            return look
-        return replace(look, colour=whole.colour)
-
     def sort(self, class_name: str) -> str:
         """Return ``item``, ``part`` or ``fixture``, by the types above the class."""
         return next((sort for sort in ("item", "part") if self.classes.is_below(class_name, sort)), "fixture")
@@ -152,13 +145,9 @@ class Shapes:
                     hint = f"between {LEAST * normal:.3g} and {MOST * normal:.3g} m, {normal:g} m is usual"
                     raise self._error(class_name, whole, part, ("size",), message, hint)
         return Appearance(
-            shape.kind,
-            shape.size or usual.size,
-            shape.colour or usual.colour,
-            shape.accent or usual.accent,
-            shape.mass or usual.mass,
-            shape.settings or usual.settings,
-        )
+            shape.kind, shape.size or usual.size, shape.colour or usual.colour, shape.accent or usual.accent,
+            shape.mass or usual.mass, shape.settings or usual.settings,
+        )  # fmt: skip
 
     def _check_colours(self, class_name: str, whole: str, part: str | None, shape: Shape) -> None:
         said: dict[tuple[str | int, ...], str | None] = {("colour",): shape.colour, ("accent",): shape.accent}

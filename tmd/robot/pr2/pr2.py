@@ -10,7 +10,7 @@ ten times what the real one does. Motors are stronger than the real ones, whose 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from math import asin, atan2, cos, hypot, pi, sin
@@ -23,8 +23,7 @@ from tmd.robot.parameters import MOTOR
 from tmd.robot.pr2.collision import Collision, CollisionChecker, Held, Ignored, LinkBox, link_boxes
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree
-from tmd.robot.pr2.trajectory import unwound
-from tmd.robot.pr2.trajectory_following import JointGroup, hold, jump, run
+from tmd.robot.pr2.trajectory_following import JointGroup, hold, jump, run, unwound
 from tmd.robot.pr2.urdf import BASE_JOINTS, HEAD, TOOL, TORSO, prepare
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
@@ -414,10 +413,10 @@ class Pr2:
             return checker.collisions(())
 
     @contextmanager
-    def as_if(self, base: tuple[float, float, float]) -> Iterator[None]:
-        """Put the base, with all that it carries, elsewhere for a while; afterwards all is where it was, to the bit."""
+    def as_if(self, positions: Mapping[str, float]) -> Iterator[None]:
+        """Put some joints, with all that they carry, elsewhere for a while; afterwards all is back, to the bit."""
         helds = self.helds()
-        with CollisionChecker(self, (), positions=self.elsewhere(base), helds=helds):
+        with CollisionChecker(self, (), positions=positions, helds=helds):
             for held in helds:
                 self.sim.set_pose(held.body, self.tool(held.side) * held.grip)
             yield

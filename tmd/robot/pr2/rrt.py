@@ -15,7 +15,7 @@ import numpy as np
 
 from tmd.robot.parameters import ARM_MOTION
 from tmd.robot.pr2.kinematics import Array
-from tmd.robot.pr2.trajectory import dense
+from tmd.robot.pr2.trajectory_following import dense
 
 # Returns whether all of (n, k) configurations are free.
 Free = Callable[[Array], bool]

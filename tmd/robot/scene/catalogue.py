@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tmd.diagnostics import TmdError
-from tmd.robot.assets.features import Opening, Region
+from tmd.robot.assets.features import Grip, Opening, Region
 from tmd.robot.assets.shapes import Blueprint, Shapes
 from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.scene.furniture_layout import Footprint
@@ -110,6 +110,10 @@ class Catalogue:
         """Return the item's rectangle on its support."""
         low, high = self.size(item)
         return (low[0], low[1], high[0], high[1])
+
+    def grip(self, whole: str, part: str) -> Grip | None:
+        """Return the grip of a part in the frame of its link; None if it has none."""
+        return next((g for g in self.blueprints[whole].model.grips if g.part == part), None)
 
     def frame(self, whole: str, link: str) -> Pose:
         """Return the pose of a link of an object now."""

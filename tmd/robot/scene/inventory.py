@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tmd.robot.assets.shapes import Blueprint
@@ -13,7 +15,37 @@ from tmd.world.environment import Environment
 if TYPE_CHECKING:
     from tmd.robot.sim.simulator import Simulator
 
-__all__ = ["FLOOR", "Inventory"]
+
+@dataclass(frozen=True, slots=True)
+class Handle:
+    """The place to work a joint at, in its current pose.
+
+    Attributes:
+        kind: ``door``, ``flap`` (a door without a handle: pushed), ``drawer``, ``lid``, ``slide`` (a curtain), ``knob``
+            or ``button``.
+        index: The joint's number, also that of the link that moves.
+        grasp: The tool in the world with the fingers at the handle. Of a button and a flap: the closed tips touch it.
+        opening: Gap of the fingers before they close; 0 means closed.
+        origin: A point of the joint's axis in the world.
+        axis: The joint's axis in the world: of turning, or of sliding.
+        turns: Whether it turns (radians) or slides (metres).
+        closed: Position when closed, off or not pressed.
+        open: Position when open or pressed.
+        settings: Of a knob: the position of each setting.
+    """
+
+    kind: str
+    body: int
+    joint: str
+    index: int
+    grasp: Pose
+    opening: float
+    origin: Vector
+    axis: Vector
+    turns: bool
+    closed: float
+    open: float
+    settings: Mapping[str, float]
 
 
 class Inventory(Catalogue):
@@ -70,6 +102,28 @@ class Inventory(Catalogue):
     def frame(self, whole: str, link: str) -> Pose:
         """Return the pose of a link of an object now."""
         return self.sim.pose(self.bodies[whole], self.link(whole, link))
+
+    def handle(self, name: str) -> Handle | None:
+        """Return the current handle of an object or part; None if it has none."""
+        whole, part = self.where(name)
+        grip = self.grip(whole, part) if whole != FLOOR else None
+        if grip is None:
+            return None
+        link, frame = self.blueprints[whole].model.links[grip.link], self.frame(whole, grip.link)
+        return Handle(
+            grip.kind,
+            self.bodies[whole],
+            grip.link,
+            self.link(whole, grip.link),
+            frame * grip.tool.pose(),
+            grip.opening,
+            frame.position,
+            frame.rotate(link.axis),
+            link.kind == "revolute",
+            grip.closed,
+            grip.open,
+            dict(grip.settings),
+        )
 
     def entry(self, name: str, relation: str) -> Vector:
         """Return the direction in which the gripper enters there: (0, 0, −1) is from above."""

@@ -88,7 +88,8 @@ class Placing:
             return room
         far = [0.0, 0.0]
         for name, pose in given.items():
-            corners = [pose.apply((x, y, 0.0)) for x, y in _rectangle(_footprint(self._blueprints[name]))]
+            x0, y0, x1, y1 = _footprint(self._blueprints[name])
+            corners = [pose.apply((x, y, 0.0)) for x in (x0, x1) for y in (y0, y1)]
             for axis in (0, 1):
                 reach = max(abs(corner[axis]) for corner in corners) + 0.05
                 far[axis] = max(far[axis], abs(pose.position[axis]) + 0.6, reach)
@@ -191,23 +192,19 @@ class Placing:
         if self._rng is None:
             return pose
         dx, dy = (float(value) for value in self._rng.uniform(-JITTER, JITTER, 2))
-        x, y, z = pose.position
-        return Pose((x + dx, y + dy, z), pose.orientation)
+        return pose.moved((dx, dy, 0.0))
 
     def _split(self, name: str, where: str) -> tuple[str, str]:
         for whole in self._blueprints:
             if where == whole:
                 return whole, ROOT
-            if where.startswith(f"{whole}_") and where[len(whole) + 1 :] in self._parts(whole):
-                return whole, where[len(whole) + 1 :]
+            model, part = self._blueprints[whole].model, where.removeprefix(f"{whole}_")
+            if part != where and part in (*model.part_links, *(region.part for region in model.regions)):
+                return whole, part
         if where in self._names:
             message = f"'{where}', where '{name}' is to be, has no shape of its own in the scene"
             raise self._error(name, message, "say a fitting `shape:` in objects.yaml (docs/scenes.md)")
         raise self._error(name, f"there is no '{where}' that '{name}' could be at", None)
-
-    def _parts(self, whole: str) -> set[str]:
-        model = self._blueprints[whole].model
-        return set(model.part_links) | {region.part for region in model.regions}
 
     def _error(self, name: str, message: str, hint: str | None, key: str | None = "at") -> TmdError:
         """Return an error at the environment's entry of an object."""
@@ -218,10 +215,6 @@ class Placing:
 def _footprint(blueprint: Blueprint) -> Footprint:
     model = blueprint.model
     return (model.low[0], model.low[1], model.high[0], model.high[1])
-
-
-def _rectangle(own: Footprint) -> list[tuple[float, float]]:
-    return [(x, y) for x in (own[0], own[2]) for y in (own[1], own[3])]
 
 
 def _facing_the_middle(x: float, y: float) -> Pose:

@@ -15,10 +15,9 @@ from tmd.robot.assets.colours import mixed
 from tmd.robot.assets.features import Grasp
 from tmd.robot.assets.room import build_room
 from tmd.robot.assets.urdf_builder import ROOT
-from tmd.robot.scene.catalogue import built
+from tmd.robot.scene.catalogue import FLOOR, built
 from tmd.robot.scene.furniture_layout import Room
-from tmd.robot.scene.handles import Handle, grip_of, handle_of
-from tmd.robot.scene.inventory import FLOOR, Inventory
+from tmd.robot.scene.inventory import Handle, Inventory
 from tmd.robot.scene.placement import Placing
 from tmd.robot.scene.support_relations import Spot, boxes_meet, free_spots, supported
 from tmd.robot.sim.box_mesh import CUBE, cube
@@ -125,7 +124,7 @@ class Scene(Inventory):
         for vertex, usual in self._states[name].items():
             part = ROOT if vertex == CLASS_ROOT else vertex
             states = {**usual, **(entry.states if part == ROOT else entry.parts.get(part, {}))}
-            grip = grip_of(self, name, part)
+            grip = self.grip(name, part)
             if grip is not None and grip.kind != "button":
                 setting = dict(grip.settings).get(str(states.get(_SET_TO)))
                 position = setting if setting is not None else grip.open if states.get(_OPENED) is True else grip.closed
@@ -179,10 +178,6 @@ class Scene(Inventory):
         """Return the grasps of an item: ``Grasp.tool.pose()`` is in the item's frame."""
         return self.blueprints[item].model.grasps
 
-    def handle(self, name: str) -> Handle | None:
-        """Return the current handle of an object or part; None if it has none."""
-        return handle_of(self, name)
-
     def spring_open(self, name: str) -> None:
         """Let a door that has been unlatched swing open by itself."""
         handle = self.handle(name)
@@ -193,7 +188,7 @@ class Scene(Inventory):
     def calm(self, name: str) -> None:
         """Leave a joint to its own friction again, after :meth:`spring_open` or a drive."""
         whole, part = self.where(name)
-        grip = grip_of(self, whole, part)
+        grip = self.grip(whole, part)
         if grip is not None:
             self.sim.brake_joint(self.bodies[whole], grip.link, self.blueprints[whole].model.links[grip.link].friction)
 

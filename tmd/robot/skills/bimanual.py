@@ -7,7 +7,7 @@ different sides to the front, until the other arm can do what it is to do with i
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from itertools import islice, product
 from math import cos, pi, sin, tau
 
@@ -114,30 +114,13 @@ def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Opt
         ]
         for goal in goals[:1]:
             asked += 1
-            with _as_if(cell, side, item, goal):
+            with robot.as_if(dict(zip(robot.arm_joints[side], goal, strict=True))):
                 fitting = with_room(cell, options())
                 possible = next(candidates(cell, fitting, there, None, stay=True), None)
             if possible is not None:
                 yield goal
         if asked > _MOST_ASKED:
             return
-
-
-@contextmanager
-def _as_if(cell: Cell, side: str, item: str, arm: Sequence[float]) -> Iterator[None]:
-    """Put an arm, and what it holds, elsewhere for a while; afterwards all is where it was, to the bit."""
-    sim, robot, body = cell.sim, cell.robot, cell.scene.bodies[item]
-    grip = cell.in_tool(side, item)
-    joints = [robot.joint_index[name] for name in robot.arm_joints[side]]
-    positions, velocities = sim.joint_states(robot.body, robot.movable)
-    motion = sim.motion(body)
-    try:
-        sim.set_joints(robot.body, joints, list(arm))
-        sim.set_pose(body, robot.tool(side) * grip)
-        yield
-    finally:
-        sim.set_joints(robot.body, robot.movable, positions, velocities)
-        sim.set_motion(body, motion)
 
 
 def _bring(cell: Cell, side: str, goal: Sequence[float]) -> bool:

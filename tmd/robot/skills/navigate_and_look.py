@@ -107,14 +107,7 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     last = SkillError(SkillPhase.STANCE, f"there is no place to stand before {name}")
     focus = Pose(cell.centre(name))
     options = pick_options(cell, name) if cell.scene.is_item(name) and cell.free() else []
-    found = [
-        c
-        for c, _ in zip(
-            candidates(cell, options, focus, cell.front(name), BASE_MOTION.brief_budget),
-            range(2 + attempt),
-            strict=False,
-        )
-    ]
+    found = list(islice(candidates(cell, options, focus, cell.front(name), BASE_MOTION.brief_budget), 2 + attempt))
     places: list[tuple[Base, float]] = [(c.base, c.torso) for c in found[attempt:]]
     clear = _stances_before(cell, name, focus)
     if not (places or clear) and cell.fold():  # one hand is at what the other holds

@@ -12,11 +12,10 @@ import numpy as np
 
 from tmd.files import write_bytes
 from tmd.robot.scene.scene import Scene
-from tmd.robot.setup import make_cell
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.pick_and_place import pick_options
-from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.robot_context import Cell, make_cell
 from tmd.robot.skills.stance_search import Base, candidates, stances, with_room
 from tmd.robot.video.captions import Pixels, pillow
 from tmd.world.environment import Environment

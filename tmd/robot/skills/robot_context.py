@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from math import acos, cos, degrees, hypot, inf, sin
+from pathlib import Path
 
 import numpy as np
 
@@ -422,7 +423,7 @@ class Cell:
         arm = self.robot.tree.below(f"{side[0]}_shoulder_pan_link") if side else ()
         own = {self.robot.index[link] for link in arm}
         helds = [held for held in self.robot.helds() if held.side != side]
-        with self.robot.as_if(base):
+        with self.robot.as_if(self.robot.elsewhere(base)):
             try:
                 for share in np.linspace(0.0, 1.0, 2 + int(abs(end - start) / ARTICULATION.sweep_step)):
                     self.sim.set_joint(handle.body, handle.index, start + float(share) * (end - start))
@@ -515,6 +516,18 @@ class Cell:
     def in_tool(self, side: str, item: str) -> Pose:
         """Return the item's frame in the tool's."""
         return self.robot.tool(side).inverse() * self.sim.pose(self.scene.bodies[item])
+
+
+def make_cell(sim: Simulator, scene: Scene, *, seed: int, kinematic: bool, urdf: Path | None = None) -> Cell:
+    """Put a robot, the packaged PR2 or that of ``urdf``, in the middle of a scene.
+
+    Raises:
+        MissingToolError: The robot's model is not installed.
+        TmdError: ``urdf`` is not a PR2.
+    """
+    rng = np.random.default_rng(seed)
+    robot = Pr2(sim, urdf=urdf, kinematic=kinematic, rng=rng)
+    return Cell(sim, robot, scene, rng)
 
 
 def _along(handle: Handle, start: Pose, now: Pose) -> float:

@@ -176,42 +176,25 @@ def load_skills(folder: DomainFolder, report: Report | None = None) -> Skills:
             source.recover(None, _check_predicate, source, ("inferred", predicate, "to"), rule.to, arities)
     if said.contents is not None:
         _check_predicate(source, ("contents",), said.contents, arities)
-    return Skills(
-        said.skills,
-        said.seen,
-        said.confirmed,
-        frozenset(said.derived),
-        said.inferred,
-        tuple(said.signs),
-        said.contents,
-        domain,
-    )
+    derived, signs = frozenset(said.derived), tuple(said.signs)
+    return Skills(said.skills, said.seen, said.confirmed, derived, said.inferred, signs, said.contents, domain)
 
 
 def _check_entry(source: YamlSource, domain: Domain, name: str, entry: SkillEntry) -> None:
     action = next((a for a in domain.actions if a.name == name), None)
     if action is None:
-        raise source.error(
-            ("skills", name),
-            f"the domain has no action '{name}'",
-            nearest(name, [a.name for a in domain.actions]),
-            "unknown-action",
-        )
+        hint = nearest(name, [a.name for a in domain.actions])
+        raise source.error(("skills", name), f"the domain has no action '{name}'", hint, "unknown-action")
     for role in _NEEDS.get(entry.skill, ("object",)):
         if getattr(entry, role) is None:
-            raise source.error(
-                ("skills", name), f"the skill '{entry.skill}' must be told its {role}", None, "missing-role"
-            )
+            message = f"the skill '{entry.skill}' must be told its {role}"
+            raise source.error(("skills", name), message, None, "missing-role")
     known = [p.name.removeprefix("?") for p in action.parameters] + [c.name for c in domain.constants]
     for role in _ROLES:
         said = getattr(entry, role)
         if said is not None and said not in known:
-            raise source.error(
-                ("skills", name, role),
-                f"'{said}' is neither a parameter of '{name}' nor a constant of the domain",
-                nearest(said, known),
-                "unknown-object",
-            )
+            message = f"'{said}' is neither a parameter of '{name}' nor a constant of the domain"
+            raise source.error(("skills", name, role), message, nearest(said, known), "unknown-object")
 
 
 def _check_predicate(

@@ -7,11 +7,9 @@ error. If the whole process is killed, the neighbour is of no use; the next film
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Callable, Generator
-from functools import partial
+from collections.abc import Generator
 from io import BytesIO
 from pathlib import Path
-from types import TracebackType
 from typing import IO, TYPE_CHECKING, Any, Self
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
@@ -52,11 +50,7 @@ class MovieFile:
         self.pictures = 0
         self.last: Pixels | None = None
         self._draft = path.with_name(f"{path.stem}.unfinished{path.suffix}")
-        known: dict[str, Callable[[Path, tuple[int, int], int], _Writer]] = {
-            ".mp4": partial(_Mp4, small=small),
-            ".gif": _Gif,
-        }
-        if path.suffix not in known:
+        if path.suffix not in SUFFIXES:
             raise TmdError(f"{path}: films are .mp4 or .gif files", hint=f"call it {path.stem}.mp4")
         check_writable(path)
         pillow()
@@ -65,20 +59,17 @@ class MovieFile:
             raise OutputError(f"{path} cannot be written: another run is filming there", hint="name another file")
         self._lock = lock
         try:
-            self._writer: _Writer | None = known[path.suffix](self._draft, size, fps)
-        except OSError as error:
+            self._writer: _Mp4 | _Gif | None = (
+                _Gif(self._draft, fps) if path.suffix == ".gif" else _Mp4(self._draft, size, fps, small=small)
+            )
+        except (OSError, MissingToolError) as error:
             self._lock.release(remove=True)
-            raise self._error(error) from error
-        except MissingToolError:
-            self._lock.release(remove=True)
-            raise
+            raise (self._error(error) if isinstance(error, OSError) else error) from error
 
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         try:
             self.close()
         except OutputError:
@@ -144,17 +135,7 @@ class MovieFile:
         )
 
 
-class _Writer:
-    """Writes one kind of film."""
-
-    def add(self, picture: Pixels, times: int) -> None:
-        raise NotImplementedError
-
-    def close(self) -> None:
-        raise NotImplementedError
-
-
-class _Mp4(_Writer):
+class _Mp4:
     """H.264 by the ffmpeg that imageio-ffmpeg brings."""
 
     def __init__(self, path: Path, size: tuple[int, int], fps: int, *, small: bool) -> None:
@@ -197,10 +178,10 @@ class _Mp4(_Writer):
         self._frames.close()
 
 
-class _Gif(_Writer):
+class _Gif:
     """Kept until it is closed: Pillow then stores of each picture the box that has changed."""
 
-    def __init__(self, path: Path, size: tuple[int, int], fps: int) -> None:
+    def __init__(self, path: Path, fps: int) -> None:
         self._file: IO[bytes] = path.open("wb")
         self._pause = 10 * round(100 / fps)
         self._images: list[Image] = []

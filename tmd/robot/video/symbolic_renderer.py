@@ -15,7 +15,6 @@ from tmd.pddl.model import State
 from tmd.robot.assets.colours import mixed
 from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.scene.catalogue import FLOOR, Catalogue, built
-from tmd.robot.scene.handles import grip_of
 from tmd.robot.scene.placement import Placing
 from tmd.robot.scene.support_relations import free_spots
 from tmd.robot.sim.pose import Pose, Vector
@@ -222,7 +221,7 @@ class Still(Catalogue):
         joints: dict[tuple[str, str], float] = {}
         for name in self.names():
             whole, part = self.where(name)
-            grip = grip_of(self, whole, part)
+            grip = self.grip(whole, part)
             if grip is not None and grip.kind != "button":
                 setting = dict(grip.settings).get(settings.get(name, ""))
                 position = setting if setting is not None else grip.open if name in opened else grip.closed
