@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmd.diagnostics import MissingToolError
-from tmd.robot.sim.rendering import egl_starts, pybullet, quiet, window_opens
+from tmd.robot.sim.rendering import bullet_client, egl_starts, pybullet, quiet, window_opens
 
 STEPS_PER_SECOND = 240
 ITERATIONS = 50
@@ -40,7 +40,7 @@ class Engine:
     """
 
     def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
-        self._bullet = bullet = pybullet()
+        bullet = pybullet()
         if gui and not window_opens():
             raise MissingToolError(
                 "no window can be opened: there is no display, or it has no OpenGL",
@@ -52,25 +52,24 @@ class Engine:
         self.gui = gui
         self._watchers: list[Callable[[Any], None]] = []
         with quiet():
-            self.client: int = bullet.connect(bullet.GUI if gui else bullet.DIRECT)
+            # passes the number of the connection to every call
+            self._bullet: Any = bullet_client(bullet.GUI if gui else bullet.DIRECT)
+            self.client: int = self._bullet._client
             self.renderer = "window" if gui else "egl" if pictures and egl_starts() else "tiny"
             if self.renderer == "egl":
                 self._load_egl()
         if gui:
-            bullet.configureDebugVisualizer(bullet.COV_ENABLE_GUI, 0, physicsClientId=self.client)
-        bullet.setGravity(0, 0, -GRAVITY, physicsClientId=self.client)
-        bullet.setPhysicsEngineParameter(
-            fixedTimeStep=1 / STEPS_PER_SECOND,
-            numSolverIterations=ITERATIONS,
-            deterministicOverlappingPairs=1,
-            physicsClientId=self.client,
+            self._bullet.configureDebugVisualizer(bullet.COV_ENABLE_GUI, 0)
+        self._bullet.setGravity(0, 0, -GRAVITY)
+        self._bullet.setPhysicsEngineParameter(
+            fixedTimeStep=1 / STEPS_PER_SECOND, numSolverIterations=ITERATIONS, deterministicOverlappingPairs=1
         )
 
     def _load_egl(self) -> None:
         spec = importlib.util.find_spec("eglRenderer")
         if spec is None or spec.origin is None:
             raise AssertionError("the probe found the plugin")
-        self._bullet.loadPlugin(spec.origin, "_eglRendererPlugin", physicsClientId=self.client)
+        self._bullet.loadPlugin(spec.origin, "_eglRendererPlugin")
 
     def __enter__(self) -> Self:
         return self
@@ -82,7 +81,7 @@ class Engine:
         """End the world; nothing else can be called afterwards, except this."""
         if self.client >= 0:
             with quiet():
-                self._bullet.disconnect(physicsClientId=self.client)
+                self._bullet.disconnect()
             self.client = -1
 
     # time
@@ -98,7 +97,7 @@ class Engine:
     def step(self, count: int = 1) -> None:
         """Let ``count`` 240ths of a second pass."""
         for _ in range(count):
-            self._bullet.stepSimulation(physicsClientId=self.client)
+            self._bullet.stepSimulation()
             self.steps += 1
             self.work += _STEP_WORK
             self.tick()
@@ -138,7 +137,6 @@ class Engine:
                 lightSpecularCoeff=0.05,
                 renderer=bullet.ER_TINY_RENDERER if self.renderer == "tiny" else bullet.ER_BULLET_HARDWARE_OPENGL,
                 flags=bullet.ER_NO_SEGMENTATION_MASK,
-                physicsClientId=self.client,
             )
         pixels = np.asarray(image[2], dtype=np.uint8).reshape(height, width, 4)
         return np.ascontiguousarray(pixels[:, :, :3])

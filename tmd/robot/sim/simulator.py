@@ -81,15 +81,7 @@ class Simulator(Engine):
 
     # bodies
 
-    def load(
-        self,
-        urdf: Path,
-        pose: Pose,
-        *,
-        fixed: bool,
-        own_inertia: bool = False,
-        sleeps: bool = True,
-    ) -> int:
+    def load(self, urdf: Path, pose: Pose, *, fixed: bool, own_inertia: bool = False, sleeps: bool = True) -> int:
         """Load a URDF and return its body.
 
         Args:
@@ -109,21 +101,14 @@ class Simulator(Engine):
         flags |= bullet.URDF_ENABLE_SLEEPING if sleeps else 0
         try:
             with quiet():
-                body: int = bullet.loadURDF(
-                    str(urdf),
-                    pose.position,
-                    pose.orientation,
-                    useFixedBase=fixed,
-                    flags=flags,
-                    physicsClientId=self.client,
-                )
+                body: int = bullet.loadURDF(str(urdf), pose.position, pose.orientation, useFixedBase=fixed, flags=flags)
         except bullet.error as error:
             raise TmdError(
                 f"{urdf}: the simulator cannot read this as URDF", hint="see that its meshes exist"
             ) from error
         if sleeps:
             self._sleepers.add(body)
-        info = bullet.getDynamicsInfo(body, -1, physicsClientId=self.client)
+        info = bullet.getDynamicsInfo(body, -1)
         self._inertial[body] = Pose(info[3], info[4])
         # the root's frame is meant, whatever the file says about its centre of mass
         self.set_pose(body, pose)
@@ -143,12 +128,12 @@ class Simulator(Engine):
                 bullet.JOINT_FIXED: "fixed",
             }
             found = {}
-            for index in range(bullet.getNumJoints(body, physicsClientId=self.client)):
-                info = bullet.getJointInfo(body, index, physicsClientId=self.client)
+            for index in range(bullet.getNumJoints(body)):
+                info = bullet.getJointInfo(body, index)
                 lower, upper = (-inf, inf) if info[8] > info[9] else (info[8], info[9])
                 name = info[1].decode()
                 kind = kinds.get(info[2], "other")
-                turned = bullet.getDynamicsInfo(body, index, physicsClientId=self.client)[4]
+                turned = bullet.getDynamicsInfo(body, index)[4]
                 axis = Pose((0.0, 0.0, 0.0), turned).rotate(info[13])  # given in the frame of the mass
                 found[name] = Joint(index, name, kind, lower, upper, axis, info[12].decode())
             self._names[body] = found
@@ -158,9 +143,9 @@ class Simulator(Engine):
         """Return the frame of a link in the world."""
         bullet = self._bullet
         if link == -1:
-            position, orientation = bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
+            position, orientation = bullet.getBasePositionAndOrientation(body)
             return Pose(position, orientation) * self._inertial[body].inverse()
-        state = bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self.client)
+        state = bullet.getLinkState(body, link, computeForwardKinematics=1)
         return Pose(state[4], state[5])
 
     def set_pose(self, body: int, pose: Pose) -> None:
@@ -170,26 +155,26 @@ class Simulator(Engine):
         """
         self.wake(body)
         mass = pose * self._inertial[body]
-        self._bullet.resetBasePositionAndOrientation(body, mass.position, mass.orientation, physicsClientId=self.client)
-        self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self.client)
+        self._bullet.resetBasePositionAndOrientation(body, mass.position, mass.orientation)
+        self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))
 
     def wake(self, body: int | None = None) -> None:
         """Let a body, or every body, notice changes under it during its sleep."""
         for each in sorted(self._sleepers if body is None else self._sleepers & {body}):
             state = self._bullet.ACTIVATION_STATE_WAKE_UP
-            self._bullet.changeDynamics(each, -1, activationState=state, physicsClientId=self.client)
+            self._bullet.changeDynamics(each, -1, activationState=state)
 
     def motion(self, body: int) -> tuple[Pose, Vector, Vector]:
         """Return the exact state of a root, for :meth:`set_motion`: frame of its mass, linear and angular velocity."""
-        position, orientation = self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
-        linear, angular = self._bullet.getBaseVelocity(body, physicsClientId=self.client)
+        position, orientation = self._bullet.getBasePositionAndOrientation(body)
+        linear, angular = self._bullet.getBaseVelocity(body)
         return Pose(position, orientation), linear, angular
 
     def set_motion(self, body: int, motion: tuple[Pose, Vector, Vector]) -> None:
         """Restore the state of :meth:`motion`, to the bit."""
         pose, linear, angular = motion
-        self._bullet.resetBasePositionAndOrientation(body, pose.position, pose.orientation, physicsClientId=self.client)
-        self._bullet.resetBaseVelocity(body, linear, angular, physicsClientId=self.client)
+        self._bullet.resetBasePositionAndOrientation(body, pose.position, pose.orientation)
+        self._bullet.resetBaseVelocity(body, linear, angular)
 
     def extents(self, body: int, link: int | None = None) -> tuple[Vector, Vector]:
         """Return an axis-parallel box around the collision shapes of one link, or of all links.
@@ -197,7 +182,7 @@ class Simulator(Engine):
         It is an upper bound: if the frame of the mass is turned against the shape, it is a little too large.
         """
         if link is not None:
-            lower, upper = self._bullet.getAABB(body, link, physicsClientId=self.client)
+            lower, upper = self._bullet.getAABB(body, link)
             return lower, upper
         boxes = [self.extents(body, each) for each in self.solid_links(body)]
         if not boxes:
@@ -209,8 +194,8 @@ class Simulator(Engine):
     def solid_links(self, body: int) -> list[int]:
         """Return the links that have a collision shape, the root first."""
         bullet = self._bullet
-        links = range(-1, bullet.getNumJoints(body, physicsClientId=self.client))
-        return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self.client)]
+        links = range(-1, bullet.getNumJoints(body))
+        return [link for link in links if bullet.getCollisionShapeData(body, link)]
 
     # joints
 
@@ -219,18 +204,18 @@ class Simulator(Engine):
 
     def joint_position(self, body: int, joint: int | str) -> float:
         """Return the position in radians or metres."""
-        state = self._bullet.getJointState(body, self._index(body, joint), physicsClientId=self.client)
+        state = self._bullet.getJointState(body, self._index(body, joint))
         return float(state[0])
 
     def joint_states(self, body: int, joints: Sequence[int]) -> tuple[list[float], list[float]]:
         """Return positions and velocities of several joints."""
-        states = self._bullet.getJointStates(body, joints, physicsClientId=self.client)
+        states = self._bullet.getJointStates(body, joints)
         return [state[0] for state in states], [state[1] for state in states]
 
     def set_joint(self, body: int, joint: int | str, position: float) -> None:
         """Put a joint there, at rest: never while physics runs."""
         self.wake(body)
-        self._bullet.resetJointState(body, self._index(body, joint), position, 0.0, physicsClientId=self.client)
+        self._bullet.resetJointState(body, self._index(body, joint), position, 0.0)
 
     def set_joints(
         self, body: int, joints: Sequence[int], positions: Sequence[float], velocities: Sequence[float] | None = None
@@ -238,11 +223,7 @@ class Simulator(Engine):
         """Put several joints there at once: never while physics runs."""
         speeds = [0.0] * len(joints) if velocities is None else velocities
         self._bullet.resetJointStatesMultiDof(
-            body,
-            joints,
-            [[position] for position in positions],
-            [[speed] for speed in speeds],
-            physicsClientId=self.client,
+            body, joints, [[position] for position in positions], [[speed] for speed in speeds]
         )
 
     def drive_joint(
@@ -252,13 +233,7 @@ class Simulator(Engine):
         self.wake(body)
         limit = {} if velocity is None else {"maxVelocity": velocity}
         self._bullet.setJointMotorControl2(
-            body,
-            self._index(body, joint),
-            self._bullet.POSITION_CONTROL,
-            targetPosition=target,
-            force=force,
-            physicsClientId=self.client,
-            **limit,
+            body, self._index(body, joint), self._bullet.POSITION_CONTROL, targetPosition=target, force=force, **limit
         )
 
     def drive_joints(
@@ -283,19 +258,13 @@ class Simulator(Engine):
             forces=forces,
             positionGains=[gain] * len(joints),
             velocityGains=[1.0] * len(joints),
-            physicsClientId=self.client,
         )
 
     def brake_joint(self, body: int, joint: int | str, force: float) -> None:
         """Switch the joint's motor off, with ``force`` (N or N·m) of friction left; 0 lets it swing."""
         self.wake(body)
         self._bullet.setJointMotorControl2(
-            body,
-            self._index(body, joint),
-            self._bullet.VELOCITY_CONTROL,
-            targetVelocity=0.0,
-            force=force,
-            physicsClientId=self.client,
+            body, self._index(body, joint), self._bullet.VELOCITY_CONTROL, targetVelocity=0.0, force=force
         )
 
     # constraints
@@ -315,25 +284,23 @@ class Simulator(Engine):
         """Undo a weld or a pin."""
         for body in self._joined.pop(handle):
             self.wake(body)  # what hung asleep falls now
-        self._bullet.removeConstraint(handle, physicsClientId=self.client)
+        self._bullet.removeConstraint(handle)
 
     def _constrain(
         self, body: int, link: int, other: int, other_link: int, kind: int, mine: Pose, theirs: Pose, force: float
     ) -> int:
         handle: int = self._bullet.createConstraint(
             body, link, other, other_link, kind, (0, 0, 0),
-            mine.position, theirs.position, mine.orientation, theirs.orientation,
-            physicsClientId=self.client,
-        )  # fmt: skip
-        self._bullet.changeConstraint(handle, maxForce=force, physicsClientId=self.client)
+            mine.position, theirs.position, mine.orientation, theirs.orientation)  # fmt: skip
+        self._bullet.changeConstraint(handle, maxForce=force)
         self._joined[handle] = body, other
         return handle
 
     def _mass_frame(self, body: int, link: int) -> Pose:
         """Return the frame at the centre of mass, in which constraints are given."""
         if link == -1:
-            return Pose(*self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client))
-        state = self._bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self.client)
+            return Pose(*self._bullet.getBasePositionAndOrientation(body))
+        state = self._bullet.getLinkState(body, link, computeForwardKinematics=1)
         return Pose(state[0], state[1])
 
     # what touches, what is near, what is seen
@@ -349,15 +316,15 @@ class Simulator(Engine):
         chosen = {name: value for name, value in asked.items() if value is not None}
         self.work += _QUERY_WORK
         points = self._bullet.getClosestPoints(
-            bodyA=body, bodyB=other, **chosen, distance=max(distance, _LEAST_DISTANCE), physicsClientId=self.client
+            bodyA=body, bodyB=other, **chosen, distance=max(distance, _LEAST_DISTANCE)
         )
         return [Contact(point[3] if point[1] == body else point[4], point[8]) for point in points or ()]
 
     def ray(self, start: Sequence[float], end: Sequence[float]) -> Hit | None:
         """Return the first surface on a straight line."""
-        body, link, _, position, _ = self._bullet.rayTest(start, end, physicsClientId=self.client)[0]
+        body, link, _, position, _ = self._bullet.rayTest(start, end)[0]
         return None if body < 0 else Hit(body, link, position)
 
     def colour(self, body: int, link: int, rgba: Sequence[float]) -> None:
         """Paint a link; each value in [0, 1]."""
-        self._bullet.changeVisualShape(body, link, rgbaColor=rgba, physicsClientId=self.client)
+        self._bullet.changeVisualShape(body, link, rgbaColor=rgba)
