@@ -6,6 +6,7 @@ All are given in the frame of the whole: +x is the front.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from tmd.robot.assets.appearance import Appearance, rows
 from tmd.robot.assets.features import Frame, Grip
@@ -13,6 +14,8 @@ from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 from tmd.robot.sim.pose import Vector
 
 INTO, DOWN, LEFT, UP = (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+# Width of a side board.
+SIDE = 0.34
 # Width of handle bars.
 BAR = 0.018
 # From a door's face to the middle of its handle: the finger tips reach 18 mm beyond the tool.
@@ -132,13 +135,30 @@ def tap_lever(model: UrdfModel, part: str, look: Appearance, foot: Vector) -> No
     model.grips.append(Grip(part, "knob", part, tool, 0.05, 0.0, math.pi * 0.75, settings(look.settings)))
 
 
-def side_board(model: UrdfModel, front: float, back: float, low: float, high: float, top: float, colour: str) -> None:
+def beside_board(look: Appearance) -> tuple[float, float, float, float]:
+    """Return front (x), right and left side (y) and height of a body with a side board."""
+    depth, width, height = look.size
+    return depth / 2, -width / 2, width / 2 - SIDE, height
+
+
+def side_board(model: UrdfModel, look: Appearance, top: float) -> None:
     """Add a board on the +y side, for things next to an appliance."""
-    model.slab((back, low, top - 0.03), (front, high, top), colour)
-    model.slab((back, high - 0.03, 0.0), (front, high, top - 0.03), colour)
-    model.slab((back, low, 0.0), (back + 0.02, high - 0.03, top - 0.03), colour)
+    front, _, low, _ = beside_board(look)
+    back, high = -front, look.size[1] / 2
+    model.slab((back, low, top - 0.03), (front, high, top), "oak")
+    model.slab((back, high - 0.03, 0.0), (front, high, top - 0.03), "oak")
+    model.slab((back, low, 0.0), (back + 0.02, high - 0.03, top - 0.03), "oak")
     spots = rows(front, high - low - 0.18, (0.12, 0.28), 0.06, middle=(low + high) / 2)
     model.region("next_to", (back, low, top), (front, high, top + 0.4), DOWN, spots, part=ROOT)
+
+
+def legs(
+    model: UrdfModel, ends: Sequence[float], sides: Sequence[float], height: float, thick: float, colour: str
+) -> None:
+    """Add four legs at two places along x and two along y."""
+    for side in sides:
+        for end in ends:
+            model.box((end, side, height / 2), (thick, thick, height), colour)
 
 
 def fronts(model: UrdfModel, face: float, low: tuple[float, float], high: tuple[float, float], count: int, colour: str,

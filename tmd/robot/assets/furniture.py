@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tmd.robot.assets.appearance import Appearance, Parts, rows
 from tmd.robot.assets.features import Frame, Grip
-from tmd.robot.assets.fittings import BAR, DOOR, DOWN, INTO, STAND_OFF, UP, bar_handle, door, fronts
+from tmd.robot.assets.fittings import BAR, DOOR, DOWN, INTO, STAND_OFF, UP, bar_handle, door, fronts, legs
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
 WALL = 0.02
@@ -39,12 +39,9 @@ def counter(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 def table(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """Build a table on four legs."""
     depth, width, height = look.size
-    x, y, leg = depth / 2, width / 2, 0.05
+    x, y = depth / 2, width / 2
     model.slab((-x, -y, height - 0.035), (x, y, height), look.colour)
-    for side in (-1.0, 1.0):
-        for end in (-1.0, 1.0):
-            model.box((end * (x - 0.06), side * (y - 0.06), (height - 0.035) / 2), (leg, leg, height - 0.035),
-                      look.accent)  # fmt: skip
+    legs(model, (-(x - 0.06), x - 0.06), (-(y - 0.06), y - 0.06), height - 0.035, 0.05, look.accent)
     model.slab((-x + 0.08, -y + 0.08, height - 0.1), (x - 0.08, y - 0.08, height - 0.035), look.accent)
     surface(model, x, width, height, depth)
 
@@ -135,9 +132,7 @@ def desk(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     x, y, top, under = depth / 2, width / 2, height - 0.035, height - 0.2
     half = min(0.34, y - 0.1)
     model.slab((-x, -y, top), (x, y, height), look.colour)
-    for side in (-1.0, 1.0):
-        for end in (-1.0, 1.0):
-            model.box((end * (x - 0.06), side * (y - 0.06), top / 2), (0.05, 0.05, top), look.accent)
+    legs(model, (-(x - 0.06), x - 0.06), (-(y - 0.06), y - 0.06), top, 0.05, look.accent)
     drawers = parts.of("sliding_drawer")
     model.slab((-x + 0.035, -half, under), (-x + 0.055, half, top), look.colour)
     for sign in (-1, 1):

@@ -20,9 +20,22 @@ def utensil(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """
     length, width, height = look.size
     head = min(0.045 if look.kind in ("spoon", "scoop") else 0.06, length * 0.35)
-    x = length / 2
-    kinds = {"spoon": _spoon, "scoop": _scoop, "fork": _fork, "knife": _knife}
-    kinds[look.kind](model, look, -x, -x + head)
+    x, y = length / 2, width / 2
+    low, high = -x, -x + head
+    match look.kind:
+        case "spoon":
+            model.slab((low + 0.004, -y + 0.004, 0.0), (high - 0.004, y - 0.004, 0.006), look.colour)
+            model.slab((low, -y, 0.006), (high, y, 0.012), look.colour)
+        case "scoop":
+            model.cylinder(((low + high) / 2, 0.0, 0.004), y - 0.004, 0.008, look.colour)
+            model.tube(y, 0.004, 0.006, 0.022, look.colour, centre=((low + high) / 2, 0.0))
+        case "fork":
+            model.slab((high - 0.02, -y, 0.0), (high, y, 0.008), look.colour)
+            for place in (-1.5, -0.5, 0.5, 1.5):
+                middle, half = place * width / 4, width / 12
+                model.slab((low, middle - half, 0.0), (high - 0.02, middle + half, 0.008), look.colour)
+        case "knife":
+            model.slab((low, -y, 0.0), (high + 0.02, y, 0.008), look.colour)
     model.slab((-x + head - 0.004, -0.006, height - 0.012), (x, 0.006, height), look.accent)
     model.slab((-x + head - 0.004, -0.006, 0.0), (-x + head + 0.004, 0.006, height), look.accent)
     model.slab((x - 0.02, -0.012, 0.0), (x - 0.012, 0.012, height - 0.012), look.accent)
@@ -31,32 +44,6 @@ def utensil(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         model.link("content")
         model.ball((-x + head / 2, 0.0, height), width * 0.42, "white", link="content")
         model.contents = ["content"]
-
-
-def _spoon(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
-    width = look.size[1]
-    model.slab((low + 0.004, -width / 2 + 0.004, 0.0), (high - 0.004, width / 2 - 0.004, 0.006), look.colour)
-    model.slab((low, -width / 2, 0.006), (high, width / 2, 0.012), look.colour)
-
-
-def _scoop(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
-    width = look.size[1]
-    middle = (low + high) / 2
-    model.cylinder((middle, 0.0, 0.004), width / 2 - 0.004, 0.008, look.colour)
-    model.tube(width / 2, 0.004, 0.006, 0.022, look.colour, centre=(middle, 0.0))
-
-
-def _fork(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
-    width = look.size[1]
-    model.slab((high - 0.02, -width / 2, 0.0), (high, width / 2, 0.008), look.colour)
-    for place in (-1.5, -0.5, 0.5, 1.5):
-        y = place * width / 4
-        model.slab((low, y - width / 12, 0.0), (high - 0.02, y + width / 12, 0.008), look.colour)
-
-
-def _knife(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
-    width = look.size[1]
-    model.slab((low, -width / 2, 0.0), (high + 0.02, width / 2, 0.008), look.colour)
 
 
 def block(model: UrdfModel, look: Appearance, parts: Parts) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from heapq import heappop, heappush
-from itertools import pairwise
+from itertools import pairwise, product
 from math import hypot, inf, pi, tau
 from typing import TYPE_CHECKING
 
@@ -120,9 +120,8 @@ class _Lattice:
     def pose(self, cell: Cell) -> Array:
         """Return x, y, theta; the heading is counted on, not wrapped."""
         i, j, k = cell
-        result: Array = self._goal + np.array(
-            [i * BASE_MOTION.grid_pitch, j * BASE_MOTION.grid_pitch, k * tau / BASE_MOTION.grid_headings]
-        )
+        pitch = BASE_MOTION.grid_pitch
+        result: Array = self._goal + np.array([i * pitch, j * pitch, k * tau / BASE_MOTION.grid_headings])
         return result
 
     def straight(self) -> Array | None:
@@ -202,15 +201,10 @@ class _Lattice:
         return None
 
     def _entries(self) -> Iterator[Cell]:
-        i, j, k = (self._start - self._goal) / [
-            BASE_MOTION.grid_pitch,
-            BASE_MOTION.grid_pitch,
-            tau / BASE_MOTION.grid_headings,
-        ]
-        for a in (int(np.floor(i)), int(np.ceil(i))):
-            for b in (int(np.floor(j)), int(np.ceil(j))):
-                for c in (int(np.floor(k)), int(np.ceil(k))):
-                    yield a, b, c
+        pitch = BASE_MOTION.grid_pitch
+        place = (self._start - self._goal) / [pitch, pitch, tau / BASE_MOTION.grid_headings]
+        i, j, k = ((int(np.floor(value)), int(np.ceil(value))) for value in place)
+        yield from product(i, j, k)
 
     def _left(self, cell: Cell) -> float:
         """Return a lower bound on the cost from a point to the start, raised a little to look at fewer points."""
@@ -236,12 +230,9 @@ class _Lattice:
 
     def _screen(self, cell: Cell) -> None:
         """Compare boxes for a block of places with one heading: many at once cost little more than one."""
-        i, j, k = (
-            cell[0] // BASE_MOTION.block * BASE_MOTION.block,
-            cell[1] // BASE_MOTION.block * BASE_MOTION.block,
-            cell[2],
-        )
-        cells = [(i + a, j + b, k) for a in range(BASE_MOTION.block) for b in range(BASE_MOTION.block)]
+        size = BASE_MOTION.block
+        i, j, k = cell[0] // size * size, cell[1] // size * size, cell[2]
+        cells = [(i + a, j + b, k) for a, b in product(range(size), repeat=2)]
         verdicts = self._checker.apart(np.array([self.pose(each) for each in cells]))
         self._screened.update(zip(cells, verdicts, strict=True))
 

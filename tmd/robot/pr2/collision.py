@@ -99,7 +99,7 @@ class CollisionChecker:
         margin: float = 0.0,
     ) -> None:
         self._robot = robot
-        self._sim = robot.sim
+        self.sim = robot.sim
         self._margin = margin
         self._ignore = frozenset(ignore)
         self._vary = tuple(vary)
@@ -130,13 +130,8 @@ class CollisionChecker:
         self._upper = np.array([upper for _, _, _, upper in self._obstacles]).reshape(-1, 3)
         self._pairs = self._self_pairs(frames)
 
-    @property
-    def sim(self) -> Simulator:
-        """The simulation."""
-        return self._sim
-
     def __enter__(self) -> CollisionChecker:
-        sim, body, joints = self._sim, self._robot.body, self._robot.movable
+        sim, body, joints = self.sim, self._robot.body, self._robot.movable
         positions, velocities = sim.joint_states(body, joints)
         for held in (*self._helds, *self._others):
             self._undo.callback(sim.set_motion, held.body, sim.motion(held.body))
@@ -175,11 +170,11 @@ class CollisionChecker:
         self._links = [*self._links, tool]
         self._groups.append(group)
         self._relative.append(self._inverse[group] @ frames[tool] @ held.grip.homogeneous())
-        self._boxes.append(box_of(self._sim, held.body))
+        self._boxes.append(box_of(self.sim, held.body))
 
     def _find_obstacles(self) -> list[tuple[int, int, Vector, Vector]]:
         """Return links of other bodies with their boxes."""
-        sim = self._sim
+        sim = self.sim
         taken = {self._robot.body, *(held.body for held in self._helds)}
         found = []
         for body in sim.bodies():
@@ -295,7 +290,7 @@ class CollisionChecker:
 
     def _candidates(self, frames: Array) -> list[list[tuple[int, int, int]]]:
         """Return for each configuration the pairs that may touch: (mover, body, link)."""
-        self._sim.work += _BATCH_WORK[0] + _BATCH_WORK[1] * len(frames)
+        self.sim.work += _BATCH_WORK[0] + _BATCH_WORK[1] * len(frames)
         centres = (frames[..., :3, :3] @ self._centres[:, :, None])[..., 0] + frames[..., :3, 3]
         halves = (np.abs(frames[..., :3, :3]) @ self._halves[:, :, None])[..., 0] + self._margin
         lower, upper = centres - halves, centres + halves
@@ -332,14 +327,14 @@ class CollisionChecker:
         allowed = self._allowed_at(configuration)
         first = len(self._links) - len(self._helds)
         for held, frame in zip(self._helds, frames[first:], strict=True):
-            self._sim.set_pose(held.body, Pose.from_matrix(frame))
+            self.sim.set_pose(held.body, Pose.from_matrix(frame))
         found = []
         for mover, body, link in pairs:
             name = self._links[mover]
             if mover >= first:
-                points = self._sim.closest(self._helds[mover - first].body, body, self._margin, other_link=link)
+                points = self.sim.closest(self._helds[mover - first].body, body, self._margin, other_link=link)
             else:
-                points = self._sim.closest(self._robot.body, body, self._margin, self._robot.index[name], link)
+                points = self.sim.closest(self._robot.body, body, self._margin, self._robot.index[name], link)
             depth = max((-point.distance for point in points), default=-np.inf)
             if depth > allowed.get((name, body, link), CONTACT.touch - self._margin) + closer:
                 found.append((name, body, link, float(depth)))
@@ -357,7 +352,7 @@ class CollisionChecker:
 
     def _set(self, positions: Mapping[str, float]) -> None:
         joints = [self._robot.joint_index[name] for name in positions]
-        self._sim.set_joints(self._robot.body, joints, [float(value) for value in positions.values()])
+        self.sim.set_joints(self._robot.body, joints, [float(value) for value in positions.values()])
 
 
 def link_boxes(root: ET.Element) -> dict[str, LinkBox]:

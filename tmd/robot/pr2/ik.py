@@ -131,13 +131,12 @@ class ArmKinematics:
 
     def with_roll(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
         """Return a solution with the upper arm rolled as in ``seed``, wherever the other joints are, or None."""
-        closed = self._closed_form
-        start = np.asarray(seed, dtype=float)
+        closed, start = self._closed_form, np.asarray(seed, dtype=float)
         if closed is None:
-            arms = self._kept(self._descend(start[None], tool, torso), tool, torso, seed)
+            arms = self._descend(start[None], tool, torso)
         else:
-            arms = self._kept(self._closed(closed, tool, torso, start[_ROLL : _ROLL + 1]), tool, torso, seed)
-        return _next_to(start, arms, np.inf)
+            arms = self._closed(closed, tool, torso, start[_ROLL : _ROLL + 1])
+        return _next_to(start, self._kept(arms, tool, torso, seed), np.inf)
 
     def _reaches(self, arm: Sequence[float], tool: Pose, torso: float) -> bool:
         """Return whether the closed form is right: always for the PR2 it was made for, perhaps not for another one."""
@@ -154,10 +153,8 @@ class ArmKinematics:
         return result
 
     def _grid(self, closed: Callable[..., Any], tool: Pose, torso: float, shift: float) -> Array:
-        rolls = (
-            np.linspace(self.lower[_ROLL] + IK.margin, self.upper[_ROLL] - IK.margin, IK.rolls) + shift * self._pitch
-        )
-        return self._closed(closed, tool, torso, rolls)
+        rolls = np.linspace(self.lower[_ROLL] + IK.margin, self.upper[_ROLL] - IK.margin, IK.rolls)
+        return self._closed(closed, tool, torso, rolls + shift * self._pitch)
 
     def _closed(self, closed: Callable[..., Any], tool: Pose, torso: float, rolls: Array) -> Array:
         position, rotation = list(tool.position), tool.matrix().tolist()
@@ -185,9 +182,8 @@ class ArmKinematics:
             if np.abs(error).max(initial=0.0) < _EXACT:
                 break
             turned = np.swapaxes(jacobian, 1, 2)
-            damped = jacobian @ turned + IK.damping**2 * np.minimum(1.0, np.linalg.norm(error, axis=1) * 10)[
-                :, None, None
-            ] * np.eye(6)
+            weight = IK.damping**2 * np.minimum(1.0, np.linalg.norm(error, axis=1) * 10)
+            damped = jacobian @ turned + weight[:, None, None] * np.eye(6)
             damped += 1e-10 * np.eye(6)
             step = (turned @ np.linalg.solve(damped, error[:, :, None]))[:, :, 0]
             step *= np.minimum(1.0, IK.stride / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-12))
@@ -207,14 +203,7 @@ def _next_to(start: Array, arms: Array, most: float) -> tuple[float, ...] | None
 def _error(target: Array, frames: Array) -> Array:
     """Return metres and a rotation vector from ``frames`` (n, 4, 4) to ``target``: (n, 6)."""
     rotation = target[:3, :3] @ np.swapaxes(frames[:, :3, :3], 1, 2)
-    vector = np.stack(
-        [
-            rotation[:, 2, 1] - rotation[:, 1, 2],
-            rotation[:, 0, 2] - rotation[:, 2, 0],
-            rotation[:, 1, 0] - rotation[:, 0, 1],
-        ],
-        axis=1,
-    )
+    vector = np.stack([rotation[:, j, i] - rotation[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
     sine = np.linalg.norm(vector, axis=1) / 2
     cosine = (np.trace(rotation, axis1=1, axis2=2) - 1) / 2
     angle = np.arctan2(sine, cosine)

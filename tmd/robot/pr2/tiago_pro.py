@@ -129,9 +129,8 @@ def adapt(root: ET.Element) -> None:
         each.set("name", NAMES.get(each.get("name", ""), each.get("name", "")))
     for joint in joints.values():
         for end in ("parent", "child"):
-            found = joint.find(end)
-            if found is not None:
-                found.set("link", NAMES.get(found.get("link", ""), found.get("link", "")))
+            found = _child(joint, end)
+            found.set("link", NAMES.get(found.get("link", ""), found.get("link", "")))
     for side in _SIDES:
         frame, palm = f"{side[0]}_gripper_tool_frame", f"{side[0]}_gripper_palm_link"
         ET.SubElement(root, "link", name=frame)
@@ -142,13 +141,17 @@ def adapt(root: ET.Element) -> None:
         ET.SubElement(joint, "origin", xyz=f"0 0 {TOOL_AHEAD}", rpy=f"0 {-math.pi / 2} 0")
 
 
+def _child(element: ET.Element, tag: str) -> ET.Element:
+    found = element.find(tag)
+    assert found is not None
+    return found
+
+
 def _reverse(joint: ET.Element, zero: float, sign: float) -> None:
     """Let a finger joint be 0 where it is at ``zero`` now, and count from there to where the hand is open."""
     place = origin(joint.find("origin")) @ Pose.about((0.0, 0.0, 1.0), zero).homogeneous()
     set_origin(joint, place)
-    axis, limit = joint.find("axis"), joint.find("limit")
-    assert axis is not None
-    assert limit is not None
+    axis, limit = _child(joint, "axis"), _child(joint, "limit")
     axis.set("xyz", f"0 0 {sign:g}")
     limit.set("lower", "0")
     limit.set("upper", repr(CLOSED))
@@ -159,18 +162,14 @@ def _head(root: ET.Element, joints: dict[str, ET.Element]) -> None:
     pan, tilt = joints["head_1_joint"], joints["head_2_joint"]
     neck = origin(joints["torso_head_joint"].find("origin"))
     set_origin(pan, neck @ origin(pan.find("origin")))
-    parent = pan.find("parent")
-    assert parent is not None
-    parent.set("link", "torso_lift_link")
+    _child(pan, "parent").set("link", "torso_lift_link")
     place = origin(tilt.find("origin"))
     turned = np.eye(4)
     turned[:3, :3] = place[:3, :3]
     place[:3, :3] = np.eye(3)
     set_origin(tilt, place)
-    axis, limit = tilt.find("axis"), tilt.find("limit")
-    assert axis is not None
-    assert limit is not None
-    axis.set("xyz", "0 1 0")
+    _child(tilt, "axis").set("xyz", "0 1 0")
+    limit = _child(tilt, "limit")
     lower, upper = float(limit.get("lower", "0")), float(limit.get("upper", "0"))
     limit.set("lower", repr(-upper))
     limit.set("upper", repr(-lower))

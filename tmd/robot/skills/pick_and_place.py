@@ -46,13 +46,15 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     cell.robot.close_gripper(side)
     if not cell.robot.touches(side, body):
         cell.unfit_grips.setdefault(item, []).append(start.inverse() * chosen.poses[-1])
-        _let_off(cell, side, chosen)
+        cell.robot.open_gripper(side)
+        _leave(cell, side, None, chosen.ignore)
+        cell.fold()
         raise SkillError(SkillPhase.CONTACT, f"the {side} hand closed and does not touch {item}")
     below = cell.support(item)
     cell.robot.hold(side, body)
     cell.in_hand[side] = item
-    away = _out(cell, below)
-    _leave(cell, side, away, cell.links(item))
+    x, y, z = cell.scene.entry(*below) if below is not None else (0.0, 0.0, -1.0)
+    _leave(cell, side, (-x, -y, -z), cell.links(item))  # the way it is taken out
     cell.moment()
     cell.fold()
     if cell.gap(side, item) > 0.03:
@@ -358,13 +360,6 @@ def _release(cell: Cell, side: str, item: str) -> None:
     cell.settle()
 
 
-def _let_off(cell: Cell, side: str, chosen: Option) -> None:
-    """Open the hand and go back to where it came from, if it can."""
-    cell.robot.open_gripper(side)
-    _leave(cell, side, None, chosen.ignore)
-    cell.fold()
-
-
 def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
     """Draw the hand back: along ``away``, or the way it points; a little if there is no room for more.
 
@@ -379,12 +374,6 @@ def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
         except SkillError:
             continue
         return
-
-
-def _out(cell: Cell, below: tuple[str, str] | None) -> Vector:
-    """Return the direction in which a thing is taken from its place."""
-    x, y, z = cell.scene.entry(*below) if below is not None else (0.0, 0.0, -1.0)
-    return (-x, -y, -z)
 
 
 def _nearest_first(cell: Cell, pose: Pose) -> list[str]:

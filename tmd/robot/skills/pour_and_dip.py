@@ -112,7 +112,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         if squeezed:
             cell.robot.close_gripper(side, _SQUEEZE)
         here = cell.sim.pose(body)
-        tilt = _tilt(here, how)
+        tilt = acos(max(-1.0, min(1.0, here.rotate(how.out)[2])))  # between the mouth and straight up
         beside = _beside(cell, here.apply(how.at), target)
         cell.load(target)
         cell.moment()
@@ -321,11 +321,6 @@ def _leaning(stood: Pose, how: Mouth, angle: float) -> Pose:
     # across the long side; towards the mouth
     towards = 1.0 if x * how.at[0] + y * how.at[1] > 0 else -1.0
     return stood * Pose.about((-y * towards, x * towards, 0.0), angle)
-
-
-def _tilt(here: Pose, how: Mouth) -> float:
-    """Return the radians between the mouth's direction and straight up."""
-    return acos(max(-1.0, min(1.0, here.rotate(how.out)[2])))
 
 
 def _beside(cell: Cell, point: Vector, target: str) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -198,20 +198,12 @@ def _wrapped(draw: ImageDraw, text: str, font: Font, width: float, most: int) ->
     lines: list[str] = []
     words = text.split()
     while words and len(lines) < most:
-        if len(lines) == most - 1:
-            return [*lines, _fitted(draw, " ".join(words), font, width)]
-        count = max(_fitting(draw, words, font, width), default=1)
+        count = len(words) if len(lines) == most - 1 else 1
+        while count < len(words) and draw.textlength(" ".join(words[: count + 1]), font) <= width:
+            count += 1
         lines.append(_fitted(draw, " ".join(words[:count]), font, width))
         words = words[count:]
     return lines
-
-
-def _fitting(draw: ImageDraw, words: Sequence[str], font: Font, width: float) -> Iterator[int]:
-    """Yield the numbers of leading words that fit on a line, from one up."""
-    for count in range(1, len(words) + 1):
-        if draw.textlength(" ".join(words[:count]), font) > width:
-            return
-        yield count
 
 
 @cache
