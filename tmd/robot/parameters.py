@@ -82,7 +82,7 @@ class GraspParameters:
     most_lying: int = 64
     # Metres from which a thing is not a small one.
     tall: float = 0.12
-    # Number of headings tried for a thing that is put down.
+    # Number of headings tried for a thing that is put down, tipped or dipped.
     headings: int = 8
     # Metres from the middle of a knob to the two points that the fingers hold it at.
     knob_pin_offset: float = 0.015
@@ -171,14 +171,10 @@ class PouringParameters:
     basin_depth: float = 0.08
     # Places over a basin that are tried.
     basin_places: int = 3
-    # Metres in front of a niche.
-    approach_in_niche: float = 0.18
     # Metres that the mouth may be beside the opening of what it is held over: contents fall straight down.
     mouth_offset: float = 0.004
     # Ways of pouring that are thought through for one stance.
     max_ways: int = 6
-    # Number of headings of the vessel that are tried.
-    headings: int = 8
     # Pieces that tipping is divided into.
     stages: int = 4
 

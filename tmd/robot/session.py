@@ -9,10 +9,10 @@ from typing import Self
 
 import numpy as np
 
-from tmd.pddl.model import GroundAtom, Problem
+from tmd.pddl.model import Problem, State
 from tmd.planning.backends import IN_PROCESS
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Performer
-from tmd.robot.monitor.listeners import Listener, Order, Recorder, Title
+from tmd.robot.monitor.listeners import Listener, Order, Recorder
 from tmd.robot.monitor.observation import Observer
 from tmd.robot.scene.scene import Scene
 from tmd.robot.sim.engine import STEPS_PER_SECOND
@@ -94,26 +94,21 @@ class SimulationSession:
         """
         robot = RobotPerformer(self.cell, self.skills)
         performer: Performer = robot if wrap is None else wrap(robot)
-        recorder = Recorder(orders, (_Signs(self), *listeners))
+        recorder = Recorder(orders, listeners)
+
+        def watch(step: ExecutedStep) -> None:
+            self._show(step.state)
+            recorder.end(step)
+
         executor = Executor(
             self.problem, self._observer, performer, planner=planner, most_repairs=repairs,
-            begin=recorder.begin, watch=recorder.end,
+            begin=recorder.begin, watch=watch,
         )  # fmt: skip
         return executor.execute([order.instruction for order in orders])
 
-
-class _Signs:
-    """Shows contents and signs of the observed state."""
-
-    def __init__(self, stage: SimulationSession) -> None:
-        self._stage = stage
-
-    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """Change nothing yet."""
-
-    def end(self, title: Title, step: ExecutedStep) -> None:
-        """Show what was poured, and what is lit."""
-        scene, skills, state = self._stage.cell.scene, self._stage.skills, step.state
+    def _show(self, state: State) -> None:
+        """Show contents and signs as in a state."""
+        scene, skills = self.cell.scene, self.skills
         contents: dict[str, list[str]] = {}
         for atom in sorted(state):
             if atom.predicate == skills.contents and len(atom.args) == 2:

@@ -8,7 +8,6 @@ without a rule is assumed, and marked so.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from math import degrees
 from typing import TYPE_CHECKING
@@ -42,58 +41,40 @@ class InferredFacts:
 
 
 class FactInference:
-    """The rules of ``inferred`` in ``skills.yaml``."""
+    """The rules of ``inferred`` in ``skills.yaml``, applied to the simulation."""
 
-    def __init__(self, skills: Skills) -> None:
-        self._skills = skills
+    def __init__(self, skills: Skills, senses: Cell) -> None:
+        self._skills, self._senses = skills, senses
         self._contents = {name for name, rule in skills.inferred.items() if rule == "contents"}
+        self._about_contents = {
+            name for name, rule in skills.inferred.items() if rule == "contents" or isinstance(rule, Exposure)
+        }
         self._exposed: dict[GroundAtom, float] = {}
 
     def after(
-        self,
-        senses: Cell,
-        before: State,
-        predicted: State,
-        instruction: Instruction,
-        evidence: str,
-        *,
-        happened: bool,
+        self, before: State, predicted: State, instruction: Instruction, evidence: str, *, happened: bool
     ) -> InferredFacts:
-        """Return the facts after an instruction.
+        """Return the facts after an instruction, from those observed before it and those predicted by PDDL.
 
-        Args:
-            senses: The simulation.
-            before: The observed facts before it.
-            predicted: Those of PDDL.
-            instruction: The instruction.
-            evidence: Of the skill's event.
-            happened: Whether that happened; otherwise the instruction had no effect.
+        Unless the skill's event ``happened``, of which ``evidence`` tells, the instruction had no effect.
         """
         found = InferredFacts(set(predicted if happened else before))
         if happened:
             task = self._skills.task(instruction)
             for atom in sorted(predicted ^ before):
-                self._judge(senses, found, atom, before, task.skill, evidence, holds=atom in predicted)
-        self._spill(senses, found)
-        senses.reset_leant()
+                self._judge(found, atom, before, task.skill, evidence, holds=atom in predicted)
+        self._spill(found)
+        self._senses.reset_leant()
         return found
 
-    def observed(self, senses: Cell, state: State) -> None:
+    def observed(self, state: State) -> None:
         """Record since when things are exposed to something."""
         watched = {rule.to for rule in self._skills.inferred.values() if isinstance(rule, Exposure)}
-        now = senses.seconds()
+        now = self._senses.seconds()
         self._exposed = {a: self._exposed.get(a, now) for a in state if a.predicate in watched}
 
     def _judge(
-        self,
-        senses: Cell,
-        found: InferredFacts,
-        atom: GroundAtom,
-        before: State,
-        skill: str,
-        evidence: str,
-        *,
-        holds: bool,
+        self, found: InferredFacts, atom: GroundAtom, before: State, skill: str, evidence: str, *, holds: bool
     ) -> None:
         rule = self._skills.inferred.get(atom.predicate)
         if rule is None:
@@ -102,28 +83,27 @@ class FactInference:
         if rule == "event" or skill in _POURING:
             found.known[atom] = told
         elif isinstance(rule, Exposure) and skill == "wait":
-            self._expose(senses, found, atom, rule, holds=holds)
+            if holds:
+                self._expose(found, atom, rule)
         elif holds and skill != "wait":
-            self._run_in(senses, found, atom, before)
-        elif not holds and skill != "wait":
+            self._run_in(found, atom, before)
+        elif skill != "wait":
             found.known[atom] = told
 
-    def _expose(self, senses: Cell, found: InferredFacts, atom: GroundAtom, rule: Exposure, *, holds: bool) -> None:
+    def _expose(self, found: InferredFacts, atom: GroundAtom, rule: Exposure) -> None:
         """Infer heat of what stood on something lit for long enough."""
-        if not holds:
-            return
         cause = GroundAtom(rule.to, atom.args)
         since = self._exposed.get(cause)
-        passed = 0.0 if since is None else senses.seconds() - since
+        passed = 0.0 if since is None else self._senses.seconds() - since
         if passed >= rule.seconds - 0.01:
             found.known[atom] = Basis.INFERRED, f"{cause} for {passed:.1f} s, {rule.seconds:g} s are enough"
             return
         found.state.discard(atom)
         found.against[atom] = f"{cause} was so for {passed:.1f} s only, and {rule.seconds:g} s are needed"
 
-    def _run_in(self, senses: Cell, found: InferredFacts, atom: GroundAtom, before: State) -> None:
+    def _run_in(self, found: InferredFacts, atom: GroundAtom, before: State) -> None:
         """Infer contents of a vessel that a stream runs into."""
-        measured = senses.stream(atom.args[0])
+        measured = self._senses.stream(atom.args[0])
         if measured is None:
             return
         runs_in, told = measured
@@ -137,20 +117,14 @@ class FactInference:
         # what is in it already stays as it was
         found.state |= {a for a in before if a.predicate in self._skills.inferred and a.args[0] == atom.args[0]}
 
-    def _spill(self, senses: Cell, found: InferredFacts) -> None:
+    def _spill(self, found: InferredFacts) -> None:
         """Empty vessels that leaned too far."""
         for item in sorted({atom.args[0] for atom in found.state if atom.predicate in self._contents}):
-            lean = senses.leant(item)
+            lean = self._senses.leant(item)
             if lean is None or lean[0] <= lean[1]:
                 continue
             told = f"{item} leaned by {degrees(lean[0]):.0f} degrees, and spills from {degrees(lean[1]):.0f}"
-            for atom in _held_in(found.state, item, self._skills):
+            for atom in sorted(a for a in found.state if a.predicate in self._about_contents and a.args[0] == item):
                 found.state.discard(atom)
                 found.known.pop(atom, None)
                 found.against[atom] = told
-
-
-def _held_in(state: Iterable[GroundAtom], item: str, skills: Skills) -> list[GroundAtom]:
-    """Return the facts about the contents of a thing, and their heat."""
-    rules = {p for p, rule in skills.inferred.items() if rule == "contents" or isinstance(rule, Exposure)}
-    return sorted(atom for atom in state if atom.predicate in rules and atom.args[0] == item)

@@ -55,7 +55,7 @@ class Observer:
         }
 
         self._task, self._rules = self._ground()
-        self._inference = FactInference(skills)
+        self._inference = FactInference(skills, senses)
         self._inferred = InferredFacts(set())
 
     def _ground(self) -> tuple[Task, list[Operator]]:
@@ -80,7 +80,7 @@ class Observer:
             evidence: Of that event.
         """
         predicted = apply(instruction, before, self.problem)
-        inferred = self._inference.after(self.senses, before, predicted, instruction, evidence, happened=happened)
+        inferred = self._inference.after(before, predicted, instruction, evidence, happened=happened)
         found = self._now(inferred, before, predicted if happened else before)
         self._inferred = inferred
         return found
@@ -96,7 +96,7 @@ class Observer:
         told = {a for a in kept if a.predicate not in self.skills.seen and a.predicate not in self.skills.derived}
         state = self._with_derived(frozenset(told | self._seen(before, jointless)))
         state -= self._toppled(state)
-        self._inference.observed(self.senses, state)
+        self._inference.observed(state)
         return state
 
     def _toppled(self, state: State) -> set[GroundAtom]:

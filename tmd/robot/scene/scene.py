@@ -134,10 +134,8 @@ class Scene(Inventory):
                 self.sign(whole, predicate, value is True)
             contained = states.get(_CONTAINS, [])
             if part == ROOT and model.contents:
-                several = (
-                    contained if isinstance(contained, list) else [contained] if isinstance(contained, str) else []
-                )
-                self.show(name, several)
+                one = [contained] if isinstance(contained, str) else []
+                self.show(name, contained if isinstance(contained, list) else one)
 
     def _refuse_overlaps(self) -> None:
         names = list(self.bodies)
@@ -149,18 +147,11 @@ class Scene(Inventory):
                 near = self.sim.closest(self.bodies[one], self.bodies[other], 0.0)
                 depth = max((-c.distance for c in near), default=0.0)
                 if depth > OVERLAP:
-                    self._overlap(one, other, depth)
-
-    def _overlap(self, one: str, other: str, depth: float) -> None:
-        guilty = other if self.environment.objects[other].position or one == FLOOR else one
-        path = ("objects", guilty, "position")
-        both = f"'{other}' and the floor or a wall" if one == FLOOR else f"'{one}' and '{other}'"
-        raise self.environment.source.error(
-            path,
-            f"{both} are in each other by {depth * 1000:.0f} mm",
-            "give other positions, or leave them out: then places are found",
-            "overlap",
-        )
+                    guilty = other if self.environment.objects[other].position or one == FLOOR else one
+                    both = f"'{other}' and the floor or a wall" if one == FLOOR else f"'{one}' and '{other}'"
+                    message = f"{both} are in each other by {depth * 1000:.0f} mm"
+                    hint = "give other positions, or leave them out: then places are found"
+                    raise self.environment.source.error(("objects", guilty, "position"), message, hint, "overlap")
 
     # ------------------------------------------------------------------ where things may stand, and stand
 

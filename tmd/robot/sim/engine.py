@@ -49,7 +49,6 @@ class Engine:
         self.steps = 0
         self.ticks = 0
         self.work = 0
-        self.gui = gui
         self._watchers: list[Callable[[Any], None]] = []
         with quiet():
             # passes the number of the connection to every call

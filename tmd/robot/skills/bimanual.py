@@ -88,7 +88,8 @@ def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[O
         except SkillError:
             continue
         for goal in islice(_places(cell, side, item, options), _MOST_HERE):
-            if _bring(cell, side, goal):
+            path = plan_arm(cell.robot, side, goal, rng=cell.rng, budget=200)
+            if path is not None and cell.robot.move_arm(side, path):
                 yield
 
 
@@ -121,10 +122,3 @@ def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Opt
                 yield goal
         if asked > _MOST_ASKED:
             return
-
-
-def _bring(cell: Cell, side: str, goal: Sequence[float]) -> bool:
-    """Move the arm that holds the thing; return whether it got there."""
-    robot = cell.robot
-    path = plan_arm(robot, side, goal, rng=cell.rng, budget=200)
-    return path is not None and robot.move_arm(side, path)

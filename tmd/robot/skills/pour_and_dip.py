@@ -8,7 +8,7 @@ from itertools import product
 from math import acos, cos, degrees, hypot, pi
 
 from tmd.robot.assets.features import Region
-from tmd.robot.parameters import CONTACT, POURING
+from tmd.robot.parameters import CONTACT, GRASP, POURING
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
@@ -138,7 +138,7 @@ def tip_options(
     spills = None if closed else cell.spills_from(item)
     options = []
     for angle, over, (index, how), number in product(
-        POURING.tilts, _overs(cell, target, height), enumerate(known), range(POURING.headings)
+        POURING.tilts, _overs(cell, target, height), enumerate(known), range(GRASP.headings)
     ):
         stood = _heading(number)
         x, y, _ = stood.rotate(how.at)
@@ -169,7 +169,7 @@ def before(cell: Cell, target: str, first: Pose) -> tuple[Pose, ...]:
     x, y, z = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
     if abs(z) > 0.5:
         return ()
-    return (first.moved((-x * POURING.approach_in_niche, -y * POURING.approach_in_niche, 0.0)),)
+    return (first.moved((-x * GRASP.approach_in_niche, -y * GRASP.approach_in_niche, 0.0)),)
 
 
 def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
@@ -213,7 +213,7 @@ def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
     how, grip = _head(cell, item, side), cell.in_tool(side, item).inverse()
     ignore = cell.links(item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
     (over,) = _overs(cell, target, -POURING.dip_depth)
-    ways = list(product(POURING.dip_leans, range(POURING.headings)))
+    ways = list(product(POURING.dip_leans, range(GRASP.headings)))
     inside = [_held_at(_leaning(_heading(number), how, lean), how, over, 0.0) for lean, number in ways]
     touched = _depths(cell, item, target, inside)
     options = []
@@ -233,7 +233,7 @@ def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
 
 
 def _heading(number: int) -> Pose:
-    return Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / POURING.headings)
+    return Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / GRASP.headings)
 
 
 def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[float]:

@@ -128,9 +128,12 @@ def reach(
             break
     if not said:
         raise SkillError(SkillPhase.STANCE, _unreached(cell, what, fitting, focus, front, stay=stay))
-    if said[-1].stage is SkillPhase.PATH and failed:
-        return _insist(cell, what, failed[0], stop)
-    raise said[-1]
+    if said[-1].stage is not SkillPhase.PATH or not failed:
+        raise said[-1]
+    # nothing else is left: look longer for a way from the best stance
+    get_to(cell, failed[0].base, failed[0].torso)
+    _take(cell, what, failed[0].option, stop, budget=_LONG)
+    return failed[0].option
 
 
 def _timely(found: Iterator[StanceCandidate], said: Sequence[SkillError]) -> Iterator[StanceCandidate]:
@@ -141,13 +144,6 @@ def _timely(found: Iterator[StanceCandidate], said: Sequence[SkillError]) -> Ite
         if error.stage is not SkillPhase.TIME or not said:
             raise
         raise SkillError(SkillPhase.TIME, f"{error.reason}; before that, {said[-1].reason}") from error
-
-
-def _insist(cell: Cell, what: str, candidate: StanceCandidate, stop: int | None) -> Option:
-    """Look longer for a way from the best stance, once nothing else is left."""
-    get_to(cell, candidate.base, candidate.torso)
-    _take(cell, what, candidate.option, stop, budget=_LONG)
-    return candidate.option
 
 
 def _in_the_way(cell: Cell, options: Sequence[Option]) -> str:
@@ -334,7 +330,8 @@ def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
         told = obstruction.of_straight(cell, side, whole, ignore)
         raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight on: {told}")
     if not cell.robot.move_arm(side, path):
-        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}{_held_up(cell)}")
+        place = " ".join(f"{value:.2f}" for value in poses[-1].position)
+        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {place}{_held_up(cell)}")
 
 
 def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int = _SHORT) -> None:
@@ -398,7 +395,3 @@ def _heights(cell: Cell, hand: float) -> list[float]:
 
 def _wrapped(angle: float) -> float:
     return (angle + pi) % (2 * pi) - pi
-
-
-def _place(pose: Pose) -> str:
-    return " ".join(f"{value:.2f}" for value in pose.position)
