@@ -31,9 +31,9 @@ def robot_in(sim: Simulator, kinematic: bool = False, **options: tuple[float, fl
 def test_own_kinematics_are_those_of_the_simulator(sim: Simulator) -> None:
     robot = robot_in(sim)
     rng = np.random.default_rng(1)
-    for joint in sim.joints(robot.body).values():
-        if joint.kind != "fixed":
-            sim.set_joint(robot.body, joint.name, rng.uniform(max(joint.lower, -2), min(joint.upper, 2)))
+    for link in robot.tree.links.values():
+        if link.kind != "fixed":
+            sim.set_joint(robot.body, link.joint, rng.uniform(max(link.lower, -2), min(link.upper, 2)))
     frames = robot.tree.forward(robot.positions(), robot.tree.links, {robot.tree.root: np.eye(4)})
     for name, index in robot.index.items():
         np.testing.assert_allclose(sim.pose(robot.body, index).homogeneous(), frames[name], atol=1e-6)

@@ -30,17 +30,11 @@ TICK = 1 / 30
 
 
 class SimulationSession:
-    """An environment with a PR2 in it.
+    """An environment, with its PDDL problem, and a PR2 in it.
 
-    Args:
-        environment: The objects and their places.
-        folder: Its domain, with shapes and skills.
-        problem: The environment as PDDL.
-        kinematic: Set joints along their paths instead of driving motors.
-        seed: Random seed. With 0 all things are exactly at their places; other seeds move them by millimetres.
-        urdf: Another PR2 than the packaged one.
-        gui: Open a window, and go no faster than real time.
-        pictures: Pictures will be taken.
+    With seed 0 all things are exactly at their places; other seeds move them by millimetres. ``kinematic`` sets joints
+    along their paths instead of driving motors. ``urdf`` is another PR2 than the packaged one. ``gui`` opens a window
+    and goes no faster than real time. ``pictures`` announces that pictures will be taken.
 
     Raises:
         MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.

@@ -331,7 +331,10 @@ def urdf_model(name: str, shape: Shape, path: Path, parts: Sequence[str], mass: 
     _find_meshes(source)
     _move_root(source, shape)
     _links(model, source, mass)
-    _named_parts(model, source, shape, parts)
+    for part, name_ in shape.parts.items():
+        _check_part(("parts", part), part, parts)
+        model.part_links[part] = _known_link(source, ("parts", part), name_)
+        model.link_parts[model.part_links[part]] = part
     for index, handle in enumerate(shape.handles):
         _handle(model, source, index, handle, parts)
     for index, region in enumerate(shape.regions):
@@ -465,14 +468,6 @@ def _weigh(model: UrdfModel, element: ET.Element, called: str, mass: float | Non
     element.extend(ET.fromstring(f"<all>{''.join(model.physics(model.links[called]))}</all>"))
 
 
-def _named_parts(model: UrdfModel, source: _Source, shape: Shape, parts: Sequence[str]) -> None:
-    for part, link in shape.parts.items():
-        _check_part(("parts", part), part, parts)
-        called = _known_link(source, ("parts", part), link)
-        model.part_links[part] = called
-        model.link_parts[called] = part
-
-
 def _check_part(path: Sequence[str | int], part: str | None, parts: Sequence[str]) -> None:
     if part is not None and part not in parts:
         hint = nearest(part, list(parts)) or "the class lists its `parts:`"
@@ -480,7 +475,6 @@ def _check_part(path: Sequence[str | int], part: str | None, parts: Sequence[str
 
 
 def _known_link(source: _Source, path: Sequence[str | int], name: str) -> str:
-    """Return the model's name of a link of the file."""
     names = [link.get("name", "") for link in source.root.findall("link")]
     if name not in names:
         hint = nearest(name, names) or f"it has the links {', '.join(names)}"

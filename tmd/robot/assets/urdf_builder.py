@@ -7,7 +7,7 @@ frame (see :meth:`UrdfModel.link`), so builders think in one frame as long as no
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.sax.saxutils import escape
@@ -42,11 +42,16 @@ class UrdfLink:
     collisions: list[str] = field(default_factory=list)
     boxes: list[tuple[Vector, Vector]] = field(default_factory=list)
 
-    def at_zero(self) -> Pose:
-        """Return the link's frame in its parent's with the joint at 0."""
-        if self.turn == (0.0, 0.0, 0.0):
-            return Pose(self.origin)
-        return Pose(self.origin) * Pose.turned(*self.turn)
+    def at(self, position: float) -> Pose:
+        """Return the link's frame in its parent's for a position of the joint."""
+        pose = Pose(self.origin)
+        if self.turn != (0.0, 0.0, 0.0):
+            pose = pose * Pose.turned(*self.turn)
+        if position and self.kind == "prismatic":
+            pose = pose * Pose((self.axis[0] * position, self.axis[1] * position, self.axis[2] * position))
+        elif position and self.kind == "revolute":
+            pose = pose * Pose.about(self.axis, position)
+        return pose
 
 
 class UrdfModel:
@@ -104,11 +109,11 @@ class UrdfModel:
         self.part_links.setdefault(part, name)
         self.link_parts[name] = part
 
-    def frame(self, link: str) -> Pose:
-        """Return the link's frame in the root's with every joint at 0."""
+    def frame(self, link: str, positions: Mapping[str, float] | None = None) -> Pose:
+        """Return the link's frame in the root's for positions of joints; others are at 0."""
         pose = Pose((0.0, 0.0, 0.0))
         while link != ROOT:
-            pose = self.links[link].at_zero() * pose
+            pose = self.links[link].at((positions or {}).get(link, 0.0)) * pose
             link = self.links[link].parent
         return pose
 
@@ -226,7 +231,6 @@ class UrdfModel:
 
 
 def _between(low: Vector, high: Vector) -> tuple[Vector, Vector]:
-    """Return centre and size of the box between two corners."""
     centre = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
     return centre, (high[0] - low[0], high[1] - low[1], high[2] - low[2])
 

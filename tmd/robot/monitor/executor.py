@@ -430,7 +430,6 @@ class Executor:
         return frozenset(a for a in concerned if a in end), frozenset(a for a in concerned if a not in end)
 
     def _worked(self) -> frozenset[str]:
-        """Return the predicates of doors and knobs."""
         return frozenset(p for p, sensor in self.observer.skills.seen.items() if sensor in ("joint", "setting"))
 
     def _stopped(self, reason: str, state: State) -> Execution:
@@ -486,14 +485,12 @@ def _missing(
 
 
 def _end(task: Task, state: Bits, plan: Sequence[Instruction]) -> Bits:
-    """Return the state after a plan."""
     for instruction in plan:
         state = task.by_instruction[instruction].apply(state)
     return state
 
 
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
-    """Return whether all aims hold after a plan."""
     return _satisfied(wanted, task.decode(_end(task, task.init, plan)))
 
 
@@ -503,7 +500,6 @@ def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list
 
 
 def _runs(operators: Sequence[Operator], state: Bits) -> bool:
-    """Return whether a sequence is executable."""
     for operator in operators:
         if not operator.applicable(state):
             return False

@@ -32,14 +32,7 @@ REACH = 1.1
 
 
 class Observer:
-    """Reads states back.
-
-    Args:
-        problem: The environment.
-        folder: Its domain.
-        skills: The sensor of each predicate.
-        senses: The simulation.
-    """
+    """Reads states of a simulation back; ``skills`` gives the sensor of each predicate."""
 
     def __init__(self, problem: Problem, folder: DomainFolder, skills: Skills, senses: Cell) -> None:
         self.problem = problem
@@ -71,13 +64,9 @@ class Observer:
         return task, [operator for operator in known if operator is not None]
 
     def after(self, before: State, instruction: Instruction, *, happened: bool, evidence: str = "") -> State:
-        """Return the state now.
+        """Return the state after an instruction, from the state that was observed ``before`` it.
 
-        Args:
-            before: The state that was observed before ``instruction``.
-            instruction: The instruction.
-            happened: Whether the skill's own event was seen; otherwise facts without a sensor stay as they were.
-            evidence: Of that event.
+        Unless the skill's event was seen to have ``happened``, facts without a sensor stay as they were.
         """
         predicted = apply(instruction, before, self.problem)
         inferred = self._inference.after(before, predicted, instruction, evidence, happened=happened)
@@ -100,7 +89,6 @@ class Observer:
         return state
 
     def _toppled(self, state: State) -> set[GroundAtom]:
-        """Return the places of things that have fallen over."""
         places = [a for a in state if self.skills.seen.get(a.predicate) == "support"]
         return {a for a in places if self.senses.fallen(a.args[0])}
 
@@ -178,7 +166,6 @@ class Observer:
         return found
 
     def _declared(self, predicate: str) -> tuple[str, ...]:
-        """Return the types of a predicate's first argument."""
         declared = next(p for p in self.problem.domain.predicates if p.name == predicate)
         return tuple(declared.parameters[0].types)
 

@@ -34,13 +34,7 @@ _TRACK_WORK = 80
 
 
 def plan_arm(
-    robot: Pr2,
-    side: str,
-    goal: Sequence[float],
-    *,
-    ignore: Ignored = (),
-    rng: np.random.Generator,
-    budget: int = 300,
+    robot: Pr2, side: str, goal: Sequence[float], *, ignore: Ignored = (), rng: np.random.Generator, budget: int = 300
 ) -> list[Arm] | None:
     """Plan a collision-free path of one arm from where it is to joint positions; nothing moves.
 
@@ -68,14 +62,7 @@ def plan_arm(
 
 
 def _plan_arm(
-    robot: Pr2,
-    side: str,
-    goal: Sequence[float],
-    ignore: Ignored,
-    rng: np.random.Generator,
-    budget: int,
-    *,
-    level: bool,
+    robot: Pr2, side: str, goal: Sequence[float], ignore: Ignored, rng: np.random.Generator, budget: int, *, level: bool
 ) -> list[Arm] | None:
     kinematics = robot.arm_kinematics[side]
     first = np.array(robot.arm(side), dtype=float)
@@ -154,13 +141,7 @@ class _Upright:
 
 
 def plan_line(
-    robot: Pr2,
-    side: str,
-    start: Pose,
-    end: Pose,
-    *,
-    ignore: Ignored = (),
-    arm: Sequence[float] | None = None,
+    robot: Pr2, side: str, start: Pose, end: Pose, *, ignore: Ignored = (), arm: Sequence[float] | None = None
 ) -> list[Arm] | None:
     """Plan a straight motion of the tool, whose orientation turns evenly; see :func:`plan_poses`."""
     return plan_poses(robot, side, dense([start, end]), ignore=ignore, arm=arm)
@@ -225,12 +206,7 @@ def plan_poses(
     back = robot.base_link(base).inverse()
     seeds = [tuple(arm)] if arm is not None else _first_rows(robot, side, poses[0], base, torso)
     with CollisionChecker(
-        robot,
-        robot.arm_joints[side],
-        positions=robot.elsewhere(base, torso),
-        arm=side,
-        ignore=ignore,
-        margin=margin,
+        robot, robot.arm_joints[side], positions=robot.elsewhere(base, torso), arm=side, ignore=ignore, margin=margin
     ) as checker:
         for seed in seeds:
             for collision in checker.collisions(seed):

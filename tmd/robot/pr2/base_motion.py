@@ -43,15 +43,10 @@ def plan_base(
     budget: int = 4000,
     clearance: float = BASE_MOTION.clearance,
 ) -> list[Base] | None:
-    """Plan a way for the robot, as its arms are and with what it holds, to a pose of the base; nothing moves.
+    """Plan a way for the robot, as its arms are and with what it holds, to a pose x, y, theta; nothing moves.
 
-    Args:
-        robot: The robot.
-        goal: x, y, theta.
-        ignore: (body, link) that may be touched, link None: all of the body.
-        rng: For shortcuts.
-        budget: Maximum number of lattice points.
-        clearance: Metres to keep away. What is nearer at the start or at the goal may stay as near as it is there.
+    ``clearance`` is kept, in metres; what is nearer at the start or at the goal may stay as near as it is there.
+    ``ignore`` and ``rng`` are as for :func:`tmd.robot.pr2.arm_motion.plan_arm`; ``budget`` counts lattice points.
 
     Returns:
         Poses after the start up to the goal; None if the goal touches something, or no way was found.

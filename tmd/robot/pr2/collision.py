@@ -173,7 +173,6 @@ class CollisionChecker:
         self._boxes.append(box_of(self.sim, held.body))
 
     def _find_obstacles(self) -> list[tuple[int, int, Vector, Vector]]:
-        """Return links of other bodies with their boxes."""
         sim = self.sim
         taken = {self._robot.body, *(held.body for held in self._helds)}
         found = []
@@ -217,15 +216,12 @@ class CollisionChecker:
         return result
 
     def allow(self, ends: Sequence[tuple[Array, float]], near: Array | None = None) -> bool:
-        """Allow what is near at the ends of a way to be as near as it is there.
+        """Allow what is near at the ends of a way to be as near as it is there; return False if an end is too deep.
 
         Args:
             ends: Configurations, each with how deep it may be in something, in metres.
             near: Distance of each joint from an end within which that holds; what touches there is apart elsewhere, so
                 that it is neither dragged along nor pushed on. None: it holds all the way.
-
-        Returns:
-            False if an end is deeper in something.
         """
         self.allowed.clear()
         self._ends.clear()

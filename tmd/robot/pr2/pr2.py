@@ -39,18 +39,15 @@ _VIEW = (0.75, 0.6)
 
 
 class Pr2:
-    """The robot, with tucked arms and open hands.
+    """The robot, with tucked arms and open hands; ``rng`` is for planners that it calls itself.
 
     Args:
         sim: The world; it is loaded into it.
         urdf: Another PR2's URDF; None: the packaged one.
         kinematic: Set joints instead of driving them.
         pose: Of the base: x, y, theta.
-        rng: For planners that the robot calls itself.
 
     Attributes:
-        tree: Its kinematic tree.
-        model: The repaired URDF.
         boxes: Boxes around its solid links, by link name.
         index: Link numbers by name.
         joint_index: Joint numbers by name.
@@ -183,7 +180,6 @@ class Pr2:
     # motion
 
     def _go(self, group: JointGroup, path: Sequence[Sequence[float]], endless: Sequence[int] = ()) -> bool:
-        """Follow a path from where the joints are."""
         rows = unwound(np.array([self._where(group), *path], dtype=float), endless)
         if self.kinematic:
             jump(self.sim, self.body, group, rows, self._carry)

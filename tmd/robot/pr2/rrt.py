@@ -55,7 +55,7 @@ def plan(
     budget: int,
     project: Project | None = None,
 ) -> Array | None:
-    """Return a path from ``start`` to ``goal``: the straight line if that is free, else one by RRT-connect.
+    """Return a path (n, k), corners only, from ``start`` to ``goal``, or None: a straight line, else by RRT-connect.
 
     Args:
         start: (k,), taken to be free.
@@ -64,11 +64,7 @@ def plan(
         sample: Draws (k,) from the space.
         strides: (k,): motions that a check may jump over.
         budget: Maximum number of samples.
-        project: Brings each new node to where a constraint holds (CBiRRT, Berenson et al. 2009); ``free`` checks it as
-            well.
-
-    Returns:
-        (n, k), corners only, or None.
+        project: Brings new nodes to where a constraint holds (CBiRRT, Berenson et al. 2009); ``free`` checks it too.
     """
     if _clear(start, goal, free, strides):
         return np.array([start, goal])

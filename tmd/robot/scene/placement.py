@@ -28,13 +28,9 @@ _ROBOT: Footprint = (-0.35, -0.35, 0.35, 0.35)
 
 
 class Placing:
-    """The poses of all objects.
+    """The poses of all objects of an environment.
 
-    Args:
-        environment: The objects and their places.
-        blueprints: Of each object.
-        names: All objects and parts, with a shape or without.
-        rng: Moves items by millimetres; None: not at all.
+    ``names`` are all objects and parts, with a shape or without; ``rng`` moves items by millimetres.
 
     Attributes:
         room: The fixtures' poses and the walls.
@@ -98,7 +94,6 @@ class Placing:
         return Room({**room.poses, **given}, low, high)
 
     def _walled(self, arranged: Room) -> Room:
-        """Put the fixtures within the walls of the environment."""
         source = self._environment.source
         try:
             empty = room_of(self._environment.room)
@@ -207,7 +202,6 @@ class Placing:
         raise self._error(name, f"there is no '{where}' that '{name}' could be at", None)
 
     def _error(self, name: str, message: str, hint: str | None, key: str | None = "at") -> TmdError:
-        """Return an error at the environment's entry of an object."""
         path = ("objects", name) if key is None else ("objects", name, key)
         return self._environment.source.error(path, message, hint, "no-room")
 

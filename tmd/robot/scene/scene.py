@@ -43,14 +43,9 @@ _OPENED, _SET_TO, _CONTAINS = "opened", "set_to", "contains"
 
 
 class Scene(Inventory):
-    """All objects of an environment in a simulator, settled.
+    """All objects of an environment in a simulator, settled by ``settle`` steps of physics.
 
-    Args:
-        sim: An empty simulator.
-        environment: The objects and their places.
-        folder: Its domain, with the shapes of its classes.
-        rng: Moves things by millimetres, so that no two seeds see quite the same scene; None: exact places.
-        settle: Steps of physics before the scene is ready.
+    ``rng`` moves things by millimetres, so that no two seeds see quite the same scene; without it, places are exact.
 
     Attributes:
         room: The places of fixtures and walls.
@@ -112,7 +107,6 @@ class Scene(Inventory):
             self.keep(name, self.sim.load(path, pose, fixed=blueprint.sort != "item", own_inertia=True))
 
     def _start(self, name: str) -> None:
-        """Set joints, contents and signs as the environment says."""
         body, model, entry = self.bodies[name], self.blueprints[name].model, self.environment.objects[name]
         for link in model.links.values():
             if link.spring:

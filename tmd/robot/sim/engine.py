@@ -22,10 +22,8 @@ _STEP_WORK = 500
 class Engine:
     """A world with gravity, empty at first.
 
-    Args:
-        gui: Open a window. Needs a display.
-        pictures: Draw by EGL if it starts, which must be known before anything is loaded. Without it, pictures are
-            drawn by pybullet's own slower renderer.
+    ``gui`` opens a window, for which a display is needed. ``pictures`` lets EGL draw if it starts, which must be known
+    before anything is loaded; without it, pictures are drawn by pybullet's own slower renderer.
 
     Attributes:
         client: The number of pybullet's connection, for direct calls.

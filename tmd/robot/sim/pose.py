@@ -148,8 +148,4 @@ def _rotate(q: Quaternion, point: Sequence[float]) -> Vector:
     x, y, z, w = q
     px, py, pz = (float(value) for value in point)
     tx, ty, tz = 2 * (y * pz - z * py), 2 * (z * px - x * pz), 2 * (x * py - y * px)
-    return (
-        px + w * tx + y * tz - z * ty,
-        py + w * ty + z * tx - x * tz,
-        pz + w * tz + x * ty - y * tx,
-    )
+    return (px + w * tx + y * tz - z * ty, py + w * ty + z * tx - x * tz, pz + w * tz + x * ty - y * tx)

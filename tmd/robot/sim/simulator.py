@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf
 from pathlib import Path
 
 import numpy as np
@@ -30,17 +29,11 @@ class Joint:
     Attributes:
         index: Its number, also that of its link.
         kind: ``revolute`` (continuous ones too), ``prismatic`` or ``fixed``; ``other`` for the rest.
-        lower: Least position; −inf without limits.
-        upper: Greatest position; inf without limits.
-        axis: In the frame of the joint.
     """
 
     index: int
     name: str
     kind: str
-    lower: float
-    upper: float
-    axis: Vector
     link_name: str
 
 
@@ -65,7 +58,6 @@ class Hit:
     """First surface on a ray."""
 
     body: int
-    link: int
     position: Vector
 
 
@@ -130,12 +122,9 @@ class Simulator(Engine):
             found = {}
             for index in range(bullet.getNumJoints(body)):
                 info = bullet.getJointInfo(body, index)
-                lower, upper = (-inf, inf) if info[8] > info[9] else (info[8], info[9])
                 name = info[1].decode()
                 kind = kinds.get(info[2], "other")
-                turned = bullet.getDynamicsInfo(body, index)[4]
-                axis = Pose((0.0, 0.0, 0.0), turned).rotate(info[13])  # given in the frame of the mass
-                found[name] = Joint(index, name, kind, lower, upper, axis, info[12].decode())
+                found[name] = Joint(index, name, kind, info[12].decode())
             self._names[body] = found
         return self._names[body]
 
@@ -322,8 +311,8 @@ class Simulator(Engine):
 
     def ray(self, start: Sequence[float], end: Sequence[float]) -> Hit | None:
         """Return the first surface on a straight line."""
-        body, link, _, position, _ = self._bullet.rayTest(start, end)[0]
-        return None if body < 0 else Hit(body, link, position)
+        body, _, _, position, _ = self._bullet.rayTest(start, end)[0]
+        return None if body < 0 else Hit(body, position)
 
     def colour(self, body: int, link: int, rgba: Sequence[float]) -> None:
         """Paint a link; each value in [0, 1]."""

@@ -54,7 +54,6 @@ def _refuse_to_spill(cell: Cell, name: str) -> None:
 
 
 def _swing_somehow(cell: Cell, name: str, attempt: int, goals: Sequence[Sequence[float]]) -> None:
-    """Move it as far as the first of the goals that is possible."""
     last = SkillError(SkillPhase.STANCE, f"{name} cannot be moved any farther")
     for each in goals:
         try:
@@ -105,7 +104,6 @@ def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
 
 
 def _closed_grasp(cell: Cell, name: str, handle: Handle) -> Vector:
-    """Return the position of a door's handle when it is shut."""
     start = cell.sim.joint_position(handle.body, handle.index)
     cell.sim.set_joint(handle.body, handle.index, handle.closed)
     shut = _handle(cell, name).grasp.position
@@ -167,7 +165,6 @@ def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) 
 
 
 def _end(handle: Handle, part: float) -> float:
-    """Return the joint's position when it is open for a part of its way."""
     return handle.closed + part * (handle.open - handle.closed)
 
 
@@ -207,7 +204,6 @@ def _turned(tool: Pose, handle: Handle, angle: float, pushes: bool) -> Pose:
 
 
 def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
-    """Close the hand on the handle and move it along."""
     side = option.side
     if option.spot == _PUSHED:
         with cell.pushed(side, handle):
@@ -248,7 +244,13 @@ def push(cell: Cell, name: str, attempt: int) -> str:
 
     for side in hands:
         cell.robot.open_gripper(side, 0.0)
-    farthest = _Farthest(handle)
+    share = 0.0
+
+    def note_depth(sim: Simulator) -> None:
+        nonlocal share
+        at = sim.joint_position(handle.body, handle.index)
+        share = max(share, (at - handle.closed) / (handle.open - handle.closed))
+
     chosen = reach_for(cell, name, options, handle.grasp, attempt)
     held = cell.side_of(cell.whole(name)) is not None
     depth, touch = ARTICULATION.button_share * abs(handle.open - handle.closed), handle.grasp
@@ -259,7 +261,7 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     # a finger tip is wider than the buttons of what fits into a hand
     ignore: Links = button | {(handle.body, None)} if held else button
     roll = _ROLLS[chosen.spot]
-    cell.sim.add_watcher(farthest)
+    cell.sim.add_watcher(note_depth)
     try:
         with cell.pushed(chosen.side, handle):
             follow(cell, chosen.side, (_rolled(beyond, roll),), ignore)
@@ -268,26 +270,14 @@ def push(cell: Cell, name: str, attempt: int) -> str:
         touched = cell.robot.touches(chosen.side, handle.body, handle.index)
         cell.moment()
     finally:
-        cell.sim.remove_watcher(farthest)
+        cell.sim.remove_watcher(note_depth)
     cell.come_back(handle)
     cell.retire(chosen.side, ignore)
     if not touched:
         raise SkillError(SkillPhase.CONTACT, f"the finger does not touch {name}")
-    if farthest.share < ARTICULATION.pressed_share:
-        raise SkillError(SkillPhase.EFFECT, f"{name} went down {100 * farthest.share:.0f} % of its way")
-    return f"{name} went down {100 * min(farthest.share, 1.0):.0f} % of its way"
-
-
-class _Farthest:
-    """Record of the farthest way of a joint."""
-
-    def __init__(self, handle: Handle) -> None:
-        self.handle = handle
-        self.share = 0.0
-
-    def __call__(self, sim: Simulator) -> None:
-        at = sim.joint_position(self.handle.body, self.handle.index)
-        self.share = max(self.share, (at - self.handle.closed) / (self.handle.open - self.handle.closed))
+    if share < ARTICULATION.pressed_share:
+        raise SkillError(SkillPhase.EFFECT, f"{name} went down {100 * share:.0f} % of its way")
+    return f"{name} went down {100 * min(share, 1.0):.0f} % of its way"
 
 
 def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:

@@ -45,15 +45,9 @@ def reach_for(
 ) -> Option:
     """Bring a hand through the poses of an option for ``name``; if that is held, it is held out.
 
-    Args:
-        cell: Robot and scene.
-        name: The thing that the options are for.
-        options: Makes them for its present pose.
-        focus: The place to stand round, if it is not held.
-        attempt: Number of earlier tries.
-        stop: Number of poses to go to.
-        front: The heading of the side it is reached from; None: that of what it is a part of.
-        accept: As for :func:`tmd.robot.skills.stance_search.reach`; not called for what is held out.
+    ``options`` makes them for its present pose. The other arguments are those of
+    :func:`tmd.robot.skills.stance_search.reach`; by default ``front`` is that of the whole, and ``accept`` is not
+    called for a thing that is held out.
 
     Raises:
         SkillError: As :func:`tmd.robot.skills.stance_search.reach`.

@@ -30,7 +30,6 @@ def named(counted: Counter[str], of: int = 0) -> str:
 
 
 def _names(cell: Cell, touched: Iterable[tuple[int, int]]) -> set[str]:
-    """Return the names of links: objects, parts, the floor, the robot."""
     return {
         "the robot itself" if body == cell.robot.body else cell.scene.owner(body, link) or "something"
         for body, link in touched
@@ -38,7 +37,6 @@ def _names(cell: Cell, touched: Iterable[tuple[int, int]]) -> set[str]:
 
 
 def _met(cell: Cell, collisions: Iterable[Collision]) -> set[str]:
-    """Return the names of what the robot touches."""
     return _names(cell, [(body, link) for _, body, link, _ in collisions])
 
 

@@ -106,7 +106,6 @@ class RobotPerformer:
                 return pour_and_dip.tip(cell, name, task.target, attempt, squeezed=task.skill == "squeeze")
 
     def _below(self, item: str, gains: Collection[GroundAtom]) -> str:
-        """Return the thing that an item lands on when it is let go of."""
         seen = {p for p, sensor in self.skills.seen.items() if sensor == "support"}
         for atom in sorted(gains):
             if atom.predicate in seen and atom.args[0] == item:

@@ -239,7 +239,6 @@ def _occupied(cell: Cell, item: str, target: str) -> str:
 
 
 def _standing_there(cell: Cell, item: str, target: str, relation: str) -> str:
-    """Name what stands where an item should go."""
     there = [other for other in cell.scene.items() if other != item and cell.support(other) == (target, relation)]
     return f": {', '.join(there[:4])} {'stands' if len(there) == 1 else 'stand'} there" if there else ""
 

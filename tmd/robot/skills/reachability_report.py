@@ -81,13 +81,8 @@ def survey_scene(
 ) -> SceneSurvey:
     """Build the room of an environment, put a PR2 into it, and return what stands where.
 
-    Args:
-        environment: The objects and their places.
-        folder: Its domain, with shapes.
-        reach: Look for a base pose for every object, which takes seconds.
-        seed: Seed for placement jitter; 0 disables it.
-        urdf: Another PR2 than the packaged one.
-        picture: Destination of a picture of the room, a PNG file.
+    ``reach`` also looks for a base pose for every object, in seconds. ``seed`` is that of the placement jitter; 0
+    disables it. ``picture`` is the destination of a picture of the room, a PNG file.
 
     Raises:
         MissingToolError: A package that simulates or draws is not installed.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from math import acos, cos, degrees, hypot, inf, sin
 from pathlib import Path
@@ -34,8 +34,7 @@ _LEANING_EVERY = 8
 _LEVEL = 0.05
 
 
-def _nothing(*_: str) -> None:
-    """Ignore a report."""
+def _nothing(*_: str) -> None: ...
 
 
 @dataclass(eq=False)
@@ -353,14 +352,11 @@ class Cell:
             for pin in pins:
                 self.sim.unweld(pin)
 
-    @contextmanager
-    def pushed(self, side: str, handle: Handle) -> Iterator[None]:
+    def pushed(self, side: str, handle: Handle) -> AbstractContextManager[None]:
         """Push with a finger: by contact under physics; in the kinematic mode the joint goes with the finger."""
         if not self.robot.kinematic:
-            yield
-            return
-        with self._following(handle, lambda: self.robot.tool(side)):
-            yield
+            return nullcontext()
+        return self._following(handle, lambda: self.robot.tool(side))
 
     def come_back(self, handle: Handle) -> None:
         """Let a button come back in the kinematic mode, as its spring does under physics."""
@@ -479,7 +475,6 @@ class Cell:
         return frozenset((self.scene.place(name)[0], None) for name in names)
 
     def _forget_lost(self) -> None:
-        """Let go of things that slipped out of a hand."""
         for side in [side for side in self.in_hand if not self._still_held(side)]:
             self.robot.let_go(side)
             del self.in_hand[side]

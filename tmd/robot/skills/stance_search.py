@@ -147,7 +147,6 @@ def _timely(found: Iterator[StanceCandidate], said: Sequence[SkillError]) -> Ite
 
 
 def _in_the_way(cell: Cell, options: Sequence[Option]) -> str:
-    """Name what a hand would be in there."""
     ways = [(option.side, option.poses[-1:], option.ignore) for option in options]
     told = obstruction.of_hand(cell, ways[:: max(1, len(ways) // _EXPLAINED)])
     return f": {told}" if told else ""
@@ -156,7 +155,6 @@ def _in_the_way(cell: Cell, options: Sequence[Option]) -> str:
 def _unreached(
     cell: Cell, what: str, options: Sequence[Option], focus: Pose, front: float | None, *, stay: bool
 ) -> str:
-    """Explain why no place to stand will do."""
     said = f"no place to stand reaches {what}, {len(options)} ways were tried"
     here = cell.robot.base()
     usual = [here] if stay else list(stances(cell, focus, front, STANCE.distances[:2]))
@@ -364,7 +362,6 @@ def _level(cell: Cell, option: Option, whole: Sequence[Pose]) -> list[tuple[floa
 
 
 def _held_up(cell: Cell) -> str:
-    """Name what the robot presses against."""
     told = obstruction.of_posture(cell)
     return f": {told}" if told else ""
 

@@ -139,7 +139,6 @@ class Camera:
 
 
 def _overview(cell: Cell) -> View:
-    """Return a view of the whole room, from its open side."""
     eye, target = cell.scene.viewpoint()
     x, y, z = (e - t for e, t in zip(eye, target, strict=True))
     distance = math.hypot(x, y, z)

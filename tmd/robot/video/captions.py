@@ -132,11 +132,7 @@ def _write(whole: Image, top: int, caption: Caption) -> None:
 
 
 def _facts(
-    draw: ImageDraw,
-    facts: Sequence[tuple[str, Mark]],
-    font: Font,
-    unit: float,
-    place: tuple[float, float, float],
+    draw: ImageDraw, facts: Sequence[tuple[str, Mark]], font: Font, unit: float, place: tuple[float, float, float]
 ) -> int:
     """Draw facts beside each other on at most two rows; return the rows that were used."""
     left, right, top = place

@@ -42,13 +42,10 @@ _FAR = ("look", "drive")
 def open_movie(
     path: Path, picture: tuple[int, int] | None = None, fps: int | None = None, *, small: bool = False
 ) -> MovieFile:
-    """Open a file for a film with captions.
+    """Open a file for a film with captions, of a kind that the suffix gives.
 
-    Args:
-        path: Its destination; the suffix gives the kind of film.
-        picture: Width and height of the pictures without their captions, even numbers; None: usual ones.
-        fps: Pictures a second; None: the usual number. The pauses of a GIF are hundredths of seconds.
-        small: Spare bytes, as :class:`MovieFile` does.
+    ``picture`` is the size of the pictures without their captions, even numbers; the kind's usual size and ``fps`` are
+    taken without them. The pauses of a GIF are hundredths of seconds.
 
     Raises:
         MissingToolError: A package that writes films of this kind is not installed.
@@ -68,9 +65,6 @@ class Film:
         movie: The film, from :func:`open_movie`; None: no film, only the filmstrip.
         strip: Whether to make a filmstrip.
         tile: Width and height of its pictures without their captions.
-
-    Raises:
-        MissingToolError: Pillow is not installed.
     """
 
     def __init__(
@@ -168,7 +162,6 @@ class Film:
         self._hold(_ENDING)
 
     def _take_event(self) -> None:
-        """Take the strip's picture at the event of an instruction."""
         self._event = self._picture(self._camera.best(), self._tile)
 
     def _number(self, title: Title) -> str:
@@ -209,7 +202,6 @@ class Film:
         self._movie.add(under(self._last, self._caption))
 
     def _hold(self, seconds: float) -> None:
-        """Hold the last picture, with the present caption."""
         if self._movie is None:
             return
         if self._last is None:

@@ -25,13 +25,9 @@ _COLOURS = 128
 
 
 class MovieFile:
-    """A film that is being written.
+    """A film that is being written, with pictures of a size in pixels (even numbers), ``fps`` of them a second.
 
-    Args:
-        path: Its destination.
-        size: Width and height of every picture, in pixels; even numbers.
-        fps: Pictures a second.
-        small: Spare bytes rather than detail: an MP4 is a third as large.
+    ``small`` spares bytes rather than detail: an MP4 is a third as large.
 
     Attributes:
         pictures: The number of pictures so far.

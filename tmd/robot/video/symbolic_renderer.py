@@ -66,12 +66,7 @@ class Picture:
 
 
 class Still(Catalogue):
-    """Draws the states of an environment.
-
-    Args:
-        environment: The objects and their places.
-        folder: Its domain, with the shapes of its classes.
-        skills: The visible meaning of its predicates.
+    """Draws the states of an environment; ``skills`` gives the visible meaning of its predicates.
 
     Attributes:
         room: The places of fixtures and walls.
@@ -133,13 +128,8 @@ class Still(Catalogue):
 
     def within(self, whole: str, link: str, picture: Picture) -> Pose:
         """Return the pose of a link in the frame of its object."""
-        model, frame = self.blueprints[whole].model, Pose((0.0, 0.0, 0.0))
-        while link != ROOT:
-            step = model.links[link]
-            position = picture.joints.get((whole, link), 0.0)
-            frame = step.at_zero() * moved(step.kind, step.axis, position) * frame
-            link = step.parent
-        return frame
+        joints = {name: position for (owner, name), position in picture.joints.items() if owner == whole}
+        return self.blueprints[whole].model.frame(link, joints)
 
     def pose_of(self, item: str) -> Pose:
         """Return the pose of an object."""
@@ -244,16 +234,6 @@ class Still(Catalogue):
                 lit = (lamp.predicate, self.named(whole, lamp.part)) in signs
                 colours[whole, lamp.link] = lamp.on if lit else lamp.off
         return colours
-
-
-def moved(kind: str, axis: Vector, position: float) -> Pose:
-    """Return the motion of a joint at ``position`` in the frame of its link."""
-    if kind == "prismatic":
-        x, y, z = axis
-        return Pose((x * position, y * position, z * position))
-    if kind != "revolute" or position == 0.0:
-        return Pose((0.0, 0.0, 0.0))
-    return Pose.about(axis, position)
 
 
 def _facing(point: Vector, robot: Pose) -> Pose:
