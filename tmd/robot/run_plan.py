@@ -24,15 +24,7 @@ Prepare = Callable[[SimulationSession], Sequence[Listener]]
 
 @dataclass(frozen=True, slots=True)
 class Filming:
-    """Options of a film or strip.
-
-    Attributes:
-        heading: The title.
-        text: The request, if any.
-        movie: The film's open file; None without a film.
-        strip: Destination of the sheet with one picture for each instruction; None without it.
-        tile: Width and height of the pictures of that sheet.
-    """
+    """Title and request of a film or strip, and their files, if any; ``tile`` is the size of the strip's pictures."""
 
     heading: str
     text: str = ""

@@ -57,16 +57,9 @@ def door(
 ) -> None:
     """Add a door before an opening, hinged at its −y edge, with its handle at the +y edge.
 
-    Args:
-        model: Of the whole.
-        part: The door's name.
-        look: Its colours.
-        low: Lower corner of the opening; x is that of the door's back.
-        high: Upper corner; x is not used.
-        height: Of the middle of the handle.
-        latched: There is no handle: the door is pushed shut at its edge.
-        window: It has a dark window.
-        part_of: The part that it opens, if not itself.
+    ``low`` and ``high`` are corners of the opening; x of ``low`` is that of the door's back. ``height`` is that of the
+    handle's middle. A ``latched`` door has no handle: it is pushed shut at its edge. ``window`` adds a dark window.
+    ``part_of`` is the part that it opens, if not itself.
     """
     x, y0, y1 = low[0], low[1], high[1]
     hinge = (x, y0, 0.0)

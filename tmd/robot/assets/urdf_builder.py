@@ -94,16 +94,9 @@ class UrdfModel:
     ) -> None:
         """Add a link, on the root by a joint of the same name.
 
-        Args:
-            name: Of link and joint.
-            part: The part that it belongs to (the first link of a part is the part's own).
-            kind: ``fixed``, ``revolute``, ``prismatic``.
-            origin: Of the joint in the root's frame; the link's frame lies there.
-            axis: Of the joint.
-            limits: Of the joint, radians or metres.
-            friction: Holds the joint where it is left, N or N·m.
-            spring: Drives it back to 0, N or N·m.
-            mass: Kilograms; 0 for something weightless (1 g).
+        ``kind`` is ``fixed``, ``revolute`` or ``prismatic``. Origin, axis and limits (radians or metres) are those of the
+        joint in the root's frame; the link's frame lies there. The first link of a part is the part's own. ``friction``
+        holds the joint where it is left, ``spring`` drives it back to 0 (N or N·m). A mass of 0 means weightless (1 g).
         """
         self.links[name] = UrdfLink(name, ROOT, kind, origin, axis, *limits, friction, spring, mass or 0.001)
         self.part_links.setdefault(part, name)

@@ -86,16 +86,10 @@ class ArmKinematics:
     def solve(
         self, tool: Pose, torso: float, seed: Sequence[float], *, numeric: bool | None = None
     ) -> list[tuple[float, ...]]:
-        """Return configurations that bring the tool to a pose, within the limits.
+        """Return configurations that bring the tool frame to a pose in ``base_link``, within the limits.
 
-        Args:
-            tool: The tool frame in ``base_link``.
-            torso: The height of the torso joint.
-            seed: Seven positions: where the arm is, or should be near.
-            numeric: Damped least squares; None: only without ``pr2-ikfast``.
-
-        Returns:
-            Nearest to ``seed`` first (largest joint motion counts); empty if the pose is out of reach.
+        ``torso`` is the height of the torso joint. The results nearest to ``seed``, seven positions, come first (largest
+        joint motion counts). ``numeric`` selects damped least squares; None: only without ``pr2-ikfast``.
         """
         closed = None if numeric else self._closed_form
         if numeric is False and closed is None:

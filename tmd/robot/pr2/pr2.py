@@ -386,19 +386,11 @@ class Pr2:
         ignore: Ignored = (),
         margin: float = 0.0,
     ) -> list[Collision]:
-        """Return what the robot would touch; nothing moves.
+        """Return what the robot would touch: (robot link, body, link, depth), deepest first; nothing moves.
 
-        Args:
-            side: Check this arm only, with what it holds; None: the whole robot.
-            arm: Its positions; None: the present ones. Needs ``side``.
-            base: Pose of the base.
-            torso: Height of the torso.
-            ignore: (body, link) that may be touched, link None: all of the body.
-            margin: Metres that count as touching.
-
-        Returns:
-            (robot link, body, link, depth), deepest first. A tool frame stands for what that hand holds; the robot's
-            own body stands for itself.
+        ``side`` restricts the check to one arm, with what it holds, at positions ``arm`` (None: the present ones). ``base``
+        and ``torso`` are the present ones if None. (body, link) of ``ignore`` may be touched, link None: all of the body;
+        ``margin`` is in metres. A tool frame stands for what that hand holds, the robot's own body for itself.
         """
         if arm is not None and side is None:
             raise ValueError("whose arm?")

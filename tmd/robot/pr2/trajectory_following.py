@@ -14,17 +14,11 @@ from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
 
 
 def timed(path: Array, speeds: Sequence[float], rate: int, window: int) -> Array:
-    """Return positions for every step, (m, k); the last row is that of ``path``.
+    """Return positions for every step, (m, k), along ``path`` (n, k), n ≥ 2, whose first row is where the joints are.
 
-    Each piece is passed at the speed of the joint that needs longest; the result is smoothed by a moving average, so
-    it starts and ends at rest, and corners are rounded. A row that is given twice is a corner where the joints come to
-    rest, so it is not rounded.
-
-    Args:
-        path: (n, k), n ≥ 2; the first row is where the joints are.
-        speeds: The greatest speed of each joint, per second.
-        rate: Steps a second.
-        window: Steps that are averaged: the time to reach the full speed.
+    Each piece is passed at the speed (per second) of the joint that needs longest; the result is smoothed by a moving
+    average over ``window`` steps, so it starts and ends at rest, and corners are rounded. A row that is given twice is
+    a corner where the joints come to rest, so it is not rounded. ``rate`` is the number of steps a second.
     """
     steps = np.max(np.abs(np.diff(path, axis=0)) / np.asarray(speeds), axis=1) * rate
     steps[steps == 0.0] = window

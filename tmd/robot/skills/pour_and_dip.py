@@ -23,11 +23,7 @@ _SQUEEZE = 40.0
 class Mouth:
     """The place at which contents leave a thing that is tipped, in the thing's frame.
 
-    Attributes:
-        at: The point.
-        out: The direction that must point down for contents to leave.
-        turn: The axis about which it is tipped.
-        both: It may be tipped either way.
+    ``out`` must point down for contents to leave; ``turn`` is the axis of tipping, ``both`` allows it either way.
     """
 
     at: Vector

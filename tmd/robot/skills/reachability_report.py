@@ -27,13 +27,9 @@ PICTURE = (960, 640)
 
 @dataclass(frozen=True, slots=True)
 class ReachabilityEntry:
-    """One object.
+    """One object: kind of its shape, whether it can be carried, the middle of its underside in metres, and its support.
 
-    Attributes:
-        kind: The kind of its shape.
-        item: Whether it can be carried.
-        position: Of the middle of its underside, in metres.
-        place: Its support and the relation; ``None`` for furniture and for what hangs in the air.
+    ``place`` is the support and the relation; ``None`` for furniture and for what hangs in the air.
     """
 
     name: str
