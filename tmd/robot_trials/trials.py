@@ -37,7 +37,7 @@ from tmd.world.folder import DomainFolder, find_domain, find_root
 
 @dataclass(frozen=True, slots=True)
 class TrialChoice:
-    """A prediction of a row to carry out in an environment; ``line`` is ``None`` if none can be executed there under PDDL."""
+    """A prediction of a row to carry out in an environment; ``line`` is ``None`` if none is executable under PDDL."""
 
     environment: str
     model: str

@@ -88,8 +88,8 @@ class ArmKinematics:
     ) -> list[tuple[float, ...]]:
         """Return configurations that bring the tool frame to a pose in ``base_link``, within the limits.
 
-        ``torso`` is the height of the torso joint. The results nearest to ``seed``, seven positions, come first (largest
-        joint motion counts). ``numeric`` selects damped least squares; None: only without ``pr2-ikfast``.
+        ``torso`` is the height of the torso joint. Results near ``seed``, seven positions, come first (largest joint
+        motion counts). ``numeric`` selects damped least squares; None: only without ``pr2-ikfast``.
         """
         closed = None if numeric else self._closed_form
         if numeric is False and closed is None:

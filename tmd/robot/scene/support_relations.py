@@ -43,8 +43,8 @@ def free_spots(
 ) -> list[Spot]:
     """Return free places on, in or next to something as it is now, best first.
 
-    ``relation`` is ``on``, ``in`` or ``next_to``. ``item`` is to stand there; None: a thing 7 cm wide. ``held`` items are
-    in a hand, and take no place away.
+    ``relation`` is ``on``, ``in`` or ``next_to``. ``item`` is to stand there; None: a thing 7 cm wide. ``held``
+    items are in a hand, and take no place away.
     """
     own = things.footprint(item) if item is not None else (-0.035, -0.035, 0.035, 0.035)
     names = [other for other in things.items() if other not in (item, things.whole(name), *held)]

@@ -54,19 +54,15 @@ class Engine:
             self.client: int = self._bullet._client
             self.renderer = "window" if gui else "egl" if pictures and egl_starts() else "tiny"
             if self.renderer == "egl":
-                self._load_egl()
+                spec = importlib.util.find_spec("eglRenderer")
+                assert spec is not None  # the probe found it
+                self._bullet.loadPlugin(spec.origin, "_eglRendererPlugin")
         if gui:
             self._bullet.configureDebugVisualizer(bullet.COV_ENABLE_GUI, 0)
         self._bullet.setGravity(0, 0, -GRAVITY)
         self._bullet.setPhysicsEngineParameter(
             fixedTimeStep=1 / STEPS_PER_SECOND, numSolverIterations=ITERATIONS, deterministicOverlappingPairs=1
         )
-
-    def _load_egl(self) -> None:
-        spec = importlib.util.find_spec("eglRenderer")
-        if spec is None or spec.origin is None:
-            raise AssertionError("the probe found the plugin")
-        self._bullet.loadPlugin(spec.origin, "_eglRendererPlugin")
 
     def __enter__(self) -> Self:
         return self
