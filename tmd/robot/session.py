@@ -101,7 +101,6 @@ class SimulationSession:
         return executor.execute([order.instruction for order in orders])
 
     def _show(self, state: State) -> None:
-        """Show contents and signs as in a state."""
         scene, skills = self.cell.scene, self.skills
         contents: dict[str, list[str]] = {}
         for atom in sorted(state):

@@ -26,17 +26,15 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """A space where items may be: on, in or next to a part.
+    """A space for items on, in or next to a part.
 
     Attributes:
-        part: The part (``ROOT``: the whole) whose region it is.
-        relation: ``on``, ``in`` or ``next_to``.
         link: The link it moves with.
-        low: Lower corner of the box; its z is where things stand.
+        low: Lower corner of the box; its z is that of the items' undersides.
         high: Upper corner.
-        entry: Unit vector along which the gripper comes in.
-        spots: Where items stand: (x, y, z, yaw), those best to reach first.
-        overhang: How far items may stick out at the front; ``inf``: on all sides, as a pot does over a burner.
+        entry: Unit vector along which the gripper enters.
+        spots: Places of items: (x, y, z, yaw), those best to reach first.
+        overhang: Allowed overhang of items at the front; ``inf``: on all sides, as of a pot over a burner.
         heap: Whether things may lie on one another there, as in a basket.
     """
 

@@ -367,16 +367,7 @@ def _read(path: Path) -> _Source:
     if not links:
         raise ModelFault(("urdf",), f"{path} has no links")
     for joint in joints:
-        told = f"{path}: the joint '{joint.get('name')}'"
-        if joint.get("type") not in ("fixed", "revolute", "continuous", "prismatic"):
-            kinds = "fixed, revolute, continuous or prismatic"
-            raise ModelFault(("urdf",), f"{told} is {joint.get('type') or 'of no type'}", f"a joint is {kinds}")
-        for end in ("parent", "child"):
-            if end_of(joint, end) not in links:
-                message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
-                raise ModelFault(("urdf",), message, nearest(end_of(joint, end), links))
-        if joint.find("mimic") is not None:
-            raise ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
+        _check_joint(path, joint, links)
     children = [end_of(joint, "child") for joint in joints]
     firsts = [link for link in links if link not in children]
     if len(firsts) != 1 or len(set(children)) != len(children):
@@ -385,6 +376,19 @@ def _read(path: Path) -> _Source:
         raise ModelFault(("urdf",), f"{path}: a link that is not the root is called 'root'", "call it something else")
     moved = {joint.get("name", ""): end_of(joint, "child") for joint in joints if joint.get("type") != "fixed"}
     return _Source(path, root, Tree(root) if joints else None, firsts[0], moved)
+
+
+def _check_joint(path: Path, joint: ET.Element, links: Sequence[str]) -> None:
+    told = f"{path}: the joint '{joint.get('name')}'"
+    if joint.get("type") not in ("fixed", "revolute", "continuous", "prismatic"):
+        kinds = "fixed, revolute, continuous or prismatic"
+        raise ModelFault(("urdf",), f"{told} is {joint.get('type') or 'of no type'}", f"a joint is {kinds}")
+    for end in ("parent", "child"):
+        if end_of(joint, end) not in links:
+            message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
+            raise ModelFault(("urdf",), message, nearest(end_of(joint, end), links))
+    if joint.find("mimic") is not None:
+        raise ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
 
 
 def _find_meshes(source: _Source) -> None:

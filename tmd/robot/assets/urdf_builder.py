@@ -96,7 +96,7 @@ class UrdfModel:
 
         ``kind`` is ``fixed``, ``revolute`` or ``prismatic``. Origin, axis and limits (radians or metres) are those of
         the joint in the root's frame; the link's frame lies there. The first link of a part is the part's own.
-        ``friction`` holds the joint where it is left, ``spring`` drives it back to 0 (N or N·m). A mass of 0: weightless.
+        ``friction`` holds the joint in place, ``spring`` drives it back to 0 (N or N·m). A mass of 0 means weightless.
         """
         self.links[name] = UrdfLink(name, ROOT, kind, origin, axis, *limits, friction, spring, mass or 0.001)
         self.part_links.setdefault(part, name)

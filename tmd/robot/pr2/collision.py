@@ -194,20 +194,17 @@ class CollisionChecker:
         number = {name: index for index, name in enumerate(self._links)}
         hand = {held.side: set(self._robot.tree.below(f"{held.side[0]}_wrist_flex_link")) for held in self._helds}
         result: list[tuple[int, int | str]] = []
-        resting: dict[str, None] = {}
         for index, name in enumerate(self._links):
             for other in self._robot.boxes:
                 second = number.get(other, -1)
+                near = (name, other) in disabled or 0 <= second <= index
                 if name.endswith(TOOL):
                     near = other in hand["right" if name[0] == "r" else "left"]
-                else:
-                    near = (name, other) in disabled or 0 <= second <= index
-                rigid = bool(self._vary) and second >= 0 and self._groups[second] == self._groups[index]
+                rigid = self._vary and second >= 0 and self._groups[second] == self._groups[index]
                 if near or rigid:
                     continue
                 result.append((index, second if second >= 0 else other))
-                if second < 0:
-                    resting[other] = None
+        resting = dict.fromkeys(other for _, other in result if isinstance(other, str))
         boxes = [moved(self._robot.boxes[name], frames[name][None]) for name in resting]
         self._resting = tuple(np.array([box[end][0] for box in boxes]).reshape(-1, 3) for end in (0, 1))
         place = {name: len(self._links) + row for row, name in enumerate(resting)}

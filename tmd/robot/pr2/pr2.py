@@ -389,8 +389,8 @@ class Pr2:
         """Return what the robot would touch: (robot link, body, link, depth), deepest first; nothing moves.
 
         ``side`` restricts the check to one arm, with what it holds, at positions ``arm`` (None: the present ones).
-        ``base`` and ``torso`` are the present ones if None. (body, link) of ``ignore`` may be touched, link None: all of
-        the body; ``margin`` is in metres. A tool frame stands for what that hand holds.
+        ``base`` and ``torso`` are the present ones if None. (body, link) of ``ignore`` may be touched, link None: all
+        of the body; ``margin`` is in metres. A tool frame stands for what that hand holds.
         """
         if arm is not None and side is None:
             raise ValueError("whose arm?")

@@ -25,14 +25,10 @@ _ELBOW = 3
 
 
 class ReachBounds:
-    """One arm's lengths.
+    """One arm's lengths in metres: ``shoulder`` is the pan joint in ``base_link`` with the torso at 0, (3,).
 
-    Attributes:
-        shoulder: The pan joint in ``base_link`` with the torso at 0, (3,).
-        offset: Metres from the pan axis to the lift axis.
-        nearest: Least metres from the lift axis to the wrist, with the elbow bent as far as it goes.
-        farthest: The same with the arm straight.
-        hand: Metres from the wrist to the tool.
+    ``offset`` is the distance from the pan axis to the lift axis, ``nearest`` and ``farthest`` those from the lift axis
+    to the wrist with the elbow bent and straight, ``hand`` that from the wrist to the tool.
     """
 
     def __init__(self, robot: Pr2, side: str) -> None:

@@ -63,21 +63,26 @@ def free_spots(
         near = {o: at for o, at in others.items() if low - 0.05 < at[0].position[2] < high}
         if filled:
             spots += _under_spouts(things, whole, region, own, near)
-        for turned in TURNS:
-            fitting = _fitting(frame, region, turned, own)
-            gap = HEAP_GAP if region.heap else GAP
-            free = [pose for pose in fitting if all(apart(pose, own, *at, gap) for at in near.values())]
-            spots += map(Spot, free)
-            if region.heap:
-                taken = [pose for pose in fitting if pose not in free]
-                heaped += (Spot(pose) for pose in _heaped(things, taken, own, near, high))
-            if free:
-                break
-        else:
-            if not region.heap:
-                spots += map(Spot, _squeezed_in(frame, region, own, near))
+        free, taken = _unoccupied(frame, region, own, near)
+        spots += map(Spot, free)
+        heaped += map(Spot, _heaped(things, taken, own, near, high))
     # beside what lies in a heap there may be room for a thing, and none for the hand
     return _spread(spots) + _spread(sorted(heaped, key=lambda spot: spot.pose.position[2]))
+
+
+def _unoccupied(
+    frame: Pose, region: Region, own: Footprint, near: Mapping[str, tuple[Pose, Footprint]]
+) -> tuple[list[Pose], list[Pose]]:
+    """Return free poses in a region, in the first turn that has any; of a heap also the other poses up to that."""
+    gap = HEAP_GAP if region.heap else GAP
+    taken: list[Pose] = []
+    for turned in TURNS:
+        fitting = _fitting(frame, region, turned, own)
+        free = [pose for pose in fitting if all(apart(pose, own, *at, gap) for at in near.values())]
+        taken += [pose for pose in fitting if region.heap and pose not in free]
+        if free:
+            return free, taken
+    return [] if region.heap else _squeezed_in(frame, region, own, near), taken
 
 
 def _under_spouts(

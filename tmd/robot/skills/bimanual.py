@@ -70,7 +70,7 @@ def reach_for(
 
 
 def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Option]]) -> Iterator[None]:
-    """Hold a thing out here, then with the robot turned away from what it stands before, then farther back."""
+    """Hold a thing out here, then turned away from what the robot stands before, then farther back."""
     x, y, theta = cell.robot.base()
     for back, turn in dict.fromkeys(_STANDS):
         base = (x - back * cos(theta), y - back * sin(theta), theta + turn)

@@ -211,6 +211,10 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, fi
                 raise
         else:
             break
+    return _put_down(cell, side, item, target, relation)
+
+
+def _put_down(cell: Cell, side: str, item: str, target: str, relation: str) -> str:
     _release(cell, side, item)
     cell.moment()
     _leave(cell, side, None, cell.links(item))

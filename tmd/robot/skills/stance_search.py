@@ -298,7 +298,6 @@ def _drive(cell: Cell, base: Base) -> None:
 
 
 def _lift(cell: Cell, torso: float) -> None:
-    """Move the torso, with tucked arms if they would be in something there."""
     if _sticks(cell, torso) and not (cell.fold() and not _sticks(cell, torso)):
         told = obstruction.of_posture(cell, torso) or "something is in the way"
         raise SkillError(SkillPhase.PATH, f"{told} of the arms with the torso at {torso:.2f} m")
