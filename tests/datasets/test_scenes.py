@@ -124,9 +124,9 @@ def test_the_robot_finds_its_place_in_rooms_of_the_release(released: VeilData) -
     """It stands free in the middle, can go before all furniture, and reaches most of what stands on a counter."""
     pytest.importorskip("pybullet", reason="needs the extra robot")
     from tmd.robot.scene.scene import Scene
-    from tmd.robot.setup import make_cell
     from tmd.robot.sim.simulator import Simulator
     from tmd.robot.skills.reachability_report import stance, survey
+    from tmd.robot.skills.robot_context import make_cell
 
     for name in ("kitchen/kitchen3.xml", "livingRoom/livingRoom3.xml"):
         veil = scene_of(read_room(Path(os.environ["VEIL500_DIR"]) / "Environments" / name))

@@ -17,6 +17,7 @@ from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Setbacks, without
+from tmd.robot.monitor.inference import FactInference
 from tmd.robot.monitor.observation import Observer
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillPhase, SkillStatus
 from tmd.robot.skills.skill_file import load_skills
@@ -122,6 +123,7 @@ def run(
         OBSERVERS[demonstration.environment] = known
     observer = copy(known)
     observer.senses = truth
+    observer._inference = FactInference(observer.skills, truth)
     executor = Executor(truth.problem, observer, truth, watch=told.append)
     return executor.execute(demonstration.instructions), truth, told
 

@@ -264,26 +264,17 @@ def _name(title: Title) -> str:
     return f"{title.instruction.name} {'repair' if title.repair else title.number}"
 
 
-class Idle:
-    """Does nothing."""
-
-    clock = 0
-
-    def perform(self, instruction: Instruction, gains: object, attempt: int) -> str:
-        return ""
-
-
 def told(plan: str, steps: str) -> Told:
     """What is told of ``steps``: each a letter, with ``!`` failed, with ``?`` not as predicted, with ``+`` a repair."""
     listener = Told()
-    recorder = Recorder(Idle(), [Order(Instruction(name)) for name in plan.split()], [listener])
+    recorder = Recorder([Order(Instruction(name)) for name in plan.split()], [listener])
     nothing: State = frozenset()
     wrong = (Mismatch(GroundAtom("p"), True, "not so"),)
     for word in steps.split():
         instruction = Instruction(word[0])
-        recorder.perform(instruction, (), 0)
+        recorder.begin(instruction, ())
         failure, mismatches = "it broke" * ("!" in word), wrong if "?" in word else ()
-        recorder.watch(ExecutedStep(instruction, "+" in word, failure, "", (), mismatches, 0, 0, nothing))
+        recorder.end(ExecutedStep(instruction, "+" in word, failure, "", (), mismatches, 0, 0, nothing))
     return listener
 
 

@@ -15,8 +15,7 @@ from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.pr2 import Pr2
 from tmd.robot.pr2.rrt import plan, shorten
-from tmd.robot.pr2.trajectory import dense, timed
-from tmd.robot.pr2.trajectory_following import JointGroup, exact
+from tmd.robot.pr2.trajectory_following import JointGroup, dense, exact, timed
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 

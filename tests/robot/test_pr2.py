@@ -11,9 +11,11 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
+from tmd.robot.pr2.posture import tuck
 from tmd.robot.pr2.pr2 import Pr2, finger_angle, finger_gap
 from tmd.robot.pr2.urdf import TUCKED
 from tmd.robot.sim.pose import Pose
+from tmd.robot.sim.rendering import pybullet
 from tmd.robot.sim.simulator import Simulator
 
 Box = Callable[..., int]
@@ -29,9 +31,9 @@ def robot_in(sim: Simulator, kinematic: bool = False, **options: tuple[float, fl
 def test_own_kinematics_are_those_of_the_simulator(sim: Simulator) -> None:
     robot = robot_in(sim)
     rng = np.random.default_rng(1)
-    for joint in sim.joints(robot.body).values():
-        if joint.kind != "fixed":
-            sim.set_joint(robot.body, joint.name, rng.uniform(max(joint.lower, -2), min(joint.upper, 2)))
+    for link in robot.tree.links.values():
+        if link.kind != "fixed":
+            sim.set_joint(robot.body, link.joint, rng.uniform(max(link.lower, -2), min(link.upper, 2)))
     frames = robot.tree.forward(robot.positions(), robot.tree.links, {robot.tree.root: np.eye(4)})
     for name, index in robot.index.items():
         np.testing.assert_allclose(sim.pose(robot.body, index).homogeneous(), frames[name], atol=1e-6)
@@ -104,7 +106,8 @@ def test_a_blocked_motion_fails_and_pushes_no_more(sim: Simulator, box: Box) -> 
     assert not robot.drive([(1.0, 0.0, 0.0)])
     assert robot.base()[0] < 0.6
     sim.step(120)
-    assert sum(each.force for each in sim.contacts(robot.body, wall)) < 500
+    points = pybullet().getContactPoints(robot.body, wall, physicsClientId=sim.client)
+    assert sum(point[9] for point in points) < 500
 
 
 def test_asking_changes_nothing(sim: Simulator, box: Box) -> None:
@@ -168,7 +171,7 @@ def test_arms_are_tucked(sim: Simulator, kinematic: bool) -> None:
     robot = robot_in(sim, kinematic)
     assert robot.move_arm("right", [(-0.5, 0.3, -0.8, -1.3, 0.4, -0.9, 0.5)])
     assert robot.move_arm("left", [(1.5, 0.3, 0.8, -1.3, 0.4, -0.9, 0.5)])
-    assert robot.tuck()
+    assert tuck(robot)
     for side in robot.arms:
         (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), TUCKED[side])
         assert near == pytest.approx(TUCKED[side], abs=0.011)

@@ -11,6 +11,7 @@ import pytest
 
 from tmd.diagnostics import TmdError
 from tmd.robot.sim.pose import Pose
+from tmd.robot.sim.rendering import pybullet
 from tmd.world.environment import Environment, load_environment
 from tmd.world.folder import DomainFolder
 
@@ -82,7 +83,7 @@ def test_what_the_hand_works_is_in_reach(scene: Scene) -> None:
 
 
 def test_every_item_has_a_grasp_with_room_for_the_fingers(scene: Scene, tmp_path: Path) -> None:
-    token = scene.sim.save()
+    token = pybullet().saveState(physicsClientId=scene.sim.client)
     open_everything(scene)
     fingers = Fingers(scene.sim, tmp_path)
     try:
@@ -98,7 +99,7 @@ def test_every_item_has_a_grasp_with_room_for_the_fingers(scene: Scene, tmp_path
             assert found, item
     finally:
         fingers.remove()
-        scene.sim.restore(token)
+        pybullet().restoreState(token, physicsClientId=scene.sim.client)
 
 
 def open_everything(scene: Scene) -> None:
@@ -139,7 +140,7 @@ class Fingers:
 
     def remove(self) -> None:
         for body in self.bodies:
-            self.sim.remove(body)
+            pybullet().removeBody(body, physicsClientId=self.sim.client)
 
 
 @pytest.mark.parametrize("path", [p for p in ENVIRONMENTS if p.stem in ("kitchen2", "room3")], ids=lambda p: p.stem)

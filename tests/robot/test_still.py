@@ -9,9 +9,10 @@ import pytest
 
 from tmd.pddl.model import Instruction, State
 from tmd.pddl.plan_file import parse_instruction
-from tmd.robot.sim.pose import Pose
+from tmd.robot.assets.urdf_builder import UrdfLink
+from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.skill_file import visible
-from tmd.robot.video.symbolic_renderer import INVISIBLE, Picture, Still, moved
+from tmd.robot.video.symbolic_renderer import INVISIBLE, Picture, Still
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
@@ -120,6 +121,10 @@ def test_a_scene_begins_as_the_simulated_one() -> None:
 
 
 def test_joints() -> None:
-    assert moved("prismatic", (0.0, 1.0, 0.0), 0.2).position == (0.0, 0.2, 0.0)
-    x, y, _ = moved("revolute", (0.0, 0.0, 1.0), 1.5707963267948966).apply((1.0, 0.0, 0.0))
+    assert _joint("prismatic", (0.0, 1.0, 0.0)).at(0.2).position == (0.0, 0.2, 0.0)
+    x, y, _ = _joint("revolute", (0.0, 0.0, 1.0)).at(1.5707963267948966).apply((1.0, 0.0, 0.0))
     assert (round(x, 9), round(y, 9)) == (0.0, 1.0)
+
+
+def _joint(kind: str, axis: Vector) -> UrdfLink:
+    return UrdfLink("link", "", kind, (0.0, 0.0, 0.0), axis, 0.0, 2.0, 0.0, 0.0, 0.1)

@@ -1,4 +1,4 @@
-"""Carry out a plan in simulation: the one driver of ``tmd run``, robot trials, the studio and the benchmarks."""
+"""The driver of ``tmd run``, robot trials, the studio and the benchmarks: a plan carried out in simulation."""
 
 from __future__ import annotations
 
@@ -18,21 +18,13 @@ from tmd.robot.video.movie_file import MovieFile
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
+# Receives the simulation before the first instruction, and returns listeners of the run.
 Prepare = Callable[[SimulationSession], Sequence[Listener]]
-"""Is given the simulation before the first instruction, and returns who is told how the run goes."""
 
 
 @dataclass(frozen=True, slots=True)
 class Filming:
-    """What is filmed, and what stands over the pictures.
-
-    Attributes:
-        heading: The title.
-        text: What was said, if anything was.
-        movie: The film's file, open; none without it.
-        strip: Where the sheet with one picture for each instruction goes; none without it.
-        tile: Width and height of the pictures of that sheet.
-    """
+    """Title and request of a film or strip, and their files, if any; ``tile`` is the size of the strip's pictures."""
 
     heading: str
     text: str = ""
@@ -43,12 +35,7 @@ class Filming:
 
 @dataclass(frozen=True, slots=True)
 class PlanRun:
-    """What came of a run.
-
-    Attributes:
-        execution: How it ended, with every step.
-        sim_steps: Steps of the physics from the making of the scene on.
-    """
+    """The execution of a plan, and the steps of the physics since the scene was made."""
 
     execution: Execution
     sim_steps: int
@@ -71,25 +58,12 @@ def run_plan(
 ) -> PlanRun:
     """Carry out a plan in a new simulation, each effect checked.
 
-    Args:
-        environment: What there is and where.
-        folder: Its domain, with shapes and skills.
-        problem: The environment as PDDL.
-        orders: The plan.
-        prepare: Is given the simulation, and returns who is told how the run goes.
-        filming: What is filmed.
-        planner: Replans where the state that was observed is not the predicted one.
-        repairs: Maximum number of replannings.
-        kinematic: Set joints along their paths instead of driving motors.
-        seed: Random seed; 0 leaves all things exactly where they are said to be.
-        urdf: Another PR2 than the packaged one.
-        gui: Open a window, and go no faster than real time.
-
-    Returns:
-        What came of it. The strip is written even where an error ends the run.
+    ``prepare`` receives the simulation and returns listeners of the run. ``repairs`` is the maximum number of
+    replannings by ``planner``. The other arguments are those of :class:`tmd.robot.session.SimulationSession`. The strip
+    is written even if an error ends the run.
 
     Raises:
-        MissingToolError: What simulates or films is not installed.
+        MissingToolError: A package that simulates or films is not installed.
         TmdError: The domain has no skills or no shapes, the scene cannot be built, or ``urdf`` is not a PR2.
     """
     with ExitStack() as stack:

@@ -1,55 +1,40 @@
-"""A simulation that is ready for a plan: the room, the robot in it, and what sees whether the plan works."""
+"""A simulation that is ready for a plan: the room, the robot in it, and the observer of the plan."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 import numpy as np
 
-from tmd.pddl.model import GroundAtom, Problem
+from tmd.pddl.model import Problem, State
 from tmd.planning.backends import IN_PROCESS
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Performer
-from tmd.robot.monitor.listeners import Listener, Order, Recorder, Title
+from tmd.robot.monitor.listeners import Listener, Order, Recorder
 from tmd.robot.monitor.observation import Observer
-from tmd.robot.pr2.pr2 import Pr2
 from tmd.robot.scene.scene import Scene
-from tmd.robot.setup import show_state
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.performer import RobotPerformer
 from tmd.robot.skills.results import ExecutedStep, Execution
-from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.robot_context import make_cell
 from tmd.robot.skills.skill_file import load_skills
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
+# Seconds that a kinematic tick is shown for: it is a stride of a few centimetres. Drawing takes most of the time of a
+# film, and with these there are as many pictures as under physics.
 TICK = 1 / 30
-"""Seconds that a kinematic tick is shown for: it is a stride of a few centimetres. Drawing takes most of the time of a
-film, and with these there are as many pictures as under physics."""
 
 
 class SimulationSession:
-    """An environment with a PR2 in it.
+    """An environment, with its PDDL problem, and a PR2 in it.
 
-    Args:
-        environment: What there is and where.
-        folder: Its domain, with shapes and skills.
-        problem: The environment as PDDL.
-        kinematic: Set joints along their paths instead of driving motors.
-        seed: Random seed. With 0 all things stand exactly where they are said to be; other seeds move them
-            by millimetres.
-        urdf: Another PR2 than the packaged one.
-        gui: Open a window, and go no faster than real time.
-        pictures: Pictures will be taken.
-
-    Attributes:
-        sim: The simulation.
-        cell: Robot and scene.
-        skills: The domain's.
+    With seed 0 all things are exactly at their places; other seeds move them by millimetres. ``kinematic`` sets joints
+    along their paths instead of driving motors. ``urdf`` is another PR2 than the packaged one. ``gui`` opens a window
+    and goes no faster than real time. ``pictures`` announces that pictures will be taken.
 
     Raises:
         MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.
@@ -73,9 +58,7 @@ class SimulationSession:
         self.sim = Simulator(gui=gui, pictures=pictures)
         try:
             scene = Scene(self.sim, environment, folder, rng=np.random.default_rng(seed) if seed else None)
-            rng = np.random.default_rng(seed)
-            robot = Pr2(self.sim, urdf=urdf, kinematic=kinematic, rng=rng)
-            self.cell = Cell(self.sim, robot, scene, rng)
+            self.cell = make_cell(self.sim, scene, seed=seed, kinematic=kinematic, urdf=urdf)
             self._observer = Observer(problem, folder, self.skills, self.cell)
         except BaseException:
             self.sim.close()
@@ -86,9 +69,7 @@ class SimulationSession:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.sim.close()
 
     def execute(
@@ -100,44 +81,41 @@ class SimulationSession:
         repairs: int = MOST_REPAIRS,
         wrap: Callable[[RobotPerformer], Performer] | None = None,
     ) -> Execution:
-        """Carry out a plan.
+        """Carry out a plan, with its events sent to listeners.
 
-        Args:
-            orders: The plan.
-            listeners: Who is told how it goes.
-            planner: Which planner replans.
-            repairs: How often.
-            wrap: Makes another performer of the robot; experiments inject faults with it.
-
-        Returns:
-            How it went; listeners were told where in the plan each step stands.
+        ``repairs`` is the maximum number of replannings. ``wrap`` makes another performer of the robot, for experiments
+        that inject faults.
         """
-        plan = [order.instruction for order in orders]
         robot = RobotPerformer(self.cell, self.skills)
         performer: Performer = robot if wrap is None else wrap(robot)
-        recorder = Recorder(performer, orders, (_Signs(self), *listeners))
+        recorder = Recorder(orders, listeners)
+
+        def watch(step: ExecutedStep) -> None:
+            self._show(step.state)
+            recorder.end(step)
+
         executor = Executor(
-            self.problem, self._observer, recorder, planner=planner, most_repairs=repairs, watch=recorder.watch
-        )
-        return executor.execute(plan)
+            self.problem, self._observer, performer, planner=planner, most_repairs=repairs,
+            begin=recorder.begin, watch=watch,
+        )  # fmt: skip
+        return executor.execute([order.instruction for order in orders])
 
-
-class _Signs:
-    """Lets contents and signs look as the state that was observed."""
-
-    def __init__(self, stage: SimulationSession) -> None:
-        self._stage = stage
-
-    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """Nothing has changed yet."""
-
-    def end(self, title: Title, step: ExecutedStep) -> None:
-        """What was poured is there now, a burner glows."""
-        show_state(self._stage.cell.scene, self._stage.skills, step.state)
+    def _show(self, state: State) -> None:
+        scene, skills = self.cell.scene, self.skills
+        contents: dict[str, list[str]] = {}
+        for atom in sorted(state):
+            if atom.predicate == skills.contents and len(atom.args) == 2:
+                contents.setdefault(atom.args[0], []).append(atom.args[1])
+        for name in scene.items():
+            scene.show(name, contents.get(name, ()))
+        for predicate in skills.signs:
+            shown = {atom.args[0] for atom in state if atom.predicate == predicate}
+            for name in scene.names():
+                scene.sign(name, predicate, name in shown)
 
 
 class _Pace:
-    """Lets a simulation go no faster than real time: people watch it."""
+    """Limits a simulation to real time."""
 
     def __init__(self, sim: Simulator) -> None:
         self._steps, self._due = sim.steps, time.monotonic()

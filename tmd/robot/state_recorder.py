@@ -1,4 +1,4 @@
-"""What the joints, the base and the things did in a run, at a chosen rate."""
+"""Recording of joints, base and things during a run, at a given rate."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ class Sample:
         number: The place in the plan, from 1, of the instruction that is being done; 0 between two of them.
         instruction: That instruction; empty between two of them.
         base: Of the robot: x, y in metres and theta in radians.
-        joints: Positions of the robot's joints that move, but for the base's; radians or metres.
-        velocities: Theirs; all 0 where joints are set and not driven.
-        objects: Where the things are that can be carried.
+        joints: Positions of the robot's joints that move, without those of the base; radians or metres.
+        velocities: Theirs; all 0 if joints are set and not driven.
+        objects: The poses of items.
         object_joints: Positions of doors, drawers, lids, knobs and buttons.
     """
 
@@ -43,7 +43,7 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """What a recording is of: the environment's name, where the furniture stands, samples a second."""
+    """The subject of a recording: the environment's name, the poses of the furniture, samples a second."""
 
     environment: str
     fixtures: Mapping[str, Pose]
@@ -51,26 +51,21 @@ class Recorded:
 
 
 class SampleWriter(Protocol):
-    """Takes a recording as it grows."""
+    """Receiver of a growing recording."""
 
     def open(self, what: Recorded) -> None:
-        """It begins."""
+        """Receive the subject."""
         ...
 
     def write(self, sample: Sample) -> None:
-        """The next sample; times never go back."""
+        """Receive the next sample; times never go back."""
         ...
 
 
 class StateRecorder:
-    """Samples a simulation: a listener of its run, and a watcher of its clock.
+    """Samples a simulation ``rate`` times a second, and at the beginning and the end of each instruction.
 
-    There is a sample at the beginning and the end of each instruction besides those of the rate.
-
-    Args:
-        session: The simulation.
-        rate: Samples a second.
-        writer: Takes them.
+    It is a listener of the run, and a watcher of its clock.
     """
 
     def __init__(self, session: SimulationSession, rate: float, writer: SampleWriter) -> None:
@@ -95,12 +90,12 @@ class StateRecorder:
         self._sample()
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """An instruction begins."""
+        """Sample at the beginning of an instruction."""
         self._title = title
         self._sample()
 
     def end(self, title: Title, step: ExecutedStep) -> None:
-        """It is over."""
+        """Sample at its end."""
         self._sample()
         self._title = None
 

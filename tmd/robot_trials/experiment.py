@@ -1,4 +1,4 @@
-"""A whole experiment, from its configuration to the pages: what ``tmd experiment`` does."""
+"""The driver of ``tmd experiment``: a whole experiment, from its configuration to the pages."""
 
 from __future__ import annotations
 
@@ -34,22 +34,19 @@ from tmd.world.folder import find_domain, find_root
 
 
 def write_pages(config: ExperimentConfig, *, carried_out: bool = False) -> int:
-    """Write the pages of a finished run on the bundled data.
+    """Write the pages of a finished run on the bundled data, and return their number.
 
     Instructions of VEIL-500 are in a notation of its own, and its texts may not be passed on: it gets no pages. A
-    prediction of which no page can be made (its environment is gone, say) has none.
+    prediction without a page (its environment is gone, say) is left out.
 
     Args:
         config: The run.
         carried_out: Write the pages of those predictions only that a robot carried out, and leave the others alone;
-            otherwise all, and what is not shown any more is removed.
-
-    Returns:
-        How many pages were written.
+            otherwise all, and pages that the report no longer links are removed.
 
     Raises:
         OutputError: The run's directory cannot be written.
-        TmdError: The directory holds no finished run.
+        TmdError: The directory does not hold a finished run.
     """
     if config.data != BUNDLED:
         return 0
@@ -69,7 +66,7 @@ def write_pages(config: ExperimentConfig, *, carried_out: bool = False) -> int:
 
 
 def _shown(run: Run, trials: Trials | None) -> Iterator[PredictionRecord]:
-    """The predictions that the report shows, and those that were carried out."""
+    """Yield the predictions that the report shows, and those that were carried out."""
     for model in run.metrics.models:
         if model != EMPTY:
             best, worst = best_and_worst(run.of(model))
@@ -78,7 +75,7 @@ def _shown(run: Run, trials: Trials | None) -> Iterator[PredictionRecord]:
 
 
 def _tried(run: Run, trials: Trials | None) -> Iterator[PredictionRecord]:
-    """The predictions that were carried out."""
+    """Yield the predictions that were carried out."""
     found = trials.found if trials else ()
     yield from (line for line in run.lines if any(_is_of(trial, line) for trial in found))
 
@@ -107,13 +104,13 @@ def _plain(
     ran: Ran | None,
     strip: Strip | None,
 ) -> Subject:
-    """A prediction of a row that does not work by clauses."""
+    """Return a prediction of a row that does not work by clauses."""
     steps = tuple(map(PlannedStep, instructions))
     return Subject(title, world.task.problem, steps, said, ran=ran, strip=strip, made=tuple(made))
 
 
 def _ranked(line: PredictionRecord) -> RankedPlan | None:
-    """The prediction by clauses; nothing where its steps are not the clauses'."""
+    """Return the prediction by clauses; None if its steps are not those of the clauses."""
     if not line.whole:
         return None
     choices = []
@@ -160,11 +157,11 @@ def run_experiment(
 
     Args:
         config: The run. A share of one (``config.shard``) is done by :func:`tmd.evaluation.runs.experiment.work`.
-        collect_only: Train nothing: recompute everything from what is done.
-        progress: Is told the number of parts done and of all parts.
+        collect_only: Train nothing: recompute everything from finished parts.
+        progress: Called with the number of parts done and of all parts.
 
     Returns:
-        What ``metrics.json`` has; ``report.html`` is beside it in ``config.out``.
+        The contents of ``metrics.json``; ``report.html`` is beside it in ``config.out``.
 
     Raises:
         TmdError: The configuration, the data, the directory or the cluster cannot be used, or parts are missing.
@@ -180,16 +177,16 @@ def carry_out_predictions(config: ExperimentConfig, mode: Mode, *, progress: Pro
 
     Args:
         config: The run.
-        mode: How the robot moves, ``kinematic`` or ``physics``.
-        progress: Is told the number of trials done and of all trials.
+        mode: Motion of the robot, ``kinematic`` or ``physics``.
+        progress: Called with the number of trials done and of all trials.
 
     Returns:
-        What came of it; where no trial could be made, why.
+        The trials, or the reason why none could be made.
 
     Raises:
         OutputError: The run's directory cannot be written.
         WorkerLostError: A process that simulated was killed.
-        TmdError: The directory holds no finished run.
+        TmdError: The directory does not hold a finished run.
     """
     trials = run_trials(config, mode, progress)
     write_pages(config, carried_out=True)

@@ -1,4 +1,4 @@
-"""The robot carries out predictions of a run: which ones, each of them, and what is recorded."""
+"""Trials: the selection of predictions of a run, their execution by the robot, and their records."""
 
 from __future__ import annotations
 
@@ -37,13 +37,7 @@ from tmd.world.folder import DomainFolder, find_domain, find_root
 
 @dataclass(frozen=True, slots=True)
 class TrialChoice:
-    """A prediction to carry out.
-
-    Attributes:
-        environment: Where.
-        model: The row.
-        line: The prediction; ``None`` where no prediction of the row can be executed there under PDDL.
-    """
+    """A prediction of a row to carry out in an environment; ``line`` is ``None`` if none is executable under PDDL."""
 
     environment: str
     model: str
@@ -51,9 +45,9 @@ class TrialChoice:
 
 
 def choices(run: Run) -> list[TrialChoice]:
-    """One for each environment that was tested in, in the order of the run.
+    """Return one choice for each tested environment, in the order of the run.
 
-    The row is the model that ships, so that the films show what users get; where a run is without it, the row with the
+    The row is the model that ships, so that the films show what users get; in a run without it, the row with the
     greatest END on average, in a tie the last. Of its predictions in an environment the first is taken that can be
     executed under PDDL, and that reaches its goal if one does.
     """
@@ -70,7 +64,7 @@ def choices(run: Run) -> list[TrialChoice]:
 
 
 def _first(lines: Sequence[PredictionRecord]) -> PredictionRecord | None:
-    """The first that reaches its goal, or the first."""
+    """Return the first that reaches its goal, or the first."""
     return next((line for line in lines if line.success), next(iter(lines), None))
 
 
@@ -79,8 +73,8 @@ def _works(line: PredictionRecord) -> bool:
 
 
 PICTURE = (400, 300)
+# Small films: they stand in a page.
 FPS = 5
-"""Small films: they stand in a page."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,11 +82,11 @@ class Job:
     """One trial that is to be made; it can be sent to another process.
 
     Attributes:
-        asked: What is to be done.
+        asked: The request.
         line: The prediction.
         domain: The domain's folder.
         problems: The directory of its problems.
-        out: Where record and films go.
+        out: Destination of record and films.
     """
 
     asked: TrialRequest
@@ -111,7 +105,7 @@ def perform(job: Job) -> None:
     """Make a trial, and write its record last.
 
     Raises:
-        MissingToolError: What simulates is not installed.
+        MissingToolError: The simulator is not installed.
         OutputError: It cannot be written.
     """
     try:
@@ -156,7 +150,7 @@ def _carried_out(job: Job) -> Trial:
 
 
 def _movie(job: Job) -> MovieFile | None:
-    """The film's file: MP4, where there is no ffmpeg a GIF, and none where pictures cannot be made at all."""
+    """Open the film's file: MP4, without ffmpeg a GIF, and None if pictures cannot be made at all."""
     for suffix in (".mp4", ".gif"):
         try:
             return open_movie(job.out / f"{job.asked.environment}{suffix}", PICTURE, FPS, small=True)
@@ -166,7 +160,7 @@ def _movie(job: Job) -> MovieFile | None:
 
 
 def orders_of(line: PredictionRecord) -> list[Order]:
-    """A prediction as orders; where the model worked by clauses, with the words that each instruction is for."""
+    """Return a prediction as orders; if the model worked by clauses, with the words that each instruction is for."""
     if not line.whole:
         return [Order(parse_instruction(text)) for text in line.predicted]
     return [
@@ -178,16 +172,16 @@ def orders_of(line: PredictionRecord) -> list[Order]:
 
 
 class _Notes:
-    """Writes down each step."""
+    """Record of each step."""
 
     def __init__(self) -> None:
         self.steps: list[RanStep] = []
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """An instruction begins."""
+        """Record nothing yet."""
 
     def end(self, title: Title, step: ExecutedStep) -> None:
-        """It is over."""
+        """Record the step."""
         self.steps.append(RanStep.of(title, step))
 
 
@@ -198,18 +192,7 @@ Progress = Callable[[int, int], None]
 def run_trials(config: ExperimentConfig, mode: Mode, progress: Progress | None = None) -> Trials:
     """Let the robot carry out one prediction for each environment of a finished run.
 
-    Args:
-        config: The run.
-        mode: How the robot moves.
-        progress: Is told the number of trials done and of all trials.
-
-    Returns:
-        What came of it; where no trial could be made, why.
-
-    Raises:
-        OutputError: The run's directory cannot be written.
-        WorkerLostError: A process that simulated was killed.
-        TmdError: The directory holds no finished run.
+    The arguments, results and errors are those of :func:`tmd.robot_trials.experiment.carry_out_predictions`.
     """
     folder = make_directory(config.out / FOLDER)
     reason = _hindrance(config)
@@ -228,7 +211,7 @@ def run_trials(config: ExperimentConfig, mode: Mode, progress: Progress | None =
 
 
 def _hindrance(config: ExperimentConfig) -> str:
-    """Why no trial can be made here; empty where they can."""
+    """Return the reason why no trial can be made here; empty without one."""
     if config.data != BUNDLED:
         return "the actions of VEIL-500 have no skills: the robot acts in bundled environments only"
     if find_spec("pybullet") is None:
@@ -250,23 +233,18 @@ def _perform_all(config: ExperimentConfig, mode: Mode, folder: Path, progress: P
     done = len(chosen) - len(left)
     if progress:
         progress(done, len(chosen))
-    jobs = []
+    jobs = []  # with absolute paths: other processes may work elsewhere
     for choice, each in left:
         if choice.line is None:
             _without_plan(folder, each)
             done += 1
         else:
-            jobs.append((Job(each, choice.line, _absolute(domain), problems.resolve(), folder.resolve()),))
+            jobs.append((Job(each, choice.line, domain.path.resolve(), problems.resolve(), folder.resolve()),))
     with closing(in_processes(perform, jobs, config.jobs)) as ended:
         for _ in ended:
             done += 1
             if progress:
                 progress(done, len(chosen))
-
-
-def _absolute(domain: DomainFolder) -> Path:
-    """Other processes may work elsewhere."""
-    return domain.path.resolve()
 
 
 def _asked(choice: TrialChoice, config: ExperimentConfig, mode: Mode) -> TrialRequest:
@@ -284,7 +262,7 @@ def _asked(choice: TrialChoice, config: ExperimentConfig, mode: Mode) -> TrialRe
 
 
 def _is_done(folder: Path, asked: TrialRequest) -> bool:
-    """Whether the same trial was made before, and its films are there."""
+    """Return whether the same trial was made before, and its films are there."""
     path = folder / f"{asked.environment}.json"
     if not path.is_file():
         return False
@@ -297,7 +275,7 @@ def _is_done(folder: Path, asked: TrialRequest) -> bool:
 
 
 def _forget_others(folder: Path, environments: set[str]) -> None:
-    """Trials in environments that this run does not test in are not its own."""
+    """Remove trials in environments that this run does not test in."""
     for path in folder.glob("*.json"):
         if path.stem not in environments:
             try:

@@ -1,4 +1,4 @@
-"""What things look like and are made of: builders of URDF models by kind of shape.
+"""Builders of URDF models by kind of shape: geometry, colours and features of furniture and things.
 
 Begin with :mod:`tmd.robot.assets.kinds`, the table of all kinds.
 """

@@ -1,4 +1,4 @@
-"""What a builder of shapes is told: sizes, colours, and which parts the object has."""
+"""Input of the builders of shapes: sizes, colours, and the parts of the object."""
 
 from __future__ import annotations
 
@@ -11,16 +11,7 @@ from tmd.robot.sim.pose import Vector
 
 @dataclass(frozen=True, slots=True)
 class Appearance:
-    """A shape with nothing left open.
-
-    Attributes:
-        kind: The kind of shape.
-        size: Depth, width, height.
-        colour: Of the body.
-        accent: Of what stands out on it.
-        mass: In kilograms.
-        settings: Of a knob.
-    """
+    """A completely specified shape: depth, width and height in metres, mass in kilograms, ``settings`` of a knob."""
 
     kind: str
     size: Vector
@@ -37,7 +28,7 @@ class Parts:
     looks: dict[str, Appearance]
 
     def of(self, *kinds: str) -> list[tuple[str, Appearance]]:
-        """Those of some kinds."""
+        """Return the parts of some kinds."""
         return [(name, look) for name, look in self.looks.items() if look.kind in kinds]
 
 
@@ -50,9 +41,9 @@ class ShapeKind:
 
     Attributes:
         sort: ``fixture``, ``item`` or ``part``.
-        default: How it looks where a class says nothing.
+        default: Used where a class leaves something open.
         build: Builds the object; a part is built by the builder of its whole.
-        takes: The kinds of parts that it has a place for, and how many of each at most.
+        takes: The kinds of parts that it has a place for, and the maximum number of each.
     """
 
     sort: str
@@ -64,14 +55,9 @@ class ShapeKind:
 def rows(
     front: float, width: float, depths: tuple[float, ...], pitch: float = 0.08, middle: float = 0.0
 ) -> list[tuple[float, float, float]]:
-    """Spots (x, y, yaw 0) behind a front edge, in rows; every row from the middle outwards.
+    """Return spots (x, y, yaw 0) in rows at some depths behind a front edge, each row from its middle outwards.
 
-    Args:
-        front: x of the front edge.
-        width: From the first to the last spot of a row.
-        depths: How far the rows are behind the edge.
-        pitch: Between neighbours.
-        middle: y of the middle.
+    ``width`` is that from the first to the last spot of a row, ``pitch`` that between neighbours; metres.
     """
     count = int(width / pitch + 1e-6)
     steps = sorted((index - count / 2 for index in range(count + 1)), key=lambda s: (abs(s), s))

@@ -4,50 +4,41 @@ from __future__ import annotations
 
 import math
 
+from tmd.robot.assets import fittings
 from tmd.robot.assets.appearance import Appearance, Parts, rows
-from tmd.robot.assets.fittings import DOOR, DOWN, INTO, button, door, fronts, knob, side_board, tap_lever
+from tmd.robot.assets.fittings import DOOR, DOWN, INTO, button, door, fronts, knob, tap_lever
 from tmd.robot.assets.furniture import ROOM, WALL, chamber
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
-SIDE = 0.34
-"""Width of a side board."""
-
 
 def cooker(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A stove with an oven; burners on top in two columns, the first two in front, knobs in front."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1 = right - SIDE
+    """Build a stove with an oven: burners on top in two columns, the first two in front, and knobs in front."""
+    x, y0, y1, height = fittings.beside_board(look)
     model.slab((-x, y0 + 0.01, 0.0), (x - 0.06, y1, 0.08), "dark_grey")
     model.slab((-x, y0, 0.08), (x, y1, height - 0.015), look.colour)
     model.slab((-x, y0, height - 0.015), (x, y1, height), "black")
     model.slab((x, y0 + 0.06, 0.2), (x + 0.012, y1 - 0.06, height - 0.16), "black", solid=False)
     model.box((x + 0.03, (y0 + y1) / 2, height - 0.19), (0.015, y1 - y0 - 0.12, 0.015), look.accent, solid=False)
     _hob(model, parts, x, (y0, y1), height, height - 0.06)
-    side_board(model, x, -x, y1, right, height, "oak")
+    fittings.side_board(model, look, height)
 
 
 def hotplate(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A camping stove on a table."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, stand, step = right - SIDE, height - 0.08, 0.05
-    for sign in (y0 + 0.03, y1 - 0.03):
-        for end in (-x + 0.03, x - 0.03):
-            model.box((end, sign, (stand - 0.03) / 2), (0.04, 0.04, stand - 0.03), "walnut")
+    """Build a camping stove on a table."""
+    x, y0, y1, height = fittings.beside_board(look)
+    stand, step = height - 0.08, 0.05
+    fittings.legs(model, (-x + 0.03, x - 0.03), (y0 + 0.03, y1 - 0.03), stand - 0.03, 0.04, "walnut")
     model.slab((-x, y0, stand - 0.03), (x, y1, stand), "oak")
     model.slab((-x + step, y0 + 0.02, stand), (x - 0.01, y1 - 0.02, height), look.colour)
     _hob(model, parts, x - 0.01, (y0 + 0.02, y1 - 0.02), height, stand + 0.04)
-    side_board(model, x, -x, y1, right, stand, "oak")
+    fittings.side_board(model, look, stand)
 
 
 def heater(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A plate on a stand that heats what stands on it; its knob is in front."""
+    """Build a plate on a stand that heats what stands on it, with its knob in front."""
     depth, width, height = look.size
     x, y, stand = depth / 2, width / 2, height - 0.1
-    for sign in (-y + 0.03, y - 0.03):
-        for end in (-x + 0.03, x - 0.03):
-            model.box((end, sign, (stand - 0.03) / 2), (0.04, 0.04, stand - 0.03), "walnut")
+    fittings.legs(model, (-x + 0.03, x - 0.03), (-y + 0.03, y - 0.03), stand - 0.03, 0.04, "walnut")
     model.slab((-x, -y, stand - 0.03), (x, y, stand), "oak")
     front, half, back = x - 0.03, y - 0.06, -x + 0.05
     model.slab((back, -half, stand), (front, half, height - 0.008), look.colour)
@@ -64,7 +55,7 @@ def heater(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def _hob(model: UrdfModel, parts: Parts, front: float, sides: tuple[float, float], top: float, knobs: float) -> None:
-    """Burners on a top and knobs before it."""
+    """Add burners to a top and knobs before it."""
     burners, middle, width = parts.of("burner"), (sides[0] + sides[1]) / 2, sides[1] - sides[0]
     columns = 2 if len(burners) > 1 else 1
     deep = len(burners) > columns
@@ -85,10 +76,9 @@ def _hob(model: UrdfModel, parts: Parts, front: float, sides: tuple[float, float
 
 
 def sink(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A sink with a shallow basin in a cabinet, the tap behind it and its lever beside it."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, floor = right - SIDE, height - 0.08
+    """Build a sink with a shallow basin in a cabinet, the tap behind it and its lever beside it."""
+    x, y0, y1, height = fittings.beside_board(look)
+    floor = height - 0.08
     model.slab((-x, y0 + 0.01, 0.0), (x - 0.07, y1, 0.1), "dark_grey")
     model.slab((-x, y0, 0.1), (x - 0.02, y1, floor - 0.01), look.colour)
     fronts(model, x - 0.02, (y0, 0.12), (y1, floor - 0.03), 2, look.colour, "dark_steel")
@@ -113,13 +103,13 @@ def sink(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         _stream(model, part, (foot + 0.24, middle), floor, spout - 0.05)
     for part, said in parts.of("tap_handle", "knob"):
         tap_lever(model, part, said, (x - 0.16, y1 - 0.065, height))
-    side_board(model, x, -x, y1, right, height, "oak")
+    fittings.side_board(model, look, height)
 
 
 def _stream(
     model: UrdfModel, part: str, at: tuple[float, float], low: float, high: float, colour: str = "water"
 ) -> None:
-    """A stream of liquid, seen while the part is active: straight down from where the spout ends."""
+    """Add a stream of liquid, straight down from the spout and visible while the part is active."""
     model.spouts[part] = (*at, high)
     name = f"{part}_stream"
     model.link(name, part=part)
@@ -128,10 +118,9 @@ def _stream(
 
 
 def microwave(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A microwave oven on a stand: its door opens to the left, the buttons are on the right."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, stand = right - SIDE, height - 0.42
+    """Build a microwave oven on a stand: its door opens to the left, the buttons are on the right."""
+    x, y0, y1, height = fittings.beside_board(look)
+    stand = height - 0.42
     low, high, panel = y0 + 0.02, y1 - 0.02, 0.15
     for side in (y0, y1 - 0.04):
         model.slab((-x, side, 0.0), (x, side + 0.04, stand - 0.03), "walnut")
@@ -154,14 +143,13 @@ def microwave(model: UrdfModel, look: Appearance, parts: Parts) -> None:
              latched=said.kind == "latched_door", window=True)  # fmt: skip
     for index, (part, said) in enumerate(parts.of("button")):
         button(model, part, said, (front + DOOR, split + panel / 2 + 0.01, height - 0.17 - 0.13 * index))
-    side_board(model, x, -x, y1, right, stand, "oak")
+    fittings.side_board(model, look, stand)
 
 
 def fridge(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A fridge above a freezer; with a dispenser, a panel with niche and button beside the door."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, base = right - SIDE, 0.70
+    """Build a fridge above a freezer; with a dispenser, a panel with niche and button beside the door."""
+    x, y0, y1, height = fittings.beside_board(look)
+    base = 0.70
     niches = parts.of("niche")
     split = y1 - 0.32 if niches else y1
     front, middle = x - DOOR, base + (height - base) / 2
@@ -190,14 +178,13 @@ def fridge(model: UrdfModel, look: Appearance, parts: Parts) -> None:
                      overhang=math.inf)  # fmt: skip
     for part, said in parts.of("button"):
         button(model, part, said, (x, (split + y1) / 2, 1.1))
-    side_board(model, x, -x, y1, right, 0.82, "oak")
+    fittings.side_board(model, look, 0.82)
 
 
 def coffee_maker(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A coffee maker on a stand: a plate for one cup, the spout above it, a slot for the pod on top."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, stand = right - SIDE, height - 0.44
+    """Build a coffee maker on a stand: a plate for one cup, the spout above it, a slot for the pod on top."""
+    x, y0, y1, height = fittings.beside_board(look)
+    stand = height - 0.44
     model.slab((-x, y0 + 0.02, 0.0), (x - 0.02, y1, stand - 0.03), "cream")
     fronts(model, x - 0.02, (y0 + 0.02, 0.05), (y1, stand - 0.06), 1, "cream", "dark_steel")
     model.slab((-x, y0, stand - 0.03), (x, y1, stand), "oak")
@@ -228,4 +215,4 @@ def coffee_maker(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         _stream(model, part, (at, middle), plate, head - 0.024, "chocolate")
     for part, said in parts.of("button"):
         button(model, part, said, (end, middle, head + 0.03))
-    side_board(model, x, -x, y1, right, stand, "oak")
+    fittings.side_board(model, look, stand)

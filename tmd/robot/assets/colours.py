@@ -28,14 +28,14 @@ _GREY_LINKS = ("head", "elbow", "forearm_roll", "wrist", "caster", "shoulder_lif
 
 
 def robot_colour(link: str) -> tuple[float, float, float, float]:
-    """The colour of a link of the PR2, whose model has signal colours."""
+    """Return the colour of a link of the PR2, whose model has signal colours."""
     dark = any(word in link for word in _DARK_LINKS)
     grey = any(word in link for word in _GREY_LINKS)
     return _DARK if dark else _GREY if grey else _OFF_WHITE
 
 
 def rgba(colour: str) -> tuple[float, float, float, float]:
-    """A name of the palette or ``#rrggbb`` as red, green, blue, alpha between 0 and 1.
+    """Return a colour of the palette or ``#rrggbb`` as red, green, blue, alpha between 0 and 1.
 
     Raises:
         KeyError: There is no colour of this name.
@@ -46,7 +46,7 @@ def rgba(colour: str) -> tuple[float, float, float, float]:
 
 
 def mixed(substances: Sequence[str]) -> tuple[float, float, float, float]:
-    """The colour of substances together; one that nobody named gets a colour from its letters."""
+    """Return the mean colour of substances; unknown ones get a colour from their letters."""
     names = sorted(PALETTE)
     colours = [
         rgba(SUBSTANCES[s] if s in SUBSTANCES else names[zlib.crc32(s.encode()) % len(names)]) for s in substances

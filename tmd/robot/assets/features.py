@@ -1,4 +1,4 @@
-"""What a model's surfaces are good for: regions to put things in, grips of joints, grasps of items, signs."""
+"""Features of a model's surfaces: regions to put things in, grips of joints, grasps of items, signs."""
 
 from __future__ import annotations
 
@@ -19,24 +19,22 @@ class Frame:
     across: Vector
 
     def pose(self) -> Pose:
-        """The same as a pose."""
+        """Return the same as a pose."""
         x, y = np.array(self.approach), np.array(self.across)
         return Pose(self.position, quaternion_of(np.stack([x, y, np.cross(x, y)], axis=1)))
 
 
 @dataclass(frozen=True, slots=True)
 class Region:
-    """A space where items may be: on, in or next to a part.
+    """A space for items on, in or next to a part.
 
     Attributes:
-        part: The part (``ROOT``: the whole) whose region it is.
-        relation: ``on``, ``in`` or ``next_to``.
         link: The link it moves with.
-        low: Lower corner of the box; its z is where things stand.
+        low: Lower corner of the box; its z is that of the items' undersides.
         high: Upper corner.
-        entry: Unit vector along which the gripper comes in.
-        spots: Where items stand: (x, y, z, yaw), those best to reach first.
-        overhang: How far items may stick out at the front; ``inf``: on all sides, as a pot does over a burner.
+        entry: Unit vector along which the gripper enters.
+        spots: Places of items: (x, y, z, yaw), those best to reach first.
+        overhang: Allowed overhang of items at the front; ``inf``: on all sides, as of a pot over a burner.
         heap: Whether things may lie on one another there, as in a basket.
     """
 
@@ -53,7 +51,7 @@ class Region:
 
 @dataclass(frozen=True, slots=True)
 class Grip:
-    """Where the robot works a joint: see :class:`tmd.robot.scene.scene.Handle`; ``tool`` is in the link's frame."""
+    """The place to work a joint at: see :class:`tmd.robot.scene.scene.Handle`; ``tool`` is in the link's frame."""
 
     part: str
     kind: str
@@ -67,7 +65,7 @@ class Grip:
 
 @dataclass(frozen=True, slots=True)
 class Grasp:
-    """How to take an item: the tool in the item's frame, and how wide the fingers stand before they close (metres)."""
+    """A way to take an item: the tool in the item's frame, and the gap of the fingers before they close (metres)."""
 
     tool: Frame
     opening: float
@@ -77,10 +75,7 @@ class Grasp:
 class Opening:
     """The rim of a vessel, round and level while it stands.
 
-    Attributes:
-        centre: The middle of the rim, in the item's frame.
-        radius: Inside of the wall.
-        level: The height up to which it is filled.
+    Its middle is in the item's frame, its radius inside of the wall; ``level`` is the height up to which it is filled.
     """
 
     centre: Vector
@@ -89,7 +84,7 @@ class Opening:
 
     @property
     def spills_from(self) -> float:
-        """Radians that it may lean before the surface of what is in it reaches the rim."""
+        """Radians that it may lean before the surface of its contents reaches the rim."""
         return math.atan((self.centre[2] - self.level) / self.radius)
 
 

@@ -6,6 +6,7 @@ All are given in the frame of the whole: +x is the front.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from tmd.robot.assets.appearance import Appearance, rows
 from tmd.robot.assets.features import Frame, Grip
@@ -13,24 +14,26 @@ from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 from tmd.robot.sim.pose import Vector
 
 INTO, DOWN, LEFT, UP = (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+# Width of a side board.
+SIDE = 0.34
+# Width of handle bars.
 BAR = 0.018
-"""Width of handle bars."""
+# From a door's face to the middle of its handle: the finger tips reach 18 mm beyond the tool.
 STAND_OFF = 0.05
-"""From a door's face to the middle of its handle: the finger tips reach 18 mm beyond the tool."""
+# Thickness of doors.
 DOOR = 0.02
-"""How thick doors are."""
+# Reach of the finger tips beyond the tool's frame.
 TIP = 0.018
-"""How far the finger tips reach beyond the tool's frame."""
 WIDE_OPEN = 1.57
+# Way of buttons.
 BUTTON = 0.012
-"""How far buttons go down."""
 _FAST = {"knob": 0.12, "door": 1.2}
 
 
 def bar_handle(
     model: UrdfModel, link: str, centre: Vector, length: float, colour: str, *, upright: bool, face: float
 ) -> None:
-    """A bar in front of a face at x = ``face``, on two posts."""
+    """Add a bar in front of a face at x = ``face``, on two posts."""
     x, y, z = centre
     size = (BAR, BAR, length) if upright else (BAR, length, BAR)
     model.box(centre, size, colour, link=link)
@@ -52,18 +55,11 @@ def door(
     window: bool,
     part_of: str | None = None,
 ) -> None:
-    """A door before an opening, hinged at its −y edge, with its handle at the +y edge.
+    """Add a door before an opening, hinged at its −y edge, with its handle at the +y edge.
 
-    Args:
-        model: Of the whole.
-        part: The door's name.
-        look: Its colours.
-        low: Lower corner of the opening it covers; x is where its back is.
-        high: Upper corner; x is not used.
-        height: Of the middle of its handle.
-        latched: It has no handle: it is pushed shut at its edge.
-        window: It has a dark window.
-        part_of: The part that it opens, where that is not itself.
+    ``low`` and ``high`` are corners of the opening; x of ``low`` is that of the door's back. ``height`` is that of the
+    handle's middle. A ``latched`` door has no handle: it is pushed shut at its edge. ``window`` adds a dark window.
+    ``part_of`` is the part that it opens, if not itself.
     """
     x, y0, y1 = low[0], low[1], high[1]
     hinge = (x, y0, 0.0)
@@ -89,7 +85,7 @@ def door(
 
 
 def button(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:
-    """A button that is pressed towards −x and comes back."""
+    """Add a button that is pressed towards −x and comes back."""
     depth, width, height = look.size
     model.link(
         part, part=part, kind="prismatic", origin=(face[0] + depth, face[1], face[2]), axis=INTO,
@@ -100,7 +96,7 @@ def button(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:
 
 
 def knob(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:
-    """A knob on a front face: a disc with a bar that the fingers take, turned about x."""
+    """Add a knob to a front face: a disc with a bar for the fingers, turned about x."""
     depth, width, _ = look.size
     model.link(
         part, part=part, kind="revolute", origin=face, axis=(-1.0, 0.0, 0.0), limits=(0.0, math.pi * 0.75),
@@ -114,13 +110,13 @@ def knob(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:
 
 
 def settings(names: tuple[str, ...]) -> tuple[tuple[str, float], ...]:
-    """The angles of a knob's settings: evenly over three eighths of a turn."""
+    """Return the angles of a knob's settings, evenly over three eighths of a turn."""
     last = max(len(names) - 1, 1)
     return tuple((name, round(index / last * math.pi * 0.7, 4)) for index, name in enumerate(names))
 
 
 def tap_lever(model: UrdfModel, part: str, look: Appearance, foot: Vector) -> None:
-    """A lever on a post, turned about z: off lies along the front."""
+    """Add a lever on a post, turned about z; off lies along the front."""
     _, length, height = look.size
     model.link(
         part, part=part, kind="revolute", origin=foot, axis=UP, limits=(0.0, math.pi * 0.75),
@@ -132,18 +128,35 @@ def tap_lever(model: UrdfModel, part: str, look: Appearance, foot: Vector) -> No
     model.grips.append(Grip(part, "knob", part, tool, 0.05, 0.0, math.pi * 0.75, settings(look.settings)))
 
 
-def side_board(model: UrdfModel, front: float, back: float, low: float, high: float, top: float, colour: str) -> None:
-    """A board on the +y side, for what stands next to an appliance."""
-    model.slab((back, low, top - 0.03), (front, high, top), colour)
-    model.slab((back, high - 0.03, 0.0), (front, high, top - 0.03), colour)
-    model.slab((back, low, 0.0), (back + 0.02, high - 0.03, top - 0.03), colour)
+def beside_board(look: Appearance) -> tuple[float, float, float, float]:
+    """Return front (x), right and left side (y) and height of a body with a side board."""
+    depth, width, height = look.size
+    return depth / 2, -width / 2, width / 2 - SIDE, height
+
+
+def side_board(model: UrdfModel, look: Appearance, top: float) -> None:
+    """Add a board on the +y side, for things next to an appliance."""
+    front, _, low, _ = beside_board(look)
+    back, high = -front, look.size[1] / 2
+    model.slab((back, low, top - 0.03), (front, high, top), "oak")
+    model.slab((back, high - 0.03, 0.0), (front, high, top - 0.03), "oak")
+    model.slab((back, low, 0.0), (back + 0.02, high - 0.03, top - 0.03), "oak")
     spots = rows(front, high - low - 0.18, (0.12, 0.28), 0.06, middle=(low + high) / 2)
     model.region("next_to", (back, low, top), (front, high, top + 0.4), DOWN, spots, part=ROOT)
 
 
+def legs(
+    model: UrdfModel, ends: Sequence[float], sides: Sequence[float], height: float, thick: float, colour: str
+) -> None:
+    """Add four legs at two places along x and two along y."""
+    for side in sides:
+        for end in ends:
+            model.box((end, side, height / 2), (thick, thick, height), colour)
+
+
 def fronts(model: UrdfModel, face: float, low: tuple[float, float], high: tuple[float, float], count: int, colour: str,
            accent: str) -> None:  # fmt: skip
-    """Painted door fronts on a solid body: for the eye only."""
+    """Paint door fronts on a solid body, without function."""
     width = (high[0] - low[0]) / count
     for index in range(count):
         left = low[0] + index * width

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from tmd.robot.assets.appearance import Appearance, Parts, rows
 from tmd.robot.assets.features import Frame, Grip
-from tmd.robot.assets.fittings import BAR, DOOR, DOWN, INTO, STAND_OFF, UP, bar_handle, door, fronts
+from tmd.robot.assets.fittings import BAR, DOOR, DOWN, INTO, STAND_OFF, UP, bar_handle, door, fronts, legs
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
 WALL = 0.02
+# Distances of things from a front edge.
 ROWS = (0.13, 0.29)
-"""How far behind a front edge things stand."""
+# Allowed overhang of a handle over a front edge.
 OVERHANG = 0.06
-"""How far a handle may stick out over a front edge."""
+# Of a basket and a bin: a hand that holds a thing gets to its floor.
 DEEP = 0.2
-"""Of a basket and a bin: a hand that holds a thing gets to its floor."""
+# The height above a surface that still counts as on it.
 ROOM = 0.6
-"""The height above a surface that still counts as on it."""
 
 
 def surface(model: UrdfModel, front: float, width: float, top: float, depth: float) -> None:
@@ -26,7 +26,7 @@ def surface(model: UrdfModel, front: float, width: float, top: float, depth: flo
 
 
 def counter(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A kitchen counter: a closed body with a worktop."""
+    """Build a kitchen counter: a closed body with a worktop."""
     depth, width, height = look.size
     x, y = depth / 2, width / 2
     model.slab((-x, -y + 0.01, 0.0), (x - 0.08, y - 0.01, 0.1), "dark_grey")
@@ -37,20 +37,17 @@ def counter(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def table(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A table on four legs."""
+    """Build a table on four legs."""
     depth, width, height = look.size
-    x, y, leg = depth / 2, width / 2, 0.05
+    x, y = depth / 2, width / 2
     model.slab((-x, -y, height - 0.035), (x, y, height), look.colour)
-    for side in (-1.0, 1.0):
-        for end in (-1.0, 1.0):
-            model.box((end * (x - 0.06), side * (y - 0.06), (height - 0.035) / 2), (leg, leg, height - 0.035),
-                      look.accent)  # fmt: skip
+    legs(model, (-(x - 0.06), x - 0.06), (-(y - 0.06), y - 0.06), height - 0.035, 0.05, look.accent)
     model.slab((-x + 0.08, -y + 0.08, height - 0.1), (x - 0.08, y - 0.08, height - 0.035), look.accent)
     surface(model, x, width, height, depth)
 
 
 def shelf(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """An open bookcase whose top is used; what stands below is decoration."""
+    """Build an open bookcase whose top is used; the boards below are decoration."""
     depth, width, height = look.size
     x, y = depth / 2, width / 2
     model.slab((-x, -y, height - 0.025), (x, y, height), look.colour)
@@ -75,16 +72,9 @@ def chamber(
     model: UrdfModel, low: tuple[float, float, float], high: tuple[float, float, float], colour: str, inside: str,
     levels: tuple[float, ...], spots: tuple[float, ...] = (0.09, 0.13, 0.17, 0.21),
 ) -> None:  # fmt: skip
-    """A hollow with an open front between two corners (outside measures), with boards at some heights.
+    """Add a hollow with an open front between two corners (outside measures).
 
-    Args:
-        model: Of the whole.
-        low: Lower corner.
-        high: Upper corner.
-        colour: Of the outside.
-        inside: Of floor, boards and back.
-        levels: Tops of the floor and of the boards, upwards; the floor reaches from ``low`` to the first.
-        spots: How far behind the front things stand.
+    ``levels`` are the tops of the floor and of the boards, upwards; ``spots`` the distances of things from the front.
     """
     model.slab(low, (high[0], high[1], levels[0]), inside)
     model.slab((low[0], low[1], high[2] - WALL), high, colour)
@@ -105,7 +95,7 @@ def chamber(
 
 
 def cupboard(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A cupboard: two levels behind a door, a closed body below."""
+    """Build a cupboard: two levels behind a door, a closed body below."""
     depth, width, height = look.size
     x, y = depth / 2 - DOOR, width / 2
     base = 0.70
@@ -120,7 +110,7 @@ def cupboard(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def drawer(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A chest whose top drawer slides; the whole is the drawer."""
+    """Build a chest whose top drawer slides; the whole is the drawer."""
     depth, width, height = look.size
     x, y = depth / 2 - DOOR, width / 2
     low, high = height - 0.2, height - 0.03
@@ -137,14 +127,12 @@ def drawer(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def desk(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A desk on four legs, with a drawer under its top."""
+    """Build a desk on four legs, with a drawer under its top."""
     depth, width, height = look.size
     x, y, top, under = depth / 2, width / 2, height - 0.035, height - 0.2
     half = min(0.34, y - 0.1)
     model.slab((-x, -y, top), (x, y, height), look.colour)
-    for side in (-1.0, 1.0):
-        for end in (-1.0, 1.0):
-            model.box((end * (x - 0.06), side * (y - 0.06), top / 2), (0.05, 0.05, top), look.accent)
+    legs(model, (-(x - 0.06), x - 0.06), (-(y - 0.06), y - 0.06), top, 0.05, look.accent)
     drawers = parts.of("sliding_drawer")
     model.slab((-x + 0.035, -half, under), (-x + 0.055, half, top), look.colour)
     for sign in (-1, 1):
@@ -155,7 +143,7 @@ def desk(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def chest(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A chest of drawers: things stand on it, and its drawers are parts; the first is the uppermost."""
+    """Build a chest of drawers: things stand on it, and its drawers are parts, the first uppermost."""
     depth, width, height = look.size
     x, y, drawers = depth / 2 - DOOR, width / 2, parts.of("sliding_drawer")
     high = height - 0.03
@@ -177,16 +165,9 @@ def _tray(
     model: UrdfModel, part: str, link: str, front: tuple[float, float], between: tuple[float, float], inner: float,
     look: Appearance,
 ) -> None:  # fmt: skip
-    """A drawer that slides out of a body.
+    """Add a drawer that slides out of a body.
 
-    Args:
-        model: Of the whole.
-        part: What it is.
-        link: Its link.
-        front: x of the body's front, and half of the front's width.
-        between: The heights that it is between.
-        inner: How deep it is.
-        look: Its colours.
+    ``front``: x of the body's front and half of its width, ``between``: lower and upper height, ``inner``: depth.
     """
     (x, y), (low, high) = front, between
     model.link(link, part=part, kind="prismatic", axis=(1.0, 0.0, 0.0), limits=(0.0, inner - 0.02), friction=5.0,
@@ -207,7 +188,7 @@ def _tray(
 
 
 def basket(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """An open box on the floor or on legs: things are dropped into it from above."""
+    """Build an open box on the floor or on legs: things are dropped into it from above."""
     depth, width, height = look.size
     x, y, floor = depth / 2, width / 2, max(height - DEEP, 0.02)
     model.slab((-x, -y, 0.0), (x, y, floor), look.accent)
@@ -220,7 +201,7 @@ def basket(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def seat(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A sofa or an armchair: a seat that things lie on, a back and two arms."""
+    """Build a sofa or an armchair: a seat that things lie on, a back and two arms."""
     depth, width, height = look.size
     x, y, back, arm = depth / 2, width / 2, 0.22, 0.16
     for sign in (-1, 1):

@@ -4,32 +4,18 @@ from __future__ import annotations
 
 import math
 
+from tmd.robot.assets import fittings
 from tmd.robot.assets.appearance import Appearance, Parts
-from tmd.robot.assets.appliances import SIDE
 from tmd.robot.assets.features import Frame, Grip
-from tmd.robot.assets.fittings import (
-    BAR,
-    DOWN,
-    INTO,
-    LEFT,
-    STAND_OFF,
-    UP,
-    bar_handle,
-    button,
-    door,
-    fronts,
-    knob,
-    side_board,
-)
+from tmd.robot.assets.fittings import BAR, DOWN, INTO, LEFT, STAND_OFF, UP, bar_handle, button, door, fronts, knob
 from tmd.robot.assets.furniture import basket
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
 
 def tv(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A television on its stand, with a bar of buttons below the screen."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, stand = right - SIDE, 0.7
+    """Build a television on its stand, with a bar of buttons below the screen."""
+    x, y0, y1, height = fittings.beside_board(look)
+    stand = 0.7
     model.slab((-x, y0, 0.0), (x - 0.02, y1, stand), look.accent)
     fronts(model, x - 0.02, (y0, 0.05), (y1, stand - 0.03), 2, look.accent, "dark_steel")
     middle, back, half = (y0 + y1) / 2, -0.02, (y1 - y0) / 2 - 0.02
@@ -49,14 +35,13 @@ def tv(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         )
     for index, (part, said) in enumerate(parts.of("button")):
         button(model, part, said, (bar, middle - 0.18 + 0.11 * index, stand + 0.06))
-    side_board(model, x, -x, y1, right, stand, "oak")
+    fittings.side_board(model, look, stand)
 
 
 def player(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A console or player on a stand: a tray on top that takes a disc from above, buttons in front beside it."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, stand = right - SIDE, height - 0.16
+    """Build a console or player on a stand: a tray on top takes a disc from above, with buttons in front beside it."""
+    x, y0, y1, height = fittings.beside_board(look)
+    stand = height - 0.16
     model.slab((-x, y0, 0.0), (x - 0.02, y1, stand - 0.03), "walnut")
     fronts(model, x - 0.02, (y0, 0.05), (y1, stand - 0.06), 1, "walnut", "dark_steel")
     model.slab((-x, y0, stand - 0.03), (x, y1, stand), "oak")
@@ -82,14 +67,13 @@ def player(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     gap = (end - slot) / (len(parts.of("button")) + 1)
     for index, (name, said) in enumerate(parts.of("button")):
         button(model, name, said, (front, slot + gap * (index + 1), stand + 0.07))
-    side_board(model, x, -x, y1, right, stand, "oak")
+    fittings.side_board(model, look, stand)
 
 
 def lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A lamp on a small cabinet, or (a tall one) on a pole above it: switch or knob in front."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, stand = right - SIDE, 0.7
+    """Build a lamp on a small cabinet, or (a tall one) on a pole above it, with its switch or knob in front."""
+    x, y0, y1, height = fittings.beside_board(look)
+    stand = 0.7
     model.slab((-x, y0, 0.0), (x, y1, stand), look.colour)
     middle, foot = (y0 + y1) / 2, 0.09
     model.slab((x - 0.2, middle - 0.07, stand), (x - 0.03, middle + 0.07, stand + foot), look.accent)
@@ -101,11 +85,11 @@ def lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         button(model, part, said, (x - 0.03, middle, stand + 0.05))
     for part, said in parts.of("knob"):
         knob(model, part, said, (x - 0.03, middle, stand + 0.05))
-    side_board(model, x, -x, y1, right, stand, "oak")
+    fittings.side_board(model, look, stand)
 
 
 def ceiling_lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A lamp that hangs from an arm high up; its switch is on a post."""
+    """Build a lamp that hangs from an arm high up; its switch is on a post."""
     depth, width, height = look.size
     x, y = depth / 2, width / 2
     model.slab((-x, -y, 0.0), (x, y, 1.15), look.colour)
@@ -119,10 +103,9 @@ def ceiling_lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def window(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A window: below a sash on hinges, above it a curtain or blind that slides sideways."""
-    depth, width, height = look.size
-    x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, sill, beam = right - SIDE, 0.72, 1.06
+    """Build a window: below a sash on hinges, above it a curtain or blind that slides sideways."""
+    x, y0, y1, height = fittings.beside_board(look)
+    sill, beam = 0.72, 1.06
     front = x - 0.16
     back = front - 0.1
     model.slab((back, y0, 0.0), (front, y1, sill), look.colour)
@@ -147,15 +130,15 @@ def window(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         tool = Frame((face + STAND_OFF, at, beam + 0.06), INTO, LEFT)
         model.grips.append(Grip(part, "slide", part, tool, BAR + 0.04, 0.0, way - 0.02))
     model.slab((back, y0, sill - 0.05), (front, y1, sill), "cream", solid=False)
-    side_board(model, x, -x, y1, right, sill, "oak")
+    fittings.side_board(model, look, sill)
 
 
+# A stop: an arm in front of the bin does not get to a lid that leans back.
 _LIFTED = math.radians(80)
-"""A stop: an arm in front of the bin does not get to a lid that leans back."""
 
 
 def bin_(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A bin, with or without a lid that is lifted by its rim, and a button in front of what runs in it."""
+    """Build a bin, with or without a lid that is lifted by its rim, and a button in front of what runs in it."""
     depth, width, height = look.size
     basket(model, look, Parts({}))
     for part, said in parts.of("lid"):

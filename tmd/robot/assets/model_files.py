@@ -13,7 +13,7 @@ from __future__ import annotations
 import hashlib
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,10 +29,10 @@ from tmd.robot.assets.features import Frame, Grasp, Grip
 from tmd.robot.assets.fittings import DOWN, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfLink, UrdfModel
 from tmd.robot.assets.vessels import CLEARANCE, WIDEST, contents, grasp, rim_grasps
-from tmd.robot.pr2.kinematics import Tree, origin
+from tmd.robot.pr2.kinematics import Tree, angles, origin, set_origin, shape_points
 from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, read_urdf
+from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, mesh_library, read_urdf
 from tmd.world.shape import GraspEntry, HandleEntry, RegionEntry, Shape
 
 if TYPE_CHECKING:
@@ -40,25 +40,25 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 _ADVICE = "pip install 'tmd[meshes]'"
+# Metres: what is smaller or larger is in other units.
 _SMALLEST, _LARGEST = 0.01, 6.0
-"""Metres: what is smaller or larger is in other units."""
+# For V-HACD: a mug then keeps its hollow, with walls that are a millimetre too thick.
 _PIECES = {"maxConvexHulls": 32, "resolution": 100_000, "maxNumVerticesPerCH": 32}
-"""For V-HACD: a mug then keeps its hollow, with walls that are a millimetre too thick."""
+# Metres: what is at most so wide fits between the fingers.
 _NARROW = 0.07
-"""Metres: what is at most so wide fits between the fingers."""
+# Metres: a wall of so much is taken at its rim.
 _RIM = 0.02
-"""Metres: a wall of so much is taken at its rim."""
+# Metres from the tool's frame back to the palm.
 _PALM = 0.05
-"""Metres from the tool's frame back to the palm."""
+# Formats of the simulator.
 _READ = (".obj", ".stl", ".dae")
-"""What the simulator reads itself."""
+# N or N·m that hold a joint where it is left, as in the scene's own kinds; of a button: its spring.
 _FRICTION = {"door": 1.2, "flap": 1.2, "drawer": 5.0, "slide": 4.0, "lid": 0.03, "knob": 0.12, "button": 6.0}
-"""N or N·m that hold a joint where it is left, as in the scene's own kinds; of a button: its spring."""
 _SLIDES = ("drawer", "slide", "button")
 
 
 class ModelFault(Exception):  # noqa: N818 - it becomes a TmdError as soon as its place is known
-    """What is wrong with a file, or with what is said about it; ``path`` leads to that in the shape."""
+    """A fault of a file, or of its entry in ``objects.yaml``; ``path`` leads to the fault within the shape."""
 
     def __init__(self, path: Sequence[str | int], message: str, hint: str | None = None) -> None:
         super().__init__(message)
@@ -69,18 +69,11 @@ class ModelFault(Exception):  # noqa: N818 - it becomes a TmdError as soon as it
 
 
 def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) -> UrdfModel:
-    """A thing in one piece.
-
-    Args:
-        name: Of the class.
-        shape: With ``mesh``.
-        path: The file.
-        colour: Of what is seen.
-        mass: In kilograms.
+    """Build a thing in one piece from a mesh; ``mass`` in kilograms.
 
     Raises:
-        ModelFault: The file is no mesh, or what is said about it does not fit.
-        MissingToolError: What reads or divides meshes is not installed.
+        ModelFault: The file is not a mesh, or its entry does not fit.
+        MissingToolError: A package that reads or divides meshes is not installed.
     """
     mesh = _standing(path, shape)
     low, high = (_vector(corner) for corner in mesh.bounds)
@@ -90,13 +83,14 @@ def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) ->
     model = UrdfModel(name, mass)
     model.mesh(seen, solids, low, high, colour)
     if hollow is not None:
-        contents(model, hollow.radius, hollow.floor, high[2])
+        radius, floor, outer, wall = hollow
+        contents(model, radius, floor, high[2])
     if shape.grasps:
         _said_grasps(model, shape.grasps)
     else:
         _measured_grasps(model, mesh)
-        if hollow is not None and hollow.wall <= _RIM:
-            rim_grasps(model, hollow.outer, high[2], hollow.wall, (math.pi / 2, 0.0, -math.pi / 2))
+        if hollow is not None and wall <= _RIM:
+            rim_grasps(model, outer, high[2], wall, (math.pi / 2, 0.0, -math.pi / 2))
     for index, region in enumerate(shape.regions):
         if region.link is not None:
             raise ModelFault(("regions", index, "link"), "a mesh has no links", "leave `link` out")
@@ -105,21 +99,16 @@ def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) ->
 
 
 def read_mesh(path: Path) -> trimesh.Trimesh:
-    """The triangles of a file, all of its pieces together.
+    """Read the triangles of a file, all of its pieces together.
 
     Raises:
-        ModelFault: It is no mesh.
+        ModelFault: It is not a mesh.
         MissingToolError: trimesh is not installed.
     """
+    library = mesh_library()
     try:
-        import trimesh
-    except ImportError as error:
-        raise MissingToolError("reading meshes needs the package trimesh", hint=_ADVICE) from error
-    try:
-        mesh: Any = trimesh.load(path, force="mesh")
+        mesh: Any = library.load(path, force="mesh")
         sound = len(mesh.faces) > 0 and bool(np.isfinite(mesh.vertices).all())
-    except MissingToolError:
-        raise
     except Exception as error:  # its readers raise whatever a damaged file leads to
         told = " ".join(str(error).split())[:120] or type(error).__name__
         raise ModelFault(("mesh",), f"{path} is not a mesh: {told}", "name an OBJ, STL, PLY or GLB file") from error
@@ -129,7 +118,7 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
 
 
 def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
-    """The mesh in metres, upright, with the middle of its underside at the origin."""
+    """Return the mesh in metres, upright, with the middle of its underside at the origin."""
     if not path.is_file():
         raise ModelFault(("mesh",), f"there is no file {path}", "its path is read from the folder of objects.yaml")
     mesh: Any = read_mesh(path)
@@ -148,60 +137,48 @@ def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
 
 
 def _copies(path: Path, shape: Shape, mesh: trimesh.Trimesh, *, solid: bool) -> tuple[Path, list[Path]]:
-    """The mesh as it stands, and its convex pieces, as OBJ files in the user's cache."""
+    """Write the mesh as it stands, and its convex pieces, as OBJ files into the user's cache."""
     said = repr((shape.scale, shape.turn, solid, sorted(_PIECES.items())))
     digest = hashlib.sha256(path.read_bytes() + b"\0" + said.encode() + Path(__file__).read_bytes()).hexdigest()[:20]
     folder = cache_directory("meshes") / digest
     seen = folder / "seen.obj"
     if not seen.is_file():  # written last: where it is, everything is
         make_directory(folder)
-        for number, (vertices, faces) in enumerate(_convex(mesh, solid=solid)):
-            write_bytes(folder / f"piece{number:02d}.obj", _obj(vertices, faces))
-        write_bytes(seen, _obj(np.asarray(mesh.vertices), np.asarray(mesh.faces)))
+        for number, piece in enumerate(_convex(mesh, solid=solid)):
+            write_bytes(folder / f"piece{number:02d}.obj", _obj(piece))
+        write_bytes(seen, _obj(mesh))
     return seen, sorted(folder.glob("piece*.obj"))
 
 
-def _convex(mesh: trimesh.Trimesh, *, solid: bool) -> Iterator[tuple[Array, Array]]:
-    """Vertices and faces of convex pieces that make up the mesh."""
+def _convex(mesh: trimesh.Trimesh, *, solid: bool) -> list[trimesh.Trimesh]:
+    """Return convex pieces that make up the mesh."""
     try:
         if solid:
-            hull = mesh.convex_hull
-            yield np.asarray(hull.vertices), np.asarray(hull.faces)
-            return
+            return [mesh.convex_hull]
+        from trimesh import Trimesh
         from trimesh.decomposition import convex_decomposition
 
-        pieces = convex_decomposition(mesh, **_PIECES)
+        return [Trimesh(**piece, process=False) for piece in convex_decomposition(mesh, **_PIECES)]
     except ImportError as error:
         raise MissingToolError(f"dividing meshes needs the package {error.name}", hint=_ADVICE) from error
-    for piece in pieces:
-        yield np.asarray(piece["vertices"]), np.asarray(piece["faces"])
 
 
-def _obj(vertices: Array, faces: Array) -> bytes:
-    """An OBJ file; the triangles do not share corners, so that edges are drawn sharp."""
-    lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in vertices]
-    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
-    return "\n".join([*lines, ""]).encode()
+def _obj(mesh: trimesh.Trimesh) -> bytes:
+    """Return an OBJ file without normals, so that edges are drawn sharp."""
+    text = mesh.export(
+        file_type="obj", include_normals=False, include_color=False, include_texture=False, digits=6, header=None
+    )
+    return str(text).encode()
 
 
 def _cut(mesh: trimesh.Trimesh, height: float) -> Array:
-    """Where the mesh meets a level plane: line pieces (n, 2, 2), x and y of both ends."""
-    corners = np.asarray(mesh.triangles)
-    above = corners[:, :, 2] > height
-    crossing = corners[above.any(axis=1) & ~above.all(axis=1)]
-    ends = []
-    for one, other in ((0, 1), (1, 2), (2, 0)):
-        a, b = crossing[:, one], crossing[:, other]
-        met = (a[:, 2] > height) != (b[:, 2] > height)
-        share = np.where(met, (height - a[:, 2]) / np.where(met, b[:, 2] - a[:, 2], 1.0), np.nan)
-        ends.append(a[:, :2] + share[:, None] * (b - a)[:, :2])
-    points = np.stack(ends, axis=1)  # of the three edges of a triangle two are met
-    order = np.argsort(np.isnan(points[:, :, 0]), axis=1, kind="stable")[:, :2]
-    return np.take_along_axis(points, order[:, :, None], axis=1)
+    """Return where the mesh meets a level plane: line segments (n, 2, 2), x and y of both ends."""
+    lines: Array = mesh_library().intersections.mesh_plane(mesh, (0.0, 0.0, 1.0), (0.0, 0.0, height))
+    return lines[:, :, :2]
 
 
 def _radius(mesh: trimesh.Trimesh, height: float) -> float:
-    """How far the axis is from the nearest wall at a height."""
+    """Return the distance from the axis to the nearest wall at a height."""
     pieces = _cut(mesh, height)
     start, way = pieces[:, 0], pieces[:, 1] - pieces[:, 0]
     length = np.maximum((way**2).sum(axis=1), 1e-18)
@@ -210,30 +187,17 @@ def _radius(mesh: trimesh.Trimesh, height: float) -> float:
 
 
 def _bottom(mesh: trimesh.Trimesh) -> float:
-    """The height of the uppermost surface over the middle of the underside."""
-    corners = np.asarray(mesh.triangles)
-    flat, up = corners[:, :, :2] - 1e-7, corners[:, :, 2]  # beside a vertex that lies on the axis, as of a lathe
-    a, b, c = flat[:, 0], flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
-    area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
-    safe = np.where(np.abs(area) > 1e-18, area, np.inf)
-    v, w = (-(a[:, 0] * c[:, 1] - a[:, 1] * c[:, 0])) / safe, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / safe
-    over = (v >= -1e-9) & (w >= -1e-9) & (v + w <= 1 + 1e-9) & np.isfinite(safe)
-    heights = up[:, 0] + v * (up[:, 1] - up[:, 0]) + w * (up[:, 2] - up[:, 0])
-    return float(heights[over].max()) if over.any() else 0.0
+    """Return the height of the uppermost surface over the middle of the underside."""
+    corners = np.asarray(mesh.triangles)[np.abs(mesh.face_normals[:, 2]) > 1e-9]
+    # beside the axis: a vertex may lie on it, as of a lathe
+    points = np.full((len(corners), 3), (1e-7, 1e-7, 0.0))
+    weights = mesh_library().triangles.points_to_barycentric(corners * (1.0, 1.0, 0.0), points)
+    over = np.all(weights >= -1e-9, axis=1)
+    return float((weights * corners[:, :, 2]).sum(axis=1)[over].max(initial=0.0))
 
 
-@dataclass(frozen=True, slots=True)
-class _Hollow:
-    """The hollow of a vessel: radius and floor of what fills it, and its rim; metres."""
-
-    radius: float
-    floor: float
-    outer: float
-    wall: float
-
-
-def _hollow(mesh: trimesh.Trimesh) -> _Hollow:
-    """The hollow of a vessel, measured on the mesh."""
+def _hollow(mesh: trimesh.Trimesh) -> tuple[float, float, float, float]:
+    """Return radius and floor of the contents of a vessel, and radius and thickness of its wall, in metres."""
     top, floor = float(mesh.bounds[1][2]), _bottom(mesh)
     level = floor + 0.8 * (top - floor)
     if floor > 0.6 * top:
@@ -244,11 +208,11 @@ def _hollow(mesh: trimesh.Trimesh) -> _Hollow:
         raise ModelFault(("holds",), "it holds nothing: the middle of its underside is not in a hollow", None)
     rim = top - 0.004
     outer = float(np.abs(_cut(mesh, rim)[:, :, 1]).max())
-    return _Hollow(radius - 0.002, max(floor, 0.001), outer, outer - _radius(mesh, rim))
+    return radius - 0.002, max(floor, 0.001), outer, outer - _radius(mesh, rim)
 
 
 def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh) -> None:
-    """Grasps of what is narrow enough: from the sides and slanting, and from above."""
+    """Add grasps of what is narrow enough: from the sides and slanting, and from above."""
     top, least = model.high[2], TIP + 0.004
     for height in dict.fromkeys((max(0.5 * top, least), max(0.7 * top, least))):
         points = _cut(mesh, min(height, top - 0.002)).reshape(-1, 2)
@@ -289,7 +253,7 @@ def _said_grasps(model: UrdfModel, entries: Sequence[GraspEntry]) -> None:
 
 
 def _frame(path: Sequence[str | int], at: Vector, approach: Vector, across: Vector) -> Frame:
-    """A tool frame of directions of any length; ``across`` is made square to ``approach``."""
+    """Return a tool frame of directions of any length; ``across`` is made square to ``approach``."""
     x, y = np.array(approach), np.array(across)
     for key, direction in (("approach", x), ("across", y)):
         if np.linalg.norm(direction) < 1e-6:
@@ -333,11 +297,11 @@ class _Source:
     root: ET.Element
     tree: Tree | None
     first: str
+    # The link that each joint moves.
     moved: dict[str, str] = field(default_factory=dict)
-    """The link that each joint moves."""
 
     def link(self, name: str) -> str:
-        """A link's name in the model."""
+        """Return a link's name in the model."""
         return ROOT if name == self.first else name
 
 
@@ -349,30 +313,28 @@ class _FileModel(UrdfModel):
         self.element = ET.Element("robot")
 
     def text(self) -> str:
-        """The URDF."""
+        """Return the URDF."""
         return '<?xml version="1.0"?>\n' + ET.tostring(self.element, encoding="unicode") + "\n"
 
 
 def urdf_model(name: str, shape: Shape, path: Path, parts: Sequence[str], mass: float | None) -> UrdfModel:
-    """A thing with links and joints.
+    """Build a thing with links and joints from a URDF.
 
-    Args:
-        name: Of the class.
-        shape: With ``urdf``.
-        path: The file.
-        parts: The parts that the class has.
-        mass: Of the root link, where that shall not be what the file says.
+    ``parts`` are those of the class, ``mass`` that of the root link, if not that of the file.
 
     Raises:
-        ModelFault: The file is no URDF, a mesh of it is missing, or what is said about it does not fit.
-        MissingToolError: What reads meshes is not installed.
+        ModelFault: The file is not a URDF, a mesh of it is missing, or its entry does not fit.
+        MissingToolError: A package that reads meshes is not installed.
     """
     source = _read(path)
     model = _FileModel(name, mass or 0.2)
     _find_meshes(source)
     _move_root(source, shape)
     _links(model, source, mass)
-    _named_parts(model, source, shape, parts)
+    for part, name_ in shape.parts.items():
+        _check_part(("parts", part), part, parts)
+        model.part_links[part] = _known_link(source, ("parts", part), name_)
+        model.link_parts[model.part_links[part]] = part
     for index, handle in enumerate(shape.handles):
         _handle(model, source, index, handle, parts)
     for index, region in enumerate(shape.regions):
@@ -405,16 +367,7 @@ def _read(path: Path) -> _Source:
     if not links:
         raise ModelFault(("urdf",), f"{path} has no links")
     for joint in joints:
-        told = f"{path}: the joint '{joint.get('name')}'"
-        if joint.get("type") not in ("fixed", "revolute", "continuous", "prismatic"):
-            kinds = "fixed, revolute, continuous or prismatic"
-            raise ModelFault(("urdf",), f"{told} is {joint.get('type') or 'of no type'}", f"a joint is {kinds}")
-        for end in ("parent", "child"):
-            if end_of(joint, end) not in links:
-                message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
-                raise ModelFault(("urdf",), message, nearest(end_of(joint, end), links))
-        if joint.find("mimic") is not None:
-            raise ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
+        _check_joint(path, joint, links)
     children = [end_of(joint, "child") for joint in joints]
     firsts = [link for link in links if link not in children]
     if len(firsts) != 1 or len(set(children)) != len(children):
@@ -425,8 +378,21 @@ def _read(path: Path) -> _Source:
     return _Source(path, root, Tree(root) if joints else None, firsts[0], moved)
 
 
+def _check_joint(path: Path, joint: ET.Element, links: Sequence[str]) -> None:
+    told = f"{path}: the joint '{joint.get('name')}'"
+    if joint.get("type") not in ("fixed", "revolute", "continuous", "prismatic"):
+        kinds = "fixed, revolute, continuous or prismatic"
+        raise ModelFault(("urdf",), f"{told} is {joint.get('type') or 'of no type'}", f"a joint is {kinds}")
+    for end in ("parent", "child"):
+        if end_of(joint, end) not in links:
+            message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
+            raise ModelFault(("urdf",), message, nearest(end_of(joint, end), links))
+    if joint.find("mimic") is not None:
+        raise ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
+
+
 def _find_meshes(source: _Source) -> None:
-    """Name the meshes by absolute paths; what the simulator does not read is copied as OBJ."""
+    """Name the meshes by absolute paths; files that the simulator cannot read are copied as OBJ."""
     for mesh in source.root.iter("mesh"):
         name = mesh.get("filename", "")
         found = find_mesh(source.path, name)
@@ -439,7 +405,7 @@ def _find_meshes(source: _Source) -> None:
             raise ModelFault(("urdf",), f"{source.path}: {fault.message}", fault.hint) from None
         if found.suffix.lower() not in _READ:
             folder = cache_directory("meshes")
-            data = _obj(np.asarray(read.vertices), np.asarray(read.faces))
+            data = _obj(read)
             found = folder / f"{hashlib.sha256(data).hexdigest()[:20]}.obj"
             if not found.is_file():
                 write_bytes(found, data)
@@ -447,38 +413,21 @@ def _find_meshes(source: _Source) -> None:
 
 
 def _move_root(source: _Source, shape: Shape) -> None:
-    """Let the root's frame be the thing's: everything that is given in it is moved instead."""
+    """Make the root's frame that of the thing, by moving everything that is given in it."""
     roll, pitch, yaw = map(math.radians, shape.origin.rpy)
     shift = Pose(shape.origin.xyz) * Pose.turned(roll, pitch, yaw)
     for link in source.root.findall("link"):
         if link.get("name") == source.first:
             for each in (*link.findall("visual"), *link.findall("collision"), *link.findall("inertial")):
-                _shift(each, shift)
+                set_origin(each, shift.homogeneous() @ origin(each.find("origin")))
     for joint in source.root.findall("joint"):
         if end_of(joint, "parent") == source.first:
-            _shift(joint, shift)
+            set_origin(joint, shift.homogeneous() @ origin(joint.find("origin")))
     source.tree = Tree(source.root) if source.tree is not None else None
 
 
-def _shift(element: ET.Element, shift: Pose) -> None:
-    found = element.find("origin")
-    moved = shift.homogeneous() @ origin(found)
-    if found is None:
-        found = ET.SubElement(element, "origin")
-    found.set("xyz", _words(moved[:3, 3]))
-    found.set("rpy", _words(_angles(moved)))
-
-
-def _angles(matrix: Array) -> tuple[float, float, float]:
-    """Roll, pitch, yaw of a 4×4 matrix."""
-    pitch = math.asin(max(-1.0, min(1.0, -float(matrix[2, 0]))))
-    if abs(matrix[2, 0]) > 1 - 1e-9:  # roll and yaw turn about one line
-        return 0.0, pitch, math.atan2(-float(matrix[0, 1]), float(matrix[1, 1]))
-    return math.atan2(matrix[2, 1], matrix[2, 2]), pitch, math.atan2(matrix[1, 0], matrix[0, 0])
-
-
 def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
-    """Links and joints as the model has them, their boxes, and masses where the file has none."""
+    """Add links and joints with their boxes, and masses where the file has none."""
     frames = {source.first: np.eye(4)}
     if source.tree is not None:
         frames = source.tree.forward({}, source.tree.links, frames)
@@ -490,9 +439,13 @@ def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
             kind = "revolute" if joint.kind == "continuous" else joint.kind
             model.links[called] = UrdfLink(
                 called, source.link(joint.parent), kind, _vector(joint.origin[:3, 3]), _vector(joint.axis),
-                joint.lower, joint.upper, 1.0 if kind == "revolute" else 5.0, 0.0, 0.1, _angles(joint.origin),
+                joint.lower, joint.upper, 1.0 if kind == "revolute" else 5.0, 0.0, 0.1, angles(joint.origin),
             )  # fmt: skip
-        points = [_points(source, each) for each in element.findall("collision")]
+        try:
+            points = [shape_points(each) for each in element.findall("collision")]
+        except ValueError:
+            message = f"{source.path}: a <collision> has no mesh, box, cylinder or sphere with its size"
+            raise ModelFault(("urdf",), message) from None
         if points:
             cloud = np.vstack(points)
             model.links[called].boxes.append((_vector(cloud.min(axis=0)), _vector(cloud.max(axis=0))))
@@ -505,36 +458,8 @@ def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
         raise ModelFault(("urdf",), f"{source.path} has no collision shapes", "add <collision> to its links")
 
 
-def _points(source: _Source, collision: ET.Element) -> Array:
-    """Corners of a collision shape, in the link's frame."""
-    shape = next(iter(collision.find("geometry") or ()), None)
-    kind = None if shape is None else shape.tag
-    try:
-        if shape is not None and kind == "mesh":
-            read = read_mesh(Path(shape.get("filename", "")))
-            scale = np.array([float(word) for word in shape.get("scale", "1 1 1").split()])
-            points = np.asarray(read.bounds) * scale
-        elif shape is not None and kind == "box":
-            half = np.array([float(word) for word in shape.get("size", "").split()]) / 2
-            points = np.array([-half, half])
-        elif shape is not None and kind in ("cylinder", "sphere"):
-            radius = float(shape.get("radius", ""))
-            high = float(shape.get("length", "")) / 2 if kind == "cylinder" else radius
-            points = np.array([(-radius, -radius, -high), (radius, radius, high)])
-        else:
-            raise ValueError
-        (x0, y0, z0), (x1, y1, z1) = points.tolist()
-    except ValueError:
-        message = f"{source.path}: a <collision> has no mesh, box, cylinder or sphere with its size"
-        raise ModelFault(("urdf",), message) from None
-    corners = np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
-    frame = origin(collision.find("origin"))
-    moved: Array = corners @ frame[:3, :3].T + frame[:3, 3]
-    return moved
-
-
 def _weigh(model: UrdfModel, element: ET.Element, called: str, mass: float | None) -> None:
-    """A mass and inertia where the file has none, or where another mass was said."""
+    """Add a mass and inertia where the file has none, or where the entry gives another mass."""
     inertial = element.find("inertial")
     if inertial is not None and inertial.find("mass") is not None and not (mass and called == ROOT):
         link = model.links[called]
@@ -547,14 +472,6 @@ def _weigh(model: UrdfModel, element: ET.Element, called: str, mass: float | Non
     element.extend(ET.fromstring(f"<all>{''.join(model.physics(model.links[called]))}</all>"))
 
 
-def _named_parts(model: UrdfModel, source: _Source, shape: Shape, parts: Sequence[str]) -> None:
-    for part, link in shape.parts.items():
-        _check_part(("parts", part), part, parts)
-        called = _known_link(source, ("parts", part), link)
-        model.part_links[part] = called
-        model.link_parts[called] = part
-
-
 def _check_part(path: Sequence[str | int], part: str | None, parts: Sequence[str]) -> None:
     if part is not None and part not in parts:
         hint = nearest(part, list(parts)) or "the class lists its `parts:`"
@@ -562,7 +479,6 @@ def _check_part(path: Sequence[str | int], part: str | None, parts: Sequence[str
 
 
 def _known_link(source: _Source, path: Sequence[str | int], name: str) -> str:
-    """A link by its name in the file."""
     names = [link.get("name", "") for link in source.root.findall("link")]
     if name not in names:
         hint = nearest(name, names) or f"it has the links {', '.join(names)}"
@@ -612,7 +528,7 @@ def _handle(model: UrdfModel, source: _Source, index: int, entry: HandleEntry, p
 
 
 def _renamed(model: UrdfModel, source: _Source) -> ET.Element:
-    """The file with the names of the model, and with joints that stay where they are left."""
+    """Return the file with the names of the model, and with joints that stay where they are left."""
     whole = ET.Element("robot", name=model.name)
     whole.extend(source.root.findall("material"))
     for link in source.root.findall("link"):
@@ -642,7 +558,3 @@ def _renamed(model: UrdfModel, source: _Source) -> ET.Element:
 def _vector(values: Sequence[float] | Array) -> Vector:
     x, y, z = (float(value) for value in values)
     return x, y, z
-
-
-def _words(values: Sequence[float] | Array) -> str:
-    return " ".join(f"{float(value):.6f}" for value in values)

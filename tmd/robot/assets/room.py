@@ -1,4 +1,4 @@
-"""The floor and low walls: those that were said, or three around the fixtures and an open side for the camera."""
+"""The floor and low walls: those of the environment, or three around the fixtures and an open side for the camera."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _FAR, _SIDE = "#e9e4d8", "#dfe5e2"
 
 
 def build_room(room: Room) -> str:
-    """The room as URDF text, in the world's frame."""
+    """Return the room as URDF text, in the world's frame."""
     model = UrdfModel("room", 1000.0)
     (x0, y0), (x1, y1) = room.low, room.high
     west, south = x0 - 2.0, y0 - 2.0

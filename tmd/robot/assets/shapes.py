@@ -24,21 +24,13 @@ from tmd.world.folder import DomainFolder
 from tmd.world.shape import Shape
 
 _PLAIN = {"item": "block", "part": "plain_part", "fixture": "counter"}
+# Limits of a size, as shares of the kind's own.
 LEAST, MOST = 0.5, 2.5
-"""A size may be so much of the kind's own."""
 
 
 @dataclass(frozen=True, slots=True)
 class Blueprint:
-    """How objects of a class are built.
-
-    Attributes:
-        class_name: The class.
-        sort: ``fixture`` or ``item``.
-        look: Of the whole.
-        model: Its links, regions, grips and grasps.
-        urdf: The model as URDF text.
-    """
+    """The model of the objects of a class; ``sort`` is ``fixture`` or ``item``, ``urdf`` the model as text."""
 
     class_name: str
     sort: str
@@ -50,9 +42,6 @@ class Blueprint:
 class Shapes:
     """The blueprints of a domain's classes.
 
-    Args:
-        folder: The domain.
-
     Raises:
         TmdError: (From the methods.) A shape makes no sense; with its place in ``objects.yaml``.
     """
@@ -63,7 +52,7 @@ class Shapes:
         self._known: dict[str, Blueprint] = {}
 
     def blueprint(self, class_name: str) -> Blueprint:
-        """How an object of this class is built."""
+        """Return the blueprint of a class."""
         if class_name not in self._known:
             self._known[class_name] = self._blueprint(class_name)
         return self._known[class_name]
@@ -83,16 +72,15 @@ class Shapes:
                 key = "mesh" if vertex.shape.mesh else "urdf"
                 raise self._error(vertex.class_name, class_name, part, (key,), message, "say `urdf:` for the whole")
         look = self._look(class_name, vertices[ROOT].shape, sort, class_name, None)
-        parts = Parts(
-            {
-                name: self._look(vertex.class_name, vertex.shape, "part", class_name, name)
-                for name, vertex in vertices.items()
-                if name != ROOT
-            }
-        )
-        parts = Parts(
-            {name: self._like_its_whole(part, vertices[name].shape, look) for name, part in parts.looks.items()}
-        )
+        parts = Parts({})
+        for name, vertex in vertices.items():
+            if name != ROOT:
+                part_look = self._look(vertex.class_name, vertex.shape, "part", class_name, name)
+                # a door without a colour has that of the object it closes
+                plain = vertex.shape is None or vertex.shape.colour is None
+                if plain and part_look.kind in ("door", "latched_door", "lid"):
+                    part_look = replace(part_look, colour=look.colour)
+                parts.looks[name] = part_look
         kind = KINDS[look.kind]
         if vertices[ROOT].shape is not None:
             self._check_parts(class_name, kind, look, parts)
@@ -103,7 +91,7 @@ class Shapes:
         return Blueprint(class_name, sort, look, model, model.text())
 
     def _of_file(self, class_name: str, sort: str, shape: Shape) -> Blueprint:
-        """An object whose shape is a mesh or a URDF beside ``objects.yaml``."""
+        """Build an object whose shape is a mesh or a URDF beside ``objects.yaml``."""
         from tmd.robot.assets.model_files import ModelFault, mesh_model, urdf_model
 
         key = "mesh" if shape.mesh else "urdf"
@@ -130,14 +118,8 @@ class Shapes:
         look = Appearance(key, size, shape.colour or usual.colour, usual.accent, model.links[URDF_ROOT].mass)
         return Blueprint(class_name, sort, look, model, model.text())
 
-    def _like_its_whole(self, look: Appearance, shape: Shape | None, whole: Appearance) -> Appearance:
-        """A door that says no colour has the colour of what it closes."""
-        if look.kind not in ("door", "latched_door", "lid") or (shape is not None and shape.colour is not None):
-            return look
-        return replace(look, colour=whole.colour)
-
     def sort(self, class_name: str) -> str:
-        """``item``, ``part`` or ``fixture``, by the types above the class."""
+        """Return ``item``, ``part`` or ``fixture``, by the types above the class."""
         return next((sort for sort in ("item", "part") if self.classes.is_below(class_name, sort)), "fixture")
 
     def _look(self, class_name: str, shape: Shape | None, sort: str, whole: str, part: str | None) -> Appearance:
@@ -163,13 +145,9 @@ class Shapes:
                     hint = f"between {LEAST * normal:.3g} and {MOST * normal:.3g} m, {normal:g} m is usual"
                     raise self._error(class_name, whole, part, ("size",), message, hint)
         return Appearance(
-            shape.kind,
-            shape.size or usual.size,
-            shape.colour or usual.colour,
-            shape.accent or usual.accent,
-            shape.mass or usual.mass,
-            shape.settings or usual.settings,
-        )
+            shape.kind, shape.size or usual.size, shape.colour or usual.colour, shape.accent or usual.accent,
+            shape.mass or usual.mass, shape.settings or usual.settings,
+        )  # fmt: skip
 
     def _check_colours(self, class_name: str, whole: str, part: str | None, shape: Shape) -> None:
         said: dict[tuple[str | int, ...], str | None] = {("colour",): shape.colour, ("accent",): shape.accent}
@@ -196,7 +174,7 @@ class Shapes:
     def _error(
         self, owner: str, whole: str, part: str | None, key: Sequence[str | int], message: str, hint: str | None
     ) -> TmdError:
-        """An error where the shape was said: at the part, or at the class, or at the ancestor it comes from."""
+        """Return an error at the shape's entry: at the part, the class, or the ancestor that it comes from."""
         entries = self.classes.entries.classes
         if part is not None:
             for name in self.classes.line(whole):

@@ -14,15 +14,28 @@ _LOW = TIP + 0.004
 
 
 def utensil(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A spoon, fork, knife or scoop that lies: a raised handle in front, its head behind.
+    """Build a spoon, fork, knife or scoop that lies: a raised handle in front, its head behind.
 
-    What dips has a short head and a high handle: the head gets into a jar while the handle stays above the rim.
+    Spoon and scoop have a short head and a high handle: the head gets into a jar while the handle stays above the rim.
     """
     length, width, height = look.size
     head = min(0.045 if look.kind in ("spoon", "scoop") else 0.06, length * 0.35)
-    x = length / 2
-    kinds = {"spoon": _spoon, "scoop": _scoop, "fork": _fork, "knife": _knife}
-    kinds[look.kind](model, look, -x, -x + head)
+    x, y = length / 2, width / 2
+    low, high = -x, -x + head
+    match look.kind:
+        case "spoon":
+            model.slab((low + 0.004, -y + 0.004, 0.0), (high - 0.004, y - 0.004, 0.006), look.colour)
+            model.slab((low, -y, 0.006), (high, y, 0.012), look.colour)
+        case "scoop":
+            model.cylinder(((low + high) / 2, 0.0, 0.004), y - 0.004, 0.008, look.colour)
+            model.tube(y, 0.004, 0.006, 0.022, look.colour, centre=((low + high) / 2, 0.0))
+        case "fork":
+            model.slab((high - 0.02, -y, 0.0), (high, y, 0.008), look.colour)
+            for place in (-1.5, -0.5, 0.5, 1.5):
+                middle, half = place * width / 4, width / 12
+                model.slab((low, middle - half, 0.0), (high - 0.02, middle + half, 0.008), look.colour)
+        case "knife":
+            model.slab((low, -y, 0.0), (high + 0.02, y, 0.008), look.colour)
     model.slab((-x + head - 0.004, -0.006, height - 0.012), (x, 0.006, height), look.accent)
     model.slab((-x + head - 0.004, -0.006, 0.0), (-x + head + 0.004, 0.006, height), look.accent)
     model.slab((x - 0.02, -0.012, 0.0), (x - 0.012, 0.012, height - 0.012), look.accent)
@@ -33,34 +46,8 @@ def utensil(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         model.contents = ["content"]
 
 
-def _spoon(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
-    width = look.size[1]
-    model.slab((low + 0.004, -width / 2 + 0.004, 0.0), (high - 0.004, width / 2 - 0.004, 0.006), look.colour)
-    model.slab((low, -width / 2, 0.006), (high, width / 2, 0.012), look.colour)
-
-
-def _scoop(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
-    width = look.size[1]
-    middle = (low + high) / 2
-    model.cylinder((middle, 0.0, 0.004), width / 2 - 0.004, 0.008, look.colour)
-    model.tube(width / 2, 0.004, 0.006, 0.022, look.colour, centre=(middle, 0.0))
-
-
-def _fork(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
-    width = look.size[1]
-    model.slab((high - 0.02, -width / 2, 0.0), (high, width / 2, 0.008), look.colour)
-    for place in (-1.5, -0.5, 0.5, 1.5):
-        y = place * width / 4
-        model.slab((low, y - width / 12, 0.0), (high - 0.02, y + width / 12, 0.008), look.colour)
-
-
-def _knife(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
-    width = look.size[1]
-    model.slab((low, -width / 2, 0.0), (high + 0.02, width / 2, 0.008), look.colour)
-
-
 def block(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A box: a packet, a book, a folded towel; taken across its width."""
+    """Build a box: a packet, a book, a folded towel; taken across its width."""
     depth, width, height = look.size
     model.slab((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height), look.colour)
     model.box((0.0, 0.0, height), (depth * 0.62, width * 0.62, 0.002), look.accent, solid=False)
@@ -77,7 +64,7 @@ def block(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def egg(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """An egg in its stand: it does not roll."""
+    """Build an egg in its stand, so that it does not roll."""
     _, width, height = look.size
     radius = width / 2
     model.cylinder((0.0, 0.0, 0.009), radius * 0.95, 0.018, look.accent)
@@ -88,7 +75,7 @@ def egg(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def tin(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A tin, a pod: an upright cylinder."""
+    """Build an upright cylinder: a tin, a pod."""
     _, width, height = look.size
     model.cylinder((0.0, 0.0, height / 2), width / 2, height, look.colour)
     model.cylinder((0.0, 0.0, height), width / 2 * 0.85, 0.002, look.accent, solid=False)
@@ -96,7 +83,7 @@ def tin(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def strapped(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """Something wide and soft, or flat: a pillow, a blanket, a box of pizza; taken by a strap on top."""
+    """Build something wide and soft, or flat (a pillow, a blanket, a box of pizza), taken by a strap on top."""
     depth, width, height = look.size
     body = height - 0.04
     x, y = depth / 2, width / 2
@@ -109,7 +96,7 @@ def strapped(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def remote(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A remote control: taken by its near end, so that the other hand has room above the buttons at its far one."""
+    """Build a remote control, taken by its near end: the other hand has room above the buttons at its far one."""
     depth, width, height = look.size
     model.slab((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height), look.colour)
     end = depth / 2 - 0.02
@@ -131,9 +118,9 @@ def remote(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def sack(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear at either side.
+    """Build a garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear at either side.
 
-    At the sides, for the flap's tab is in front: one hand holds the bag, and the other lifts the tab.
+    The flap's tab is in front: one hand holds the bag, and the other lifts the tab.
     """
     depth, width, height = look.size
     ear = 0.05

@@ -7,7 +7,7 @@ frame (see :meth:`UrdfModel.link`), so builders think in one frame as long as no
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from xml.sax.saxutils import escape
@@ -17,15 +17,15 @@ from tmd.robot.assets.features import Grasp, Grip, Lamp, Opening, Region
 from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose, Vector
 
+# The name of the whole object among its parts and links.
 ROOT = ""
-"""The name of the whole object among its parts and links."""
 _INVISIBLE = (0.0, 0.0, 0.0, 0.0)
 _TURNED = {"x": (0.0, math.pi / 2, 0.0), "y": (math.pi / 2, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
 
 
 @dataclass(slots=True)
 class UrdfLink:
-    """One link and the joint it hangs on; ``turn`` is roll, pitch, yaw of the joint's frame."""
+    """A link and the joint that carries it; ``turn`` is roll, pitch, yaw of the joint's frame."""
 
     name: str
     parent: str
@@ -42,29 +42,31 @@ class UrdfLink:
     collisions: list[str] = field(default_factory=list)
     boxes: list[tuple[Vector, Vector]] = field(default_factory=list)
 
-    def at_zero(self) -> Pose:
-        """The link's frame in its parent's with the joint at 0."""
-        if self.turn == (0.0, 0.0, 0.0):
-            return Pose(self.origin)
-        return Pose(self.origin) * Pose.turned(*self.turn)
+    def at(self, position: float) -> Pose:
+        """Return the link's frame in its parent's for a position of the joint."""
+        pose = Pose(self.origin)
+        if self.turn != (0.0, 0.0, 0.0):
+            pose = pose * Pose.turned(*self.turn)
+        if position and self.kind == "prismatic":
+            pose = pose * Pose((self.axis[0] * position, self.axis[1] * position, self.axis[2] * position))
+        elif position and self.kind == "revolute":
+            pose = pose * Pose.about(self.axis, position)
+        return pose
 
 
 class UrdfModel:
-    """An object under construction.
-
-    Args:
-        name: The URDF's name.
-        mass: Of the root link, in kilograms.
+    """An object under construction; ``mass`` is that of the root link, in kilograms.
 
     Attributes:
-        opening: The rim of what holds something; None for what holds nothing, or is closed.
+        opening: The rim of a vessel; None for a thing that holds nothing, or is closed.
         spouts: Where a stream leaves a part, in the whole's frame, by part.
     """
 
     def __init__(self, name: str, mass: float) -> None:
         self.name = name
         self.mass = mass
-        self.links: dict[str, UrdfLink] = {}
+        root = UrdfLink(ROOT, ROOT, "root", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.0, 0.0, 0.0, 0.0, mass)
+        self.links: dict[str, UrdfLink] = {ROOT: root}
         self.regions: list[Region] = []
         self.grips: list[Grip] = []
         self.grasps: list[Grasp] = []
@@ -76,7 +78,6 @@ class UrdfModel:
         self.link_parts: dict[str, str] = {ROOT: ROOT}
         self.low: list[float] = [math.inf] * 3
         self.high: list[float] = [-math.inf] * 3
-        self._add(UrdfLink(ROOT, ROOT, "root", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.0, 0.0, 0.0, 0.0, mass))
 
     def link(
         self,
@@ -90,36 +91,22 @@ class UrdfModel:
         friction: float = 0.0,
         spring: float = 0.0,
         mass: float = 0.0,
-    ) -> str:
-        """A new link, on the root by a joint of the same name.
+    ) -> None:
+        """Add a link, on the root by a joint of the same name.
 
-        Args:
-            name: Of link and joint.
-            part: The part it is (the first link of a part is the part's own).
-            kind: ``fixed``, ``revolute``, ``prismatic``.
-            origin: Of the joint in the root's frame; the link's frame lies there.
-            axis: Of the joint.
-            limits: Of the joint, radians or metres.
-            friction: That holds it where it is left, N or N·m.
-            spring: Force that drives it back to 0, N or N·m.
-            mass: Kilograms; 0 for something weightless (1 g).
-
-        Returns:
-            ``name``.
+        ``kind`` is ``fixed``, ``revolute`` or ``prismatic``. Origin, axis and limits (radians or metres) are those of
+        the joint in the root's frame; the link's frame lies there. The first link of a part is the part's own.
+        ``friction`` holds the joint in place, ``spring`` drives it back to 0 (N or N·m). A mass of 0 means weightless.
         """
-        self._add(UrdfLink(name, ROOT, kind, origin, axis, *limits, friction, spring, mass or 0.001))
+        self.links[name] = UrdfLink(name, ROOT, kind, origin, axis, *limits, friction, spring, mass or 0.001)
         self.part_links.setdefault(part, name)
         self.link_parts[name] = part
-        return name
 
-    def _add(self, link: UrdfLink) -> None:
-        self.links[link.name] = link
-
-    def frame(self, link: str) -> Pose:
-        """The link's frame in the root's with every joint at 0."""
+    def frame(self, link: str, positions: Mapping[str, float] | None = None) -> Pose:
+        """Return the link's frame in the root's for positions of joints; others are at 0."""
         pose = Pose((0.0, 0.0, 0.0))
         while link != ROOT:
-            pose = self.links[link].at_zero() * pose
+            pose = self.links[link].at((positions or {}).get(link, 0.0)) * pose
             link = self.links[link].parent
         return pose
 
@@ -127,21 +114,20 @@ class UrdfModel:
         self, centre: Vector, size: Vector, colour: str, *, link: str = ROOT, solid: bool = True, seen: bool = True,
         turn: Vector = (0.0, 0.0, 0.0),
     ) -> None:  # fmt: skip
-        """A box; ``turn`` is roll, pitch, yaw."""
+        """Add a box; ``turn`` is roll, pitch, yaw."""
         self._shape(f'<box size="{_words(size)}"/>', centre, turn, colour, link, solid, seen)
         if solid:
             self._extend(link, centre, size, turn[2])
 
     def slab(self, low: Vector, high: Vector, colour: str, *, link: str = ROOT, solid: bool = True) -> None:
-        """A box by two of its corners."""
-        centre = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
-        self.box(centre, (high[0] - low[0], high[1] - low[1], high[2] - low[2]), colour, link=link, solid=solid)
+        """Add a box by two of its corners."""
+        self.box(*_between(low, high), colour, link=link, solid=solid)
 
     def cylinder(
         self, centre: Vector, radius: float, length: float, colour: str, *, axis: str = "z", link: str = ROOT,
         solid: bool = True, seen: bool = True,
     ) -> None:  # fmt: skip
-        """A cylinder along x, y or z."""
+        """Add a cylinder along x, y or z."""
         geometry = f'<cylinder radius="{radius:.5f}" length="{length:.5f}"/>'
         self._shape(geometry, centre, _TURNED[axis], colour, link, solid, seen)
         if solid:
@@ -150,7 +136,7 @@ class UrdfModel:
             self._extend(link, centre, size, 0.0)
 
     def ball(self, centre: Vector, radius: float, colour: str, *, link: str = ROOT) -> None:
-        """A sphere that nothing touches."""
+        """Add a sphere that nothing touches."""
         geometry = f'<sphere radius="{radius:.5f}"/>'
         self._shape(geometry, centre, (0.0, 0.0, 0.0), colour, link, solid=False, seen=True)
 
@@ -158,7 +144,7 @@ class UrdfModel:
         self, radius: float, wall: float, low: float, high: float, colour: str, *,
         centre: tuple[float, float] = (0.0, 0.0),
     ) -> None:  # fmt: skip
-        """An upright wall round a hollow: ``radius`` is the outer one."""
+        """Add an upright wall round a hollow; ``radius`` is the outer one."""
         count, middle, height = 12, (low + high) / 2, high - low
         apothem = radius * math.cos(math.pi / count)
         length = 2 * apothem * math.tan(math.pi / count)
@@ -169,13 +155,12 @@ class UrdfModel:
             self.box(place, (wall, length, height), colour, turn=(0.0, 0.0, angle))
 
     def mesh(self, seen: Path, solids: Sequence[Path], low: Vector, high: Vector, colour: str) -> None:
-        """A mesh of the root, in its frame: one file to be seen, convex ones to be touched, and its box."""
+        """Add a mesh in the root's frame: one visible file, convex ones for collisions, and its box."""
         named = [f'<mesh filename="{escape(str(path))}"/>' for path in (seen, *solids)]
         self._shape(named[0], (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), colour, ROOT, solid=False, seen=True)
         for solid in named[1:]:
             self._shape(solid, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), colour, ROOT, solid=True, seen=False)
-        centre = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
-        self._extend(ROOT, centre, (high[0] - low[0], high[1] - low[1], high[2] - low[2]), 0.0)
+        self._extend(ROOT, *_between(low, high), 0.0)
 
     def lamp(self, part: str, predicate: str, link: str, on: str, off: str | None) -> None:
         """Let ``link`` show whether ``predicate`` holds of ``part``; off is invisible where it is None."""
@@ -185,12 +170,12 @@ class UrdfModel:
         self, relation: str, low: Vector, high: Vector, entry: Vector, spots: Sequence[tuple[float, float, float]],
         *, part: str = ROOT, link: str = ROOT, overhang: float = 0.0, heap: bool = False,
     ) -> None:  # fmt: skip
-        """A region whose items stand on its floor at ``spots`` (x, y, yaw)."""
+        """Add a region whose items stand on its floor at ``spots`` (x, y, yaw)."""
         placed = tuple((x, y, low[2], yaw) for x, y, yaw in spots)
         self.regions.append(Region(part, relation, link, low, high, entry, placed, overhang, heap))
 
     def text(self) -> str:
-        """The URDF."""
+        """Return the URDF."""
         lines = ['<?xml version="1.0"?>', f'<robot name="{self.name}">']
         for link in self.links.values():
             lines += [f'<link name="{link.name or "root"}">', *self.physics(link), *link.visuals, *link.collisions]
@@ -200,7 +185,7 @@ class UrdfModel:
         return "\n".join([*lines, "</robot>", ""])
 
     def physics(self, link: UrdfLink) -> list[str]:
-        """How it rubs and what it weighs, spread over its box, as elements of a ``<link>``."""
+        """Return friction and inertia, of a mass that is spread over the box, as elements of a ``<link>``."""
         low, high = _bounds(link.boxes)
         size = [max(b - a, 0.005) for a, b in zip(low, high, strict=True)]
         centre = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
@@ -236,6 +221,11 @@ class UrdfModel:
         for axis, shift in enumerate(self.frame(link).position):
             self.low[axis] = min(self.low[axis], low[axis] + shift)
             self.high[axis] = max(self.high[axis], high[axis] + shift)
+
+
+def _between(low: Vector, high: Vector) -> tuple[Vector, Vector]:
+    centre = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
+    return centre, (high[0] - low[0], high[1] - low[1], high[2] - low[2])
 
 
 def _joint(link: UrdfLink) -> list[str]:

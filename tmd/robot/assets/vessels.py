@@ -16,11 +16,11 @@ from tmd.robot.assets.fittings import DOWN, INTO, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 from tmd.robot.sim.pose import Vector
 
+# The fingers are opened by so much more than the width of a thing.
 CLEARANCE = 0.02
-"""How much wider than what they take the fingers stand open."""
 WIDEST = 0.085
+# Radians that a lid opens.
 WIDE = 1.75
-"""Radians that a lid opens."""
 _AXES: tuple[Vector, ...] = ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
 
 
@@ -30,13 +30,9 @@ def grasp(model: UrdfModel, position: Vector, approach: Vector, across: Vector, 
 
 
 def post_grasps(model: UrdfModel, heights: tuple[float, ...], width: tuple[float, float], top: float) -> None:
-    """Grasps of an upright body: from the sides, and from above.
+    """Add grasps of an upright body: from the sides at some heights, and from above.
 
-    Args:
-        model: The item.
-        heights: Where it is taken from a side.
-        width: Along x and along y.
-        top: Its height.
+    ``width`` is that along x and along y, ``top`` the height of the body.
     """
     for height in heights:
         for approach in _AXES:
@@ -51,7 +47,7 @@ def post_grasps(model: UrdfModel, heights: tuple[float, ...], width: tuple[float
 
 
 def bar_grasps(model: UrdfModel, places: Iterable[Vector], width: float) -> None:
-    """Grasps of a level bar along x: from its end, from above, and slanting between the two."""
+    """Add grasps of a level bar along x: from its end, from above, and slanting between the two."""
     slant = math.sqrt(0.5)
     for place in places:
         grasp(model, place, DOWN, LEFT, width)
@@ -60,7 +56,7 @@ def bar_grasps(model: UrdfModel, places: Iterable[Vector], width: float) -> None
 
 
 def rim_grasps(model: UrdfModel, radius: float, top: float, wall: float, angles: Iterable[float]) -> None:
-    """Grasps of a wall from above, one finger inside."""
+    """Add grasps of a wall from above, one finger inside."""
     for angle in angles:
         across: Vector = (math.cos(angle), math.sin(angle), 0.0)
         place = ((radius - wall / 2) * across[0], (radius - wall / 2) * across[1], top - 0.004)
@@ -68,7 +64,7 @@ def rim_grasps(model: UrdfModel, radius: float, top: float, wall: float, angles:
 
 
 def contents(model: UrdfModel, radius: float, floor: float, rim: float) -> None:
-    """What the vessel contains, not seen yet: a filling up to half its depth, and something on top of it."""
+    """Add the contents of a vessel, invisible at first: a filling up to half its depth, and something on top of it."""
     level = (floor + rim) / 2
     model.opening = Opening((0.0, 0.0, rim), radius, level)
     model.link("content")
@@ -82,13 +78,13 @@ def contents(model: UrdfModel, radius: float, floor: float, rim: float) -> None:
 
 
 def round_body(model: UrdfModel, look: Appearance, radius: float, height: float, wall: float, floor: float) -> None:
-    """A hollow round body with a bottom."""
+    """Add a hollow round body with a bottom."""
     model.cylinder((0.0, 0.0, floor / 2), radius * 0.96, floor, look.colour)
     model.tube(radius, wall, floor, height, look.colour)
 
 
 def cup(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A cup, mug or glass: narrow enough to be taken round its body; the depth beyond the width is its handle's."""
+    """Build a cup, mug or glass, narrow enough for a hand round its body; depth beyond the width is the handle's."""
     depth, width, height = look.size
     radius = width / 2
     round_body(model, look, radius, height, 0.005, 0.006)
@@ -107,7 +103,7 @@ def cup(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A bowl or a deep plate: a foot, a wall, and an ear in front that the fingers take."""
+    """Build a bowl or a deep plate: a foot, a wall, and an ear in front for the fingers."""
     depth, width, height = look.size
     radius, ear = width / 2, height - 0.008
     foot = 0.012
@@ -122,7 +118,7 @@ def bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def pot(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A pot with a long handle."""
+    """Build a pot with a long handle."""
     depth, width, height = look.size
     radius, end, level = width / 2, depth - width / 2, height - 0.008
     round_body(model, look, radius, height, 0.005, 0.008)
@@ -134,7 +130,7 @@ def pot(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def kettle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A kettle with a loop over its opening; the spout points to the front."""
+    """Build a kettle with a loop over its opening; the spout points to the front."""
     _, width, height = look.size
     radius, body = width / 2, height - 0.09
     round_body(model, look, radius, body, 0.006, 0.008)
@@ -147,7 +143,7 @@ def kettle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def carafe(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A coffee pot with an upright handle in front."""
+    """Build a coffee pot with an upright handle in front."""
     depth, width, height = look.size
     radius, bar = width / 2, depth - width / 2 - 0.01
     round_body(model, look, radius, height, 0.005, 0.008)
@@ -164,7 +160,7 @@ def carafe(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def jar(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A jar, tub or carton with a lid on a hinge, or (no accent lid) an open sugar bowl: see ``lidded``."""
+    """Build a jar or tub with a lid on a hinge."""
     _, width, height = look.size
     radius = width / 2
     round_body(model, look, radius, height - 0.012, 0.004, 0.006)
@@ -175,7 +171,7 @@ def jar(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def carton(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A carton of milk or juice: square, with a flap for a lid."""
+    """Build a carton of milk or juice: square, with a flap for a lid."""
     depth, width, height = look.size
     x, y, top = depth / 2, width / 2, height - 0.012
     model.slab((-x, -y, 0.0), (x, y, top - 0.02), look.colour)
@@ -190,9 +186,9 @@ def carton(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def lid(model: UrdfModel, look: Appearance, radius: float, height: float, *, aside: bool = False) -> None:
-    """A lid with a tab by which it is lifted: in front with the hinge behind, or (``aside``) on the left.
+    """Add a lid with a tab by which it is lifted: in front with the hinge behind, or (``aside``) on the left.
 
-    What is opened in a hand has it aside: the hand that holds it, from the front, is not in the way of the other one.
+    A thing that is opened in a hand has it aside: the hand that holds it from the front is not in the way of the other.
     """
 
     def at(out: float, across: float, up: float) -> Vector:
@@ -213,7 +209,7 @@ def lid(model: UrdfModel, look: Appearance, radius: float, height: float, *, asi
 
 
 def sugar_bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """An open bowl, narrow enough to be taken round its body."""
+    """Build an open bowl, narrow enough to be taken round its body."""
     _, width, height = look.size
     round_body(model, look, width / 2, height, 0.005, 0.008)
     model.tube(width / 2 + 0.0006, 0.001, height * 0.6, height * 0.7, look.accent)
@@ -222,7 +218,7 @@ def sugar_bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def bottle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A bottle: body, shoulder, neck."""
+    """Build a bottle: body, shoulder, neck."""
     _, width, height = look.size
     radius, shoulder = width / 2, height * 0.68
     model.cylinder((0.0, 0.0, shoulder / 2), radius, shoulder, look.colour)
@@ -233,6 +229,6 @@ def bottle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def capped_bottle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A bottle whose cap opens on a hinge."""
+    """Build a bottle whose cap opens on a hinge."""
     bottle(model, replace(look, size=(look.size[0], look.size[1], look.size[2] - 0.012)), parts)
     lid(model, look, look.size[1] * 0.22, look.size[2])

@@ -1,4 +1,4 @@
-"""Carrying out a plan: do an instruction, look, compare with Φ; where they differ replan, around what failed before."""
+"""Execution of a plan: perform an instruction, observe, compare with Φ, and replan around failures."""
 
 from __future__ import annotations
 
@@ -20,32 +20,24 @@ from tmd.robot.monitor.observation import Mismatch, Observer
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillPhase, SkillStatus
 from tmd.robot.skills.skill_file import Skills
 
+# Maximum number of tries before a way round is searched, by the stage of the failure. Another try finds
+# another path, and no other place to stand. What failed at other stages was within reach.
 TRIES = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 2}
-"""So often something is tried before a way round it is looked for, by the stage at which it fails.
 
-Another try finds another path, and no other place to stand. What failed at other stages was within reach.
-"""
-
+# Maximum number of tries while nothing has moved, by the stage of the failure; two for other stages. Paths
+# are drawn at random: another try may find one.
 AGAIN = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 3}
-"""So often the same instruction is tried while nothing has moved, by the stage at which it fails; others twice.
 
-Paths are drawn at random: another try may find one.
-"""
-
+# Cost of dropping a thing, in instructions: from the floor it is hard to take.
 DROP = 6
-"""What lands on the floor is hard to take from there: letting go of it costs as much as six other instructions."""
 
 
 @dataclass(frozen=True, slots=True)
 class Setback:
-    """What could not be reached.
+    """A failed instruction, with the facts about places and hands at that time.
 
-    Attributes:
-        instruction: What was tried.
-        facts: Where things were.
-        lasting: It is not tried again while all these facts hold. Else it is once one of them has changed, even if it
-            is then as before: what was put down is a little elsewhere, and held in another way.
-        hands: What was in the hands.
+    If it is ``lasting``, it is not tried again while all ``facts`` hold. Else it is once one of them has changed, even
+    if it is then as before: what was put down is a little elsewhere, and held in another way.
     """
 
     instruction: Instruction
@@ -55,10 +47,7 @@ class Setback:
 
 
 class Setbacks:
-    """What could not be done so far in a run.
-
-    Args:
-        seen: Which sensor sees which predicate (``seen`` of ``skills.yaml``).
+    """The failures of a run so far; ``seen`` is that of ``skills.yaml``.
 
     Attributes:
         standing: Those that keep the robot from trying again, in order.
@@ -71,7 +60,7 @@ class Setbacks:
         self.standing: list[Setback] = []
 
     def failed(self, instruction: Instruction, state: State, stage: SkillPhase) -> None:
-        """Take note that an instruction failed."""
+        """Record the failure of an instruction."""
         self._failures[instruction] += 1
         if stage not in TRIES or self._failures[instruction] < TRIES[stage]:
             return
@@ -85,17 +74,17 @@ class Setbacks:
                 return
 
     def fruitless(self, instruction: Instruction, facts: frozenset[GroundAtom]) -> None:
-        """Take note that an instruction did not bring about what it should, as things stand."""
+        """Record an instruction that did not have its effect, as things stand."""
         setback = Setback(instruction, facts)
         if facts and setback not in self.standing:
             self.standing.append(setback)
 
     def observed(self, state: State) -> None:
-        """Forget what may be tried again, as things are now."""
+        """Forget setbacks that may be tried again, as things are now."""
         self.standing = [setback for setback in self.standing if setback.lasting or setback.facts <= state]
 
     def with_free_hands(self, state: State) -> list[Setback]:
-        """The same, if it may also be tried again once something else that was in a hand is put down."""
+        """Return the setbacks, which may also be tried again once something else that was in a hand is put down."""
         return [
             setback if setback.lasting else replace(setback, facts=setback.facts | setback.hands)
             for setback in self.standing
@@ -103,7 +92,7 @@ class Setbacks:
         ]
 
     def _situations(self, instruction: Instruction, state: State) -> Iterator[frozenset[GroundAtom]]:
-        """What might be changed: where the things are that it names, then what else is at them."""
+        """Yield the facts that might be changed: the places of the things it names, then the things at them."""
         sensors = {atom: self._seen.get(atom.predicate) for atom in state}
         held = {atom for atom, sensor in sensors.items() if sensor == "held" and atom.args[-1] in instruction.args}
         at = {atom for atom, sensor in sensors.items() if sensor == "support"}
@@ -112,10 +101,10 @@ class Setbacks:
 
 
 def without(task: Task, setbacks: Sequence[Setback]) -> Task:
-    """The task in which what could not be done is not tried again.
+    """Return the task in which setbacks are not tried again.
 
-    Each setback that does not last is a fluent of its own. It holds in the initial state, forbids the instruction, and
-    ends with what ends one of the facts.
+    Each setback that does not last is a fluent. It holds in the initial state, forbids the instruction, and ends with
+    each operator that ends one of its facts.
     """
     passing = [setback for setback in setbacks if not setback.lasting]
     first = len(task.atoms)
@@ -143,7 +132,7 @@ def without(task: Task, setbacks: Sequence[Setback]) -> Task:
 
 
 def _ending(operator: Operator, facts: Bits, mark: Bits) -> Operator:
-    """The operator that takes a mark away where it ends one of the facts."""
+    """Return the operator that also removes a mark if it ends one of the facts."""
     ends = mark if operator.delete & facts else 0
     also = [ConditionalEffect(each.condition, 0, mark) for each in operator.conditional if each.delete & facts]
     if not ends and not also:
@@ -152,7 +141,7 @@ def _ending(operator: Operator, facts: Bits, mark: Bits) -> Operator:
 
 
 def careful(task: Task, skills: Skills) -> Task:
-    """The task in which letting go of a thing costs more than to put it down somewhere."""
+    """Return the task in which dropping a thing costs more than putting it down."""
     drops = {name for name, entry in skills.entries.items() if entry.skill == "drop"}
     operators = tuple(
         replace(operator, cost=operator.cost * DROP) if operator.instruction.name in drops else operator
@@ -161,14 +150,14 @@ def careful(task: Task, skills: Skills) -> Task:
     return replace(task, operators=operators, by_instruction={o.instruction: o for o in operators})
 
 
+# Maximum number of times the executor replans before the robot stops.
 MOST_REPAIRS = 6
-"""Maximum number of times the executor replans before the robot stops."""
+# Generated states after which the search for another plan to the same end gives up.
 _NEW_PLAN_CAP = 1000
-"""Generated states after which the search for another plan to the same end gives up."""
 
 
 class Performer(Protocol):
-    """What does instructions: a robot in a simulation."""
+    """Performer of instructions: a robot in a simulation."""
 
     @property
     def clock(self) -> int:
@@ -176,28 +165,22 @@ class Performer(Protocol):
         ...
 
     def situation(self) -> Hashable:
-        """Where everything is but the robot: as long as it is the same, what failed fails again."""
+        """Return the places of everything but the robot: while it is the same, what failed fails again."""
         ...
 
     def idle(self, instruction: Instruction) -> bool:
-        """Whether an instruction moves nothing but the robot itself."""
+        """Return whether an instruction moves nothing but the robot itself."""
         ...
 
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
-        """Do it, and give the evidence that its event happened.
+        """Carry out an instruction for its ``gains``, and return the evidence of its event.
 
-        Args:
-            instruction: What is to be done.
-            gains: The facts that it should bring about.
-            attempt: How often it was tried before.
+        ``attempt`` is the number of earlier tries.
 
         Raises:
             SkillError: It could not be done.
         """
         ...
-
-
-Watcher = Callable[[ExecutedStep], None]
 
 
 class Executor:
@@ -206,10 +189,11 @@ class Executor:
     Args:
         problem: The environment.
         observer: Reads the state back.
-        performer: Does the instructions.
-        planner: Which planner replans.
-        most_repairs: How often.
-        watch: Is told each step when it is over.
+        performer: Carries out the instructions.
+        planner: Name of the planner for repairs.
+        most_repairs: Maximum number of replannings.
+        begin: Called before each instruction, with the facts that it should bring about.
+        watch: Called with each finished step.
     """
 
     def __init__(
@@ -220,13 +204,15 @@ class Executor:
         *,
         planner: str = IN_PROCESS,
         most_repairs: int = MOST_REPAIRS,
-        watch: Watcher | None = None,
+        begin: Callable[[Instruction, Collection[GroundAtom]], None] = lambda instruction, gains: None,
+        watch: Callable[[ExecutedStep], None] = lambda step: None,
     ) -> None:
         self.problem = problem
         self.observer = observer
         self.performer = performer
         self.planner = planner
         self.most_repairs = most_repairs
+        self.begin = begin
         self.watch = watch
 
     def execute(self, plan: Sequence[Instruction]) -> Execution:
@@ -275,17 +261,17 @@ class Executor:
         return Execution(status, "", tuple(self._steps), self._repairs, state, self._lasting(plan, state))
 
     def _did(self, instruction: Instruction, before: State, after: State) -> bool:
-        """Whether what an instruction changes is as it should be."""
+        """Return whether the changes of an instruction are as they should be."""
         predicted = apply(instruction, before, self.problem)
         changed = {atom for atom in predicted ^ before if not self._aside(atom)}
         return all((atom in predicted) is (atom in after) for atom in changed)
 
     def _aside(self, atom: GroundAtom) -> bool:
-        """Whether a fact is about what is in something that the plan has nothing to do with: it stands there."""
+        """Return whether a fact is about the contents of a thing that the plan does not name."""
         return self._follows(atom) and atom.args[0] not in self._named
 
     def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State, wanted: _Wanted) -> bool:
-        """Whether what is waiting leads to what is wanted from here as it is: then nothing is to be replanned."""
+        """Return whether the waiting instructions lead to the goal from here, without replanning."""
         for instruction, _ in waiting:
             if first_broken(instruction, state, self.problem) is not None:
                 return False
@@ -296,6 +282,7 @@ class Executor:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
         key = instruction, self.performer.situation()
+        self.begin(instruction, predicted - state)
         try:
             evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
@@ -317,21 +304,20 @@ class Executor:
             instruction, repair, failure, evidence, effects, tuple(mismatches), begin, self.performer.clock, now
         )
         self._steps.append(step)
-        if self.watch is not None:
-            self.watch(step)
+        self.watch(step)
         return step, now
 
     def _still_lost(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
-        """What should be in something and is not, or not hot, since the plan last went on."""
+        """Return what should be in something and is not, or not hot, since the plan last went on."""
         missing = (m.atom for m in mismatches if m.expected and self._follows(m.atom))
         return frozenset(atom for atom in (*self._lost, *missing) if atom not in now and not self._aside(atom))
 
     def _follows(self, atom: GroundAtom) -> bool:
-        """Whether a fact is about what is in something: it is inferred, and not from one event."""
+        """Return whether a fact is about contents: it is inferred, and not from one event."""
         return self.observer.skills.inferred.get(atom.predicate, "event") != "event"
 
     def _in_vain(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
-        """Where things are, or in which hand, that should have got something into them, and did not."""
+        """Return the places or hands of things that should have got contents, and did not."""
         skills = self.observer.skills
         missing = [m.atom for m in mismatches if m.expected and not self._aside(m.atom)]
         dry = {atom.args[0] for atom in missing if skills.inferred.get(atom.predicate) == "contents"}
@@ -343,10 +329,9 @@ class Executor:
     def _replan(
         self, state: State, waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | str:
-        """What is to be done now, each with whether it is a repair; or why there is no way.
+        """Return the next instructions, each with whether it is a repair; or why there is no way.
 
-        What could not be done is avoided where that is possible. Where it is not, it is tried again, unless nothing has
-        moved since it failed.
+        Setbacks are avoided if possible. Else they are tried again, unless nothing has moved since they failed.
         """
         task = ground(replace(self.problem, init=state))
         found: list[tuple[Instruction, bool]] | str | None
@@ -360,12 +345,12 @@ class Executor:
         return found
 
     def _the_same_again(self, way: Sequence[Instruction]) -> Instruction | None:
-        """The first instruction that moves something, if it has failed as everything stands now."""
+        """Return the first instruction that moves something, if it has failed as everything stands now."""
         first = next((instruction for instruction in way if not self.performer.idle(instruction)), None)
         return first if first is not None and (first, self.performer.situation()) in self._spent else None
 
     def _lasting(self, plan: Sequence[Instruction], state: State) -> tuple[Mismatch, ...]:
-        """What is not as the plan would have left it, whatever it is for."""
+        """Return the differences from the plan's final state, whatever it is for."""
         end = self.problem.init
         for instruction in plan:
             end = apply(instruction, end, self.problem)
@@ -374,10 +359,10 @@ class Executor:
     def _around(
         self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | None:
-        """A way round the setbacks, if there are any and there is one.
+        """Return a way round the setbacks, if there are any and there is one.
 
-        All that is waiting is done all the same; or what comes next is left out, and others do for it; or what the
-        plan is for is brought about in quite another way. If none of that is possible, a hand is freed first.
+        The waiting instructions are kept; or the next one is left out, and others do for it; or the aims of the plan
+        are reached in another way. If none of that is possible, a hand is freed first.
         """
         question = tuple(self._setbacks.standing), tuple(waiting)
         if not self._setbacks.standing or question in self._hopeless:
@@ -397,9 +382,9 @@ class Executor:
     def _regained(
         self, task: Task, setbacks: Sequence[Setback], waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | None:
-        """A way by short plans: what was spilled is in and hot again, knobs and doors are as before, the rest goes on.
+        """Return a way of short plans: spilled contents are back and hot, knobs and doors as before, the rest goes on.
 
-        A search for all at once would be much longer than each of these.
+        A search for all at once would take much longer than each of these.
         """
         state = task.decode(task.init)
         lost = frozenset(atom for atom in self._lost if atom not in state)
@@ -432,7 +417,7 @@ class Executor:
         return None
 
     def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
-        """What the plan is for: the facts that it brings about, and those that it ends.
+        """Return the aims of the plan: the facts that it brings about, and those that it ends.
 
         Doors and knobs that it moves belong to it even if they end as they were: a tap that it turns on is off again.
         """
@@ -445,7 +430,6 @@ class Executor:
         return frozenset(a for a in concerned if a in end), frozenset(a for a in concerned if a not in end)
 
     def _worked(self) -> frozenset[str]:
-        """The predicates of doors and knobs."""
         return frozenset(p for p, sensor in self.observer.skills.seen.items() if sensor in ("joint", "setting"))
 
     def _stopped(self, reason: str, state: State) -> Execution:
@@ -453,12 +437,12 @@ class Executor:
         return Execution(SkillStatus.STOPPED, reason, tuple(self._steps), self._repairs, state, lasting)
 
     def _last(self) -> str:
-        """What went wrong last."""
+        """Return what went wrong last; what was expected and is missing goes before what is there unexpectedly."""
         for step in reversed(self._steps):
             if step.failure:
                 return f"{step.instruction} failed: {step.failure}"
             if step.mismatches:
-                return f"{step.instruction}: {_first(step.mismatches)}"
+                return f"{step.instruction}: {min(step.mismatches, key=lambda m: not m.expected)}"
         return "the environment was not as described"
 
 
@@ -474,9 +458,9 @@ def _missing(
     cap: int = DEFAULT_CAP,
     any_way: bool = False,
 ) -> Sequence[Instruction] | str:
-    """Instructions that make what is waiting executable, or bring about what is missing; or why not.
+    """Return instructions that make the waiting ones executable, or bring about the aims; or why there are none.
 
-    With ``any_way``, where a short one is not found, a long one is better than to stop.
+    With ``any_way``, a long way is accepted if no short one is found.
     """
     operators = [task.by_instruction.get(instruction) for instruction in waiting]
     known = [operator for operator in operators if operator is not None]
@@ -501,37 +485,26 @@ def _missing(
 
 
 def _end(task: Task, state: Bits, plan: Sequence[Instruction]) -> Bits:
-    """The state after a plan."""
     for instruction in plan:
         state = task.by_instruction[instruction].apply(state)
     return state
 
 
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
-    """Whether all that is wanted holds after a plan."""
-    state = task.init
-    for instruction in plan:
-        state = task.by_instruction[instruction].apply(state)
-    return _satisfied(wanted, task.decode(state))
+    return _satisfied(wanted, task.decode(_end(task, task.init, plan)))
 
 
 def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:
-    """The repair of a plan and then the rest of it, each with whether it is a repair."""
+    """Return repairs and then the rest of a plan, each with whether it is a repair."""
     return [*((instruction, True) for instruction in repairs), *((instruction, False) for instruction in rest)]
 
 
 def _runs(operators: Sequence[Operator], state: Bits) -> bool:
-    """Whether a sequence can be executed as it is."""
     for operator in operators:
         if not operator.applicable(state):
             return False
         state = operator.apply(state)
     return True
-
-
-def _first(mismatches: Sequence[Mismatch]) -> str:
-    """What was expected and is missing goes before what is there unexpectedly."""
-    return str(min(mismatches, key=lambda m: not m.expected))
 
 
 def _satisfied(wanted: _Wanted, state: State) -> bool:

@@ -1,92 +1,38 @@
-"""What follows from what was measured, by a rule: contents, heat, and what buttons and knobs bring about.
+"""Facts that follow from measurements by rules: contents, heat, and the effects of buttons and knobs.
 
-Nothing here has physics of its own, and nothing is taken from PDDL alone. Contents come in where the mouth of what is
-tipped is over a rim, or where a stream runs into a rim, and are gone where the vessel leaned so far that they reach
-its rim. Heat comes of standing on what is lit for long enough. A lamp is lit when the button was seen to go down that
-controls it. What no rule covers is assumed, and is told as that.
+Nothing here has physics of its own, and nothing is taken from PDDL alone. Contents come in if the mouth of what is
+tipped is over a rim, or a stream runs into a rim, and are gone if the vessel leaned so far that they reach its rim.
+Heat comes of standing on something lit for long enough. A lamp is lit when its button was seen to go down. A fact
+without a rule is assumed, and marked so.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
-from enum import StrEnum
 from math import degrees
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 from tmd.pddl.model import GroundAtom, Instruction, State
+from tmd.robot.skills.results import Basis as Basis
+from tmd.robot.skills.results import KnownEffect as KnownEffect
 from tmd.robot.skills.skill_file import Exposure, Skills
 
-
-class Basis(StrEnum):
-    """What an effect is known by."""
-
-    MEASURED = "measured"
-    """A sensor of the simulation shows it."""
-    INFERRED = "inferred"
-    """It follows from what was measured, by a rule that is told with it."""
-    ASSUMED = "assumed"
-    """PDDL says so, and nothing speaks against it."""
+if TYPE_CHECKING:
+    from tmd.robot.skills.robot_context import Cell
 
 
-@dataclass(frozen=True, slots=True)
-class KnownEffect:
-    """A fact that an instruction changed as PDDL predicts.
-
-    Attributes:
-        atom: The fact.
-        holds: Whether it came to hold; else it ended.
-        basis: What that is known by.
-        how: The numbers, or the rule.
-    """
-
-    atom: GroundAtom
-    holds: bool
-    basis: Basis
-    how: str
-
-    def __str__(self) -> str:
-        return f"{'' if self.holds else 'not '}{self.atom}"
-
-
-class ContentSenses(Protocol):
-    """What has to be measured of things that hold something."""
-
-    def seconds(self) -> float:
-        """Simulated seconds since the beginning."""
-        ...
-
-    def leant(self, item: str) -> tuple[float, float] | None:
-        """How far a vessel leaned at most since :meth:`reset_leant`, and from which angle on it spills, in radians.
-
-        None for what cannot spill: it is closed, or holds nothing.
-        """
-        ...
-
-    def reset_leant(self) -> None:
-        """Forget how far vessels leaned."""
-        ...
-
-    def stream(self, item: str) -> tuple[bool, str] | None:
-        """Whether the stream of an outlet runs into a vessel where it stands, with the numbers.
-
-        None where there is no outlet.
-        """
-        ...
-
-
+# Skills that fail where the contents do not get over the rim.
 _POURING = ("tip", "squeeze", "dip")
-"""Skills that fail where the contents do not get over the rim."""
 
 
 @dataclass
 class InferredFacts:
-    """What became of the facts that no sensor sees.
+    """The facts that no sensor sees.
 
     Attributes:
         state: The facts.
-        known: For those that changed as PDDL says, basis and rule.
-        against: For those that PDDL predicts and that are not so, what was measured.
+        known: Basis and rule of those that changed as PDDL says.
+        against: The measurements against those that PDDL predicts and that do not hold.
     """
 
     state: set[GroundAtom]
@@ -95,62 +41,40 @@ class InferredFacts:
 
 
 class FactInference:
-    """Applies the rules of ``inferred`` in ``skills.yaml``.
+    """The rules of ``inferred`` in ``skills.yaml``, applied to the simulation."""
 
-    Args:
-        skills: Which rule holds for which predicate.
-    """
-
-    def __init__(self, skills: Skills) -> None:
-        self._skills = skills
+    def __init__(self, skills: Skills, senses: Cell) -> None:
+        self._skills, self._senses = skills, senses
         self._contents = {name for name, rule in skills.inferred.items() if rule == "contents"}
+        self._about_contents = {
+            name for name, rule in skills.inferred.items() if rule == "contents" or isinstance(rule, Exposure)
+        }
         self._exposed: dict[GroundAtom, float] = {}
 
     def after(
-        self,
-        senses: ContentSenses,
-        before: State,
-        predicted: State,
-        instruction: Instruction,
-        evidence: str,
-        *,
-        happened: bool,
+        self, before: State, predicted: State, instruction: Instruction, evidence: str, *, happened: bool
     ) -> InferredFacts:
-        """The facts after an instruction.
+        """Return the facts after an instruction, from those observed before it and those predicted by PDDL.
 
-        Args:
-            senses: The simulation.
-            before: Those that were observed before it.
-            predicted: Those of PDDL.
-            instruction: What was done.
-            evidence: What showed that the skill's event happened.
-            happened: Whether it did; otherwise nothing came of it.
+        Unless the skill's event ``happened``, of which ``evidence`` tells, the instruction had no effect.
         """
         found = InferredFacts(set(predicted if happened else before))
         if happened:
             task = self._skills.task(instruction)
             for atom in sorted(predicted ^ before):
-                self._judge(senses, found, atom, before, task.skill, evidence, holds=atom in predicted)
-        self._spill(senses, found)
-        senses.reset_leant()
+                self._judge(found, atom, before, task.skill, evidence, holds=atom in predicted)
+        self._spill(found)
+        self._senses.reset_leant()
         return found
 
-    def observed(self, senses: ContentSenses, state: State) -> None:
-        """Take note of since when what is exposed to something is so."""
+    def observed(self, state: State) -> None:
+        """Record since when things are exposed to something."""
         watched = {rule.to for rule in self._skills.inferred.values() if isinstance(rule, Exposure)}
-        now = senses.seconds()
+        now = self._senses.seconds()
         self._exposed = {a: self._exposed.get(a, now) for a in state if a.predicate in watched}
 
     def _judge(
-        self,
-        senses: ContentSenses,
-        found: InferredFacts,
-        atom: GroundAtom,
-        before: State,
-        skill: str,
-        evidence: str,
-        *,
-        holds: bool,
+        self, found: InferredFacts, atom: GroundAtom, before: State, skill: str, evidence: str, *, holds: bool
     ) -> None:
         rule = self._skills.inferred.get(atom.predicate)
         if rule is None:
@@ -159,30 +83,27 @@ class FactInference:
         if rule == "event" or skill in _POURING:
             found.known[atom] = told
         elif isinstance(rule, Exposure) and skill == "wait":
-            self._expose(senses, found, atom, rule, holds=holds)
+            if holds:
+                self._expose(found, atom, rule)
         elif holds and skill != "wait":
-            self._run_in(senses, found, atom, before)
-        elif not holds and skill != "wait":
+            self._run_in(found, atom, before)
+        elif skill != "wait":
             found.known[atom] = told
 
-    def _expose(
-        self, senses: ContentSenses, found: InferredFacts, atom: GroundAtom, rule: Exposure, *, holds: bool
-    ) -> None:
-        """What stood on what is lit, and for long enough, is hot."""
-        if not holds:
-            return
+    def _expose(self, found: InferredFacts, atom: GroundAtom, rule: Exposure) -> None:
+        """Infer heat of what stood on something lit for long enough."""
         cause = GroundAtom(rule.to, atom.args)
         since = self._exposed.get(cause)
-        passed = 0.0 if since is None else senses.seconds() - since
+        passed = 0.0 if since is None else self._senses.seconds() - since
         if passed >= rule.seconds - 0.01:
             found.known[atom] = Basis.INFERRED, f"{cause} for {passed:.1f} s, {rule.seconds:g} s are enough"
             return
         found.state.discard(atom)
         found.against[atom] = f"{cause} was so for {passed:.1f} s only, and {rule.seconds:g} s are needed"
 
-    def _run_in(self, senses: ContentSenses, found: InferredFacts, atom: GroundAtom, before: State) -> None:
-        """What an outlet gives is in a vessel that its stream runs into."""
-        measured = senses.stream(atom.args[0])
+    def _run_in(self, found: InferredFacts, atom: GroundAtom, before: State) -> None:
+        """Infer contents of a vessel that a stream runs into."""
+        measured = self._senses.stream(atom.args[0])
         if measured is None:
             return
         runs_in, told = measured
@@ -196,20 +117,14 @@ class FactInference:
         # what is in it already stays as it was
         found.state |= {a for a in before if a.predicate in self._skills.inferred and a.args[0] == atom.args[0]}
 
-    def _spill(self, senses: ContentSenses, found: InferredFacts) -> None:
-        """What leaned too far is empty."""
+    def _spill(self, found: InferredFacts) -> None:
+        """Empty vessels that leaned too far."""
         for item in sorted({atom.args[0] for atom in found.state if atom.predicate in self._contents}):
-            lean = senses.leant(item)
+            lean = self._senses.leant(item)
             if lean is None or lean[0] <= lean[1]:
                 continue
             told = f"{item} leaned by {degrees(lean[0]):.0f} degrees, and spills from {degrees(lean[1]):.0f}"
-            for atom in _held_in(found.state, item, self._skills):
+            for atom in sorted(a for a in found.state if a.predicate in self._about_contents and a.args[0] == item):
                 found.state.discard(atom)
                 found.known.pop(atom, None)
                 found.against[atom] = told
-
-
-def _held_in(state: Iterable[GroundAtom], item: str, skills: Skills) -> list[GroundAtom]:
-    """The facts about what is in a thing: what it contains, and its heat."""
-    rules = {p for p, rule in skills.inferred.items() if rule == "contents" or isinstance(rule, Exposure)}
-    return sorted(atom for atom in state if atom.predicate in rules and atom.args[0] == item)

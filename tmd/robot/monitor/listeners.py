@@ -1,25 +1,23 @@
-"""A run as it is told: what each instruction is for, when it begins, and how it ended."""
+"""Events of a run: the purpose of each instruction, its beginning, and its result."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 from tmd.pddl.model import GroundAtom, Instruction
-from tmd.robot.monitor.executor import Performer
 from tmd.robot.skills.results import ExecutedStep
 
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """One instruction of a plan, and what it is for.
+    """One instruction of a plan, and its purpose.
 
     Attributes:
-        instruction: What to do.
-        clause: The clause that it serves, from 0; ``None`` where the plan comes from a file.
-        latent: Whether the person left it unsaid.
-        text: What the person said there.
+        clause: The clause that it serves, from 0; ``None`` if the plan comes from a file.
+        latent: Whether the request leaves it unsaid.
+        text: The words of the request.
     """
 
     instruction: Instruction
@@ -33,11 +31,10 @@ class Title:
     """An instruction that is being done.
 
     Attributes:
-        instruction: What is done.
         number: Its place in the plan, from 1; of a repair, the place before which it was put.
-        of: How many the plan has.
+        of: The length of the plan.
         repair: Whether the monitor put it in.
-        order: What it is for; ``None`` for a repair.
+        order: Its purpose; ``None`` for a repair.
     """
 
     instruction: Instruction
@@ -48,57 +45,41 @@ class Title:
 
 
 class Listener(Protocol):
-    """Who is told how a run goes."""
+    """Receiver of the events of a run."""
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """An instruction begins; ``expected`` is what it should bring about, sorted."""
+        """Receive the beginning of an instruction, and the facts that it should bring about, sorted."""
         ...
 
     def end(self, title: Title, step: ExecutedStep) -> None:
-        """It is over."""
+        """Receive its result."""
         ...
 
 
 class Recorder:
-    """Stands between an executor and a performer, and tells listeners where in the plan the run is.
+    """Tells listeners where in the plan a run is.
 
-    Give it to :class:`tmd.robot.monitor.executor.Executor` as the performer, and :meth:`watch` as ``watch``.
+    Its methods are the callbacks ``begin`` and ``watch`` of :class:`tmd.robot.monitor.executor.Executor`.
 
     Args:
-        performer: Does the instructions.
         orders: The plan.
-        listeners: Who is told.
+        listeners: Receivers of all events, in this order.
     """
 
-    def __init__(self, performer: Performer, orders: Sequence[Order], listeners: Sequence[Listener]) -> None:
-        self._performer = performer
+    def __init__(self, orders: Sequence[Order], listeners: Sequence[Listener]) -> None:
         self._orders = tuple(orders)
         self._listeners = tuple(listeners)
         self._next = 0
         self._open = False
 
-    @property
-    def clock(self) -> int:
-        """The performer's."""
-        return self._performer.clock
-
-    def situation(self) -> Hashable:
-        """The performer's."""
-        return self._performer.situation()
-
-    def idle(self, instruction: Instruction) -> bool:
-        """The performer's."""
-        return self._performer.idle(instruction)
-
-    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
-        """Tell that it begins, and let it be done."""
+    def begin(self, instruction: Instruction, gains: Collection[GroundAtom]) -> None:
+        """Announce an instruction that should bring about ``gains``."""
         title = self._title(instruction, self._place(instruction))
         for listener in self._listeners:
             listener.begin(title, sorted(gains))
-        return self._performer.perform(instruction, gains, attempt)
 
-    def watch(self, step: ExecutedStep) -> None:
-        """Tell that a step is over."""
+    def end(self, step: ExecutedStep) -> None:
+        """Report a finished step."""
         place = None if step.repair else self._place(step.instruction)
         title = self._title(step.instruction, place)
         if place is not None:
@@ -109,7 +90,7 @@ class Recorder:
             listener.end(title, step)
 
     def _place(self, instruction: Instruction) -> int | None:
-        """Where in the plan it stands; ``None`` for a repair.
+        """Return the place in the plan; ``None`` for a repair.
 
         After a step whose facts are not as predicted, the executor may try it again or go on.
         """

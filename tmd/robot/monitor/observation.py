@@ -9,92 +9,32 @@ was predicted. What should stand and has fallen over is not at its place.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
-from typing import Protocol
+from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State, universe
 from tmd.pddl.semantics import apply
 from tmd.pddl.task import Operator, Task
-from tmd.robot.monitor.inference import Basis, ContentSenses, FactInference, InferredFacts, KnownEffect
+from tmd.robot.monitor.inference import FactInference, InferredFacts
+from tmd.robot.skills.results import Basis, KnownEffect
+from tmd.robot.skills.results import Mismatch as Mismatch
 from tmd.robot.skills.skill_file import Skills
 from tmd.world.compile import derive, derive_rules
 from tmd.world.folder import DomainFolder
 
-
-class Senses(ContentSenses, Protocol):
-    """What can be measured in a simulation."""
-
-    def held(self) -> Sequence[str]:
-        """The items between the fingers, one for each hand that holds something."""
-        ...
-
-    def support(self, item: str) -> tuple[str, str] | None:
-        """What an item is at, and how: (thing, relation)."""
-        ...
-
-    def fallen(self, item: str) -> bool:
-        """Whether an item that should stand upright does not, as far as no shut door is before it."""
-        ...
-
-    def is_open(self, name: str) -> bool | None:
-        """Whether a door, drawer or lid is open; ``None`` for what has no joint, or is neither open nor shut."""
-        ...
-
-    def ajar(self, name: str) -> bool:
-        """Whether a door, drawer or lid is neither open nor shut."""
-        ...
-
-    def has_joint(self, name: str) -> bool:
-        """Whether there is a joint that :meth:`is_open` and :meth:`setting` are about."""
-        ...
-
-    def setting(self, name: str) -> str | None:
-        """The setting that a knob is at; ``None`` for what has no joint, or stands between two."""
-        ...
-
-    def reach(self, name: str) -> float:
-        """The distance on the floor from the robot's shoulders to a thing, in metres."""
-        ...
-
-    def measured(self, atom: GroundAtom, sensor: str) -> str:
-        """The numbers behind a fact, for people."""
-        ...
+if TYPE_CHECKING:
+    from tmd.robot.skills.robot_context import Cell
 
 
+# Metres within which things are near.
 REACH = 1.1
-"""Metres within which things are near."""
-
-
-@dataclass(frozen=True, slots=True)
-class Mismatch:
-    """A fact that is not as PDDL predicted.
-
-    Attributes:
-        atom: The fact.
-        expected: Whether it should hold.
-        measured: What the simulation shows.
-    """
-
-    atom: GroundAtom
-    expected: bool
-    measured: str
-
-    def __str__(self) -> str:
-        return f"{'' if self.expected else 'not '}{self.atom} was expected, but {self.measured}"
 
 
 class Observer:
-    """Reads states back.
+    """Reads states of a simulation back; ``skills`` gives the sensor of each predicate."""
 
-    Args:
-        problem: The environment.
-        folder: Its domain.
-        skills: Which predicate is seen by which sensor.
-        senses: The simulation.
-    """
-
-    def __init__(self, problem: Problem, folder: DomainFolder, skills: Skills, senses: Senses) -> None:
+    def __init__(self, problem: Problem, folder: DomainFolder, skills: Skills, senses: Cell) -> None:
         self.problem = problem
         self.folder = folder
         self.skills = skills
@@ -108,11 +48,11 @@ class Observer:
         }
 
         self._task, self._rules = self._ground()
-        self._inference = FactInference(skills)
+        self._inference = FactInference(skills, senses)
         self._inferred = InferredFacts(set())
 
     def _ground(self) -> tuple[Task, list[Operator]]:
-        """The rules that derive what is asked for, on bit sets."""
+        """Instantiate the rules of the derived predicates, on bit sets."""
         domain = self.problem.domain
         rules = [
             replace(schema, name=f"{schema.name}_{number}")
@@ -124,36 +64,31 @@ class Observer:
         return task, [operator for operator in known if operator is not None]
 
     def after(self, before: State, instruction: Instruction, *, happened: bool, evidence: str = "") -> State:
-        """The state now.
+        """Return the state after an instruction, from the state that was observed ``before`` it.
 
-        Args:
-            before: The state that was observed before ``instruction``.
-            instruction: What was done.
-            happened: Whether the skill's own event was seen; otherwise facts that no sensor sees stay as they were.
-            evidence: What showed it.
+        Unless the skill's event was seen to have ``happened``, facts without a sensor stay as they were.
         """
         predicted = apply(instruction, before, self.problem)
-        inferred = self._inference.after(self.senses, before, predicted, instruction, evidence, happened=happened)
+        inferred = self._inference.after(before, predicted, instruction, evidence, happened=happened)
         found = self._now(inferred, before, predicted if happened else before)
         self._inferred = inferred
         return found
 
     def now(self, kept: State) -> State:
-        """The state now, with what cannot be seen as in ``kept``."""
+        """Return the state now, with invisible facts as in ``kept``."""
         self._inferred = InferredFacts(set(kept))
         return self._now(self._inferred, kept, kept)
 
     def _now(self, inferred: InferredFacts, before: State, jointless: State) -> State:
-        """The state now; what a joint leaves open is as before, and as ``jointless`` where there is no joint."""
+        """Return the state now; facts left open by a joint are as before, those without a joint as ``jointless``."""
         kept = inferred.state
         told = {a for a in kept if a.predicate not in self.skills.seen and a.predicate not in self.skills.derived}
         state = self._with_derived(frozenset(told | self._seen(before, jointless)))
         state -= self._toppled(state)
-        self._inference.observed(self.senses, state)
+        self._inference.observed(state)
         return state
 
     def _toppled(self, state: State) -> set[GroundAtom]:
-        """Places of things that have fallen over."""
         places = [a for a in state if self.skills.seen.get(a.predicate) == "support"]
         return {a for a in places if self.senses.fallen(a.args[0])}
 
@@ -170,9 +105,9 @@ class Observer:
         return found | {a for a in followed if a.predicate in self.skills.derived}
 
     def effects(self, before: State, predicted: State, observed: State) -> list[KnownEffect]:
-        """What an instruction changed as predicted, sorted, each with what it is known by.
+        """Return the changes of an instruction as predicted, sorted, each with its basis.
 
-        What the robot is no longer near to is left out.
+        Things that the robot is no longer near to are left out.
         """
         found = []
         for atom in sorted(predicted ^ before):
@@ -193,7 +128,7 @@ class Observer:
         return self._inferred.known.get(atom, (Basis.ASSUMED, "PDDL says so"))
 
     def mismatches(self, predicted: State, observed: State) -> list[Mismatch]:
-        """Where the two differ, and where what should be confirmed is not; sorted."""
+        """Return the differences, and the unconfirmed facts; sorted."""
         found = []
         for atom in sorted(predicted ^ observed):
             expected = atom in predicted
@@ -205,12 +140,9 @@ class Observer:
         return found
 
     def lasting(self, end: State, observed: State, *, odd: bool = False) -> list[Mismatch]:
-        """Where things, joints and contents are not as in ``end``, and what is neither open nor shut; sorted.
+        """Return the differences of things, joints and contents from ``end``, and joints between open and shut; sorted.
 
-        Args:
-            end: What was expected.
-            observed: What is.
-            odd: Only what is neither open nor shut, has fallen over or is nowhere.
+        With ``odd``, only what is neither open nor shut, has fallen over or is nowhere.
         """
         seen = {p for p, sensor in self.skills.seen.items() if sensor in ("support", "joint", "setting")}
         told = seen | {p for p, rule in self.skills.inferred.items() if rule == "contents"}
@@ -234,7 +166,6 @@ class Observer:
         return found
 
     def _declared(self, predicate: str) -> tuple[str, ...]:
-        """The types of a predicate's first argument."""
         declared = next(p for p in self.problem.domain.predicates if p.name == predicate)
         return tuple(declared.parameters[0].types)
 

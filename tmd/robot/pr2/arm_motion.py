@@ -8,91 +8,49 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from itertools import pairwise
-from math import hypot, pi, sin
-from typing import Protocol
+from math import ceil, hypot, pi, sin
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tmd.robot.parameters import ARM_MOTION
-from tmd.robot.pr2.collision import CollisionChecker, CollisionModel, Held, Ignored
-from tmd.robot.pr2.ik import ArmKinematics
+from tmd.robot.pr2.collision import CollisionChecker, Ignored
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import plan, shorten
-from tmd.robot.pr2.trajectory_following import JointGroup, exact
+from tmd.robot.pr2.trajectory_following import exact
 from tmd.robot.pr2.urdf import ARM
 from tmd.robot.sim.pose import Pose, Quaternion
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
 
 Arm = tuple[float, ...]
 Base = tuple[float, float, float]
 
+# Maximum motion of each joint between two checks, in radians: 2 to 4 cm at the hand.
 STRIDES = np.array([0.04, 0.04, 0.06, 0.06, 0.12, 0.12, 0.25])
-"""How far each joint may move between two checks: 2 to 4 cm at the hand."""
-_ENDLESS = (4, 6)
+# Microseconds of following a pose, about.
 _TRACK_WORK = 80
-"""Microseconds of following a pose, about."""
-
-
-class ArmModel(CollisionModel, Protocol):
-    """What planning for an arm asks of a robot besides; base and torso may be given as if they were elsewhere."""
-
-    arm_kinematics: dict[str, ArmKinematics]
-    arm_joints: dict[str, tuple[str, ...]]
-    arm_groups: dict[str, JointGroup]
-
-    def torso(self) -> float:
-        """The height of the torso joint."""
-
-    def arm(self, side: str) -> tuple[float, ...]:
-        """The seven joint positions of an arm."""
-
-    def base_link(self, base: Base | None = None) -> Pose:
-        """The frame base_link for a pose of the base."""
-
-    def elsewhere(self, base: Base | None = None, torso: float | None = None) -> dict[str, float]:
-        """Joint positions of a base and a torso that would be elsewhere."""
-
-    def solve(
-        self,
-        side: str,
-        tool: Pose,
-        *,
-        base: Base | None = None,
-        torso: float | None = None,
-        seed: Sequence[float] | None = None,
-    ) -> list[tuple[float, ...]]:
-        """Arm positions that bring a tool frame to a pose of the world."""
-
-    def keeps_level(self, side: str) -> bool | None:
-        """Whether what a hand holds must stay upright on its way (True), should if it can (False), or need not."""
-
-    def tool_at(self, side: str, arm: Sequence[float], *, base: Base | None = None, torso: float | None = None) -> Pose:
-        """Where the tool frame would be in the world."""
 
 
 def plan_arm(
-    robot: ArmModel,
-    side: str,
-    goal: Sequence[float],
-    *,
-    ignore: Ignored = (),
-    rng: np.random.Generator,
-    budget: int = 300,
+    robot: Pr2, side: str, goal: Sequence[float], *, ignore: Ignored = (), rng: np.random.Generator, budget: int = 300
 ) -> list[Arm] | None:
-    """A collision-free path of one arm from where it is to joint positions.
+    """Plan a collision-free path of one arm from where it is to joint positions; nothing moves.
 
-    It keeps :data:`CLEARANCE` away; what is nearer at the start or at the goal may stay as near as it is there. What
-    can hold something stays upright.
+    It keeps a clearance; what is nearer at the start or at the goal may stay as near as it is there. A thing that can
+    hold something stays upright.
 
     Args:
-        robot: The robot; nothing moves.
+        robot: The robot.
         side: The arm.
         goal: Seven joint positions; the endless joints are turned the short way.
         ignore: (body, link) that may be touched, link None: all of the body.
         rng: For samples and shortcuts.
-        budget: Samples that are drawn before giving up.
+        budget: Maximum number of samples.
 
     Returns:
-        Joint positions after the start, the last is the goal, to go through in straight lines; None: the goal touches
+        Joint positions after the start up to the goal, to go through in straight lines; None if the goal touches
         something, or no path was found.
     """
     must = robot.keeps_level(side)
@@ -104,14 +62,7 @@ def plan_arm(
 
 
 def _plan_arm(
-    robot: ArmModel,
-    side: str,
-    goal: Sequence[float],
-    ignore: Ignored,
-    rng: np.random.Generator,
-    budget: int,
-    *,
-    level: bool,
+    robot: Pr2, side: str, goal: Sequence[float], ignore: Ignored, rng: np.random.Generator, budget: int, *, level: bool
 ) -> list[Arm] | None:
     kinematics = robot.arm_kinematics[side]
     first = np.array(robot.arm(side), dtype=float)
@@ -155,16 +106,9 @@ def _plan_arm(
 
 
 class _Upright:
-    """Keeps what a hand holds upright: it may lean a little, or as much as it does at the ends of its way.
+    """Keeps what a hand holds upright: it leans a little at most, or as much as at the ends of its way."""
 
-    Args:
-        robot: The robot.
-        side: The hand.
-        first: Where the arm is.
-        last: Where it goes.
-    """
-
-    def __init__(self, robot: ArmModel, side: str, first: Array, last: Array) -> None:
+    def __init__(self, robot: Pr2, side: str, first: Array, last: Array) -> None:
         self._kinematics = robot.arm_kinematics[side]
         self._torso = robot.torso()
         held = next(held for held in robot.helds() if held.side == side)
@@ -172,17 +116,17 @@ class _Upright:
         self._most = max(ARM_MOTION.level, float(self._leaning(np.array([first, last])).max()) + 0.02)
 
     def _leaning(self, rows: Array) -> Array:
-        """Radians between the axis of what is held and the vertical, for (n, 7)."""
+        """Return the radians between the axis of what is held and the vertical, for (n, 7)."""
         frames = self._kinematics.tool(self._torso, rows)
         angles: Array = np.arccos(np.clip((frames[:, :3, :3] @ self._axis)[:, 2], -1.0, 1.0))
         return angles
 
     def kept(self, rows: Array) -> bool:
-        """Whether it is upright in all of (n, 7)."""
+        """Return whether it is upright in all of (n, 7)."""
         return bool(np.all(self._leaning(rows) <= self._most))
 
     def stood_up(self, row: Array, *, anywhere: bool = False) -> Array | None:
-        """A posture like ``row`` in which it is upright; None if there is none nearby, or with ``anywhere`` at all."""
+        """Return a posture like ``row`` in which it is upright; None if there is none nearby, or ``anywhere``."""
         frame = self._kinematics.tool(self._torso, row[None])[0]
         pose = Pose.from_matrix(frame)
         up = np.array(pose.rotate((float(self._axis[0]), float(self._axis[1]), float(self._axis[2]))))
@@ -190,66 +134,29 @@ class _Upright:
         sine = float(np.linalg.norm(turn))
         if sine > 1e-9:
             x, y, z = (float(value) for value in turn / sine)
-            turned = Pose.about((x, y, z), float(np.arctan2(sine, up[2]))) * Pose((0.0, 0.0, 0.0), pose.orientation)
-            pose = Pose(pose.position, turned.orientation)
-        if anywhere:
-            found = self._kinematics.with_roll(pose, self._torso, row.tolist())
-        else:
-            found = self._kinematics.track(pose, self._torso, row.tolist())
+            pose = pose.spun(Pose.about((x, y, z), float(np.arctan2(sine, up[2]))))
+        solve = self._kinematics.with_roll if anywhere else self._kinematics.track
+        found = solve(pose, self._torso, row.tolist())
         return None if found is None else np.array(found, dtype=float)
 
 
 def plan_line(
-    robot: ArmModel,
-    side: str,
-    start: Pose,
-    end: Pose,
-    *,
-    ignore: Ignored = (),
-    arm: Sequence[float] | None = None,
+    robot: Pr2, side: str, start: Pose, end: Pose, *, ignore: Ignored = (), arm: Sequence[float] | None = None
 ) -> list[Arm] | None:
-    """A straight motion of the tool: approach, retreat, push.
-
-    Args:
-        robot: The robot; nothing moves.
-        side: The arm.
-        start: The first tool pose in the world.
-        end: The last one; the orientation turns evenly.
-        ignore: As for :func:`plan_poses`.
-        arm: Where the arm is at ``start``.
-
-    Returns:
-        As :func:`plan_poses`.
-    """
-    # pieces of 1 cm or 0.05 rad
-    pieces = max(1, int(np.ceil(max(start.distance(end) / 0.01, start.angle(end) / 0.05) - 1e-9)))
-    poses = [between(start, end, index / pieces) for index in range(pieces + 1)]
-    return plan_poses(robot, side, poses, ignore=ignore, arm=arm)
+    """Plan a straight motion of the tool, whose orientation turns evenly; see :func:`plan_poses`."""
+    return plan_poses(robot, side, dense([start, end]), ignore=ignore, arm=arm)
 
 
-def plan_level(robot: ArmModel, side: str, goal: Pose, *, ignore: Ignored = ()) -> list[Arm] | None:
-    """A way of a hand in straight lines, on which what it holds leans no more than at its ends.
+def plan_level(robot: Pr2, side: str, goal: Pose, *, ignore: Ignored = ()) -> list[Arm] | None:
+    """Plan a way of a hand in straight lines, on which what it holds leans no more than at its ends.
 
-    Straight there; or back towards the robot, or up, or both, before and after that.
-
-    Args:
-        robot: The robot; nothing moves.
-        side: The arm.
-        goal: Where the tool goes, in the world.
-        ignore: As for :func:`plan_arm`.
-
-    Returns:
-        As :func:`plan_arm`.
+    It leads straight there; or back towards the robot, or up, or both, before and after that. See :func:`plan_arm`.
     """
     start = robot.tool_at(side, robot.arm(side))
     shoulder = robot.base_link()
     for up, back in ARM_MOTION.level_detours:
         corners = [_aside(shoulder, pose, up, back) for pose in (start, goal)] if up or back else []
-        poses = [start, *corners, goal]
-        whole = [start]
-        for one, other in pairwise(poses):
-            pieces = max(1, int(np.ceil(max(one.distance(other) / 0.02, one.angle(other) / 0.1) - 1e-9)))
-            whole += [between(one, other, index / pieces) for index in range(1, pieces + 1)]
+        whole = dense([start, *corners, goal], 2.0)
         rows = plan_poses(robot, side, whole, ignore=ignore, margin=ARM_MOTION.level_clearance)
         if rows is not None:
             return rows[1:]
@@ -257,22 +164,18 @@ def plan_level(robot: ArmModel, side: str, goal: Pose, *, ignore: Ignored = ()) 
 
 
 def _aside(base: Pose, pose: Pose, up: float, back: float) -> Pose:
-    """The pose higher up and nearer to the robot."""
+    """Return the pose higher up and nearer to the robot."""
     x, y, z = pose.position
     away = max(hypot(base.position[0] - x, base.position[1] - y), 1e-6)
     nearer = min(back, away)
     return Pose(
-        (
-            x + nearer * (base.position[0] - x) / away,
-            y + nearer * (base.position[1] - y) / away,
-            z + up,
-        ),
+        (x + nearer * (base.position[0] - x) / away, y + nearer * (base.position[1] - y) / away, z + up),
         pose.orientation,
     )
 
 
 def plan_poses(
-    robot: ArmModel,
+    robot: Pr2,
     side: str,
     poses: Sequence[Pose],
     *,
@@ -280,38 +183,30 @@ def plan_poses(
     arm: Sequence[float] | None = None,
     base: Base | None = None,
     torso: float | None = None,
-    held: Sequence[Held] | None = None,
     margin: float = 0.0,
 ) -> list[Arm] | None:
-    """Joint positions along tool poses, without leaps between them.
+    """Compute joint positions along tool poses, without leaps between them; nothing moves.
 
     Args:
-        robot: The robot; nothing moves.
+        robot: The robot.
         side: The arm.
         poses: Tool frames in the world, a few centimetres apart at most.
-        ignore: What may be touched.
+        ignore: (body, link) that may be touched, link None: all of the body.
         arm: Where the arm is at the first pose. None: where it is, if its tool is there (to 1 cm and 0.05 rad);
             else several solutions of the first pose are tried, nearest first.
-        base: Where the base would be; None: where it is.
-        torso: How high the torso would be; None: as it is.
-        held: What would be in the hands; None: what is.
-        margin: Metres that count as touching, but for what is as near at the start.
+        base: Pose of the base; None: the present one.
+        torso: Height of the torso; None: the present one.
+        margin: Metres that count as touching, except for what is as near at the start.
 
     Returns:
-        One row for each pose, the first included; None: a pose is out of reach, or the way to it is blocked.
+        One row for each pose, the first included; None if a pose is out of reach, or the way to it is blocked.
     """
     kinematics = robot.arm_kinematics[side]
     height = robot.torso() if torso is None else torso
     back = robot.base_link(base).inverse()
     seeds = [tuple(arm)] if arm is not None else _first_rows(robot, side, poses[0], base, torso)
     with CollisionChecker(
-        robot,
-        robot.arm_joints[side],
-        positions=robot.elsewhere(base, torso),
-        arm=side,
-        helds=held,
-        ignore=ignore,
-        margin=margin,
+        robot, robot.arm_joints[side], positions=robot.elsewhere(base, torso), arm=side, ignore=ignore, margin=margin
     ) as checker:
         for seed in seeds:
             for collision in checker.collisions(seed):
@@ -327,7 +222,7 @@ def plan_poses(
 def _along(
     checker: CollisionChecker, track: Callable[[Pose, Arm], Arm | None], seed: Arm, poses: Sequence[Pose]
 ) -> list[Arm] | None:
-    """Free rows from ``seed`` on; what is blocked is noticed before all of them are worked out."""
+    """Return free rows from ``seed`` on, checked in chunks: blocked ways are noticed early."""
     rows, looked_at = [seed], 0
     for number, pose in enumerate(poses[1:], 1):
         row = track(pose, rows[-1])
@@ -342,8 +237,8 @@ def _along(
     return rows if len(poses) > 1 or checker.free(np.array(rows)) else None
 
 
-def _first_rows(robot: ArmModel, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:
-    """The arm as it is, if its tool is at ``pose``; else solutions that differ, nearest first."""
+def _first_rows(robot: Pr2, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:
+    """Return the arm as it is, if its tool is at ``pose``; else solutions that differ, nearest first."""
     now = robot.arm(side)
     tool = robot.tool_at(side, now, base=base, torso=torso)
     if tool.distance(pose) < 0.01 and tool.angle(pose) < 0.05:
@@ -355,8 +250,17 @@ def _first_rows(robot: ArmModel, side: str, pose: Pose, base: Base | None, torso
     return chosen[: ARM_MOTION.max_branches]
 
 
+def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
+    """Insert poses so that neighbours are at most ``pitch`` cm and 0.05 ``pitch`` rad apart."""
+    found = [poses[0]]
+    for start, end in pairwise(poses):
+        pieces = max(1, ceil(max(start.distance(end) / (0.01 * pitch), start.angle(end) / (0.05 * pitch)) - 1e-9))
+        found += [between(start, end, k / pieces) for k in range(1, pieces + 1)]
+    return found
+
+
 def between(start: Pose, end: Pose, part: float) -> Pose:
-    """The pose at ``part`` (0 to 1) of the way; the orientation turns evenly (slerp, Shoemake 1985)."""
+    """Return the pose at ``part`` (0 to 1) of the way; the orientation turns evenly (slerp, Shoemake 1985)."""
     a, b = np.array(start.orientation), np.array(end.orientation)
     b = b if a @ b >= 0 else -b
     angle = start.angle(end) / 2

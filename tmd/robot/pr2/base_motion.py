@@ -8,40 +8,34 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from heapq import heappop, heappush
-from itertools import pairwise
+from itertools import pairwise, product
 from math import hypot, inf, pi, tau
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tmd.robot.parameters import BASE_MOTION
-from tmd.robot.pr2.collision import CollisionChecker, CollisionModel, Ignored
+from tmd.robot.pr2.collision import CollisionChecker, Ignored
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import shorten
-from tmd.robot.pr2.trajectory_following import JointGroup, exact
+from tmd.robot.pr2.trajectory_following import exact
 from tmd.robot.pr2.urdf import BASE_JOINTS
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
 
 Base = tuple[float, float, float]
 Place = tuple[int, int]
 Cell = tuple[int, int, int]
 
+# Maximum motion of the base between two checks: metres, radians.
 STRIDES = np.array([0.04, 0.04, 0.08])
-"""How far the base may move between two checks."""
 _ALL_HEADINGS = sorted(range(-BASE_MOTION.grid_headings // 2, BASE_MOTION.grid_headings // 2), key=abs)
 _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 
 
-class BaseModel(CollisionModel, Protocol):
-    """What planning for the base asks of a robot besides."""
-
-    base_group: JointGroup
-
-    def base(self) -> tuple[float, float, float]:
-        """Where the base is: x, y, theta."""
-
-
 def plan_base(
-    robot: BaseModel,
+    robot: Pr2,
     goal: Base,
     *,
     ignore: Ignored = (),
@@ -49,18 +43,13 @@ def plan_base(
     budget: int = 4000,
     clearance: float = BASE_MOTION.clearance,
 ) -> list[Base] | None:
-    """A way for the robot, as its arms are and with what it holds, to a pose of the base.
+    """Plan a way for the robot, as its arms are and with what it holds, to a pose x, y, theta; nothing moves.
 
-    Args:
-        robot: The robot; nothing moves.
-        goal: x, y, theta.
-        ignore: (body, link) that may be touched, link None: all of the body.
-        rng: For shortcuts.
-        budget: Lattice points that are looked at before giving up.
-        clearance: Metres to keep away. What is nearer at the start or at the goal may stay as near as it is there.
+    ``clearance`` is kept, in metres; what is nearer at the start or at the goal may stay as near as it is there.
+    ``ignore`` and ``rng`` are as for :func:`tmd.robot.pr2.arm_motion.plan_arm`; ``budget`` counts lattice points.
 
     Returns:
-        Poses after the start, the last is the goal; None: the goal touches something, or no way was found.
+        Poses after the start up to the goal; None if the goal touches something, or no way was found.
     """
     x, y, theta = robot.base()
     end = np.array([goal[0], goal[1], theta + (goal[2] - theta + pi) % tau - pi])
@@ -80,7 +69,7 @@ def plan_base(
 
 
 def _search(checker: CollisionChecker, start: Array, end: Array, budget: int) -> Array | None:
-    """A way from the start, or from somewhere straight away from what is close to the start."""
+    """Return a way from the start, or from somewhere straight away from what is close to the start."""
     lattice = _Lattice(checker, start, end)
     path = lattice.straight()
     if path is not None:
@@ -94,7 +83,7 @@ def _search(checker: CollisionChecker, start: Array, end: Array, budget: int) ->
 
 
 def _ways_out(checker: CollisionChecker, start: Array) -> list[Array]:
-    """Places that are reached straight from the start, backwards first; the farthest free one each way."""
+    """Return places that are reached straight from the start, backwards first; the farthest free one each way."""
     found = []
     for turn in BASE_MOTION.ways_out:
         angle = start[2] + pi + turn
@@ -107,7 +96,7 @@ def _ways_out(checker: CollisionChecker, start: Array) -> list[Array]:
 
 
 def free_line(checker: CollisionChecker, start: Array, end: Array) -> bool:
-    """Whether all poses from one to the other are free; the first is not looked at."""
+    """Return whether all poses from one to the other are free; the first is not checked."""
     count = max(1, int(np.ceil(np.max(np.abs(end - start) / STRIDES))))
     return checker.free(start + (end - start) * np.linspace(0, 1, count + 1)[1:, None])
 
@@ -124,15 +113,14 @@ class _Lattice:
         self._ways = _PlaceDistances(self)
 
     def pose(self, cell: Cell) -> Array:
-        """x, y, theta; the heading is counted on, not wrapped."""
+        """Return x, y, theta; the heading is counted on, not wrapped."""
         i, j, k = cell
-        result: Array = self._goal + np.array(
-            [i * BASE_MOTION.grid_pitch, j * BASE_MOTION.grid_pitch, k * tau / BASE_MOTION.grid_headings]
-        )
+        pitch = BASE_MOTION.grid_pitch
+        result: Array = self._goal + np.array([i * pitch, j * pitch, k * tau / BASE_MOTION.grid_headings])
         return result
 
     def straight(self) -> Array | None:
-        """Corners of a way with one corner at most, (n, 3), or None."""
+        """Return the corners of a way with one corner at most, (n, 3), or None."""
         if self._line(self._start, self._goal):
             return np.array([self._start, self._goal])
         # turning first, driving, turning at the end is what people expect, and it is often free
@@ -145,7 +133,7 @@ class _Lattice:
         return None
 
     def search(self, budget: int) -> Array | None:
-        """Corners from start to goal, (n, 3), or None."""
+        """Return corners from start to goal, (n, 3), or None."""
         if (path := self.straight()) is not None:
             return path
         entries = {cell for cell in self._entries() if self.free(cell) and self._line(self._start, self.pose(cell))}
@@ -166,7 +154,7 @@ class _Lattice:
         return None
 
     def _enclosed(self, ends: set[Cell], others: set[Cell]) -> bool:
-        """Whether few points can be reached from the ones, and none of the others is among them."""
+        """Return whether few points can be reached from ``ends``, and none of the others is among them."""
         reached, waiting = set(ends), sorted(ends)
         while waiting and len(reached) < BASE_MOTION.escape_points:
             for neighbour, _ in self._neighbours(waiting.pop()):
@@ -176,7 +164,7 @@ class _Lattice:
         return not waiting and reached.isdisjoint(others)
 
     def _astar(self, entries: set[Cell], budget: int) -> list[Cell] | None:
-        """From the goal back to a point next to the start, which is off the lattice; points in driving order."""
+        """Search from the goal back to a point next to the start, which is off the lattice; points in driving order."""
         best: dict[Cell, float] = {(0, 0, 0): 0.0}
         before: dict[Cell, Cell] = {}
         closed: set[Cell] = set()
@@ -208,18 +196,13 @@ class _Lattice:
         return None
 
     def _entries(self) -> Iterator[Cell]:
-        i, j, k = (self._start - self._goal) / [
-            BASE_MOTION.grid_pitch,
-            BASE_MOTION.grid_pitch,
-            tau / BASE_MOTION.grid_headings,
-        ]
-        for a in (int(np.floor(i)), int(np.ceil(i))):
-            for b in (int(np.floor(j)), int(np.ceil(j))):
-                for c in (int(np.floor(k)), int(np.ceil(k))):
-                    yield a, b, c
+        pitch = BASE_MOTION.grid_pitch
+        place = (self._start - self._goal) / [pitch, pitch, tau / BASE_MOTION.grid_headings]
+        i, j, k = ((int(np.floor(value)), int(np.ceil(value))) for value in place)
+        yield from product(i, j, k)
 
     def _left(self, cell: Cell) -> float:
-        """A lower bound on the cost from a point to the start, slightly raised: fewer points, hardly longer ways."""
+        """Return a lower bound on the cost from a point to the start, raised a little to look at fewer points."""
         turn = abs(float(self.pose(cell)[2] - self._start[2]))
         return 1.2 * (self._ways.to(cell[:2]) + BASE_MOTION.turn_cost * turn)
 
@@ -233,7 +216,7 @@ class _Lattice:
                 yield (i, j, k + turn), BASE_MOTION.turn_cost * tau / BASE_MOTION.grid_headings
 
     def free(self, cell: Cell) -> bool:
-        """Whether the robot touches nothing there."""
+        """Return whether the robot touches nothing there."""
         if cell not in self._known:
             if cell not in self._screened:
                 self._screen(cell)
@@ -242,12 +225,9 @@ class _Lattice:
 
     def _screen(self, cell: Cell) -> None:
         """Compare boxes for a block of places with one heading: many at once cost little more than one."""
-        i, j, k = (
-            cell[0] // BASE_MOTION.block * BASE_MOTION.block,
-            cell[1] // BASE_MOTION.block * BASE_MOTION.block,
-            cell[2],
-        )
-        cells = [(i + a, j + b, k) for a in range(BASE_MOTION.block) for b in range(BASE_MOTION.block)]
+        size = BASE_MOTION.block
+        i, j, k = cell[0] // size * size, cell[1] // size * size, cell[2]
+        cells = [(i + a, j + b, k) for a, b in product(range(size), repeat=2)]
         verdicts = self._checker.apart(np.array([self.pose(each) for each in cells]))
         self._screened.update(zip(cells, verdicts, strict=True))
 
@@ -256,10 +236,10 @@ class _Lattice:
 
 
 class _PlaceDistances:
-    """How far it is from the start to a place if the heading is free to choose at each: a bound for the search.
+    """Distances from the start to places if the heading is free to choose at each: a bound for the search.
 
-    It knows the ways round what is in between, where the straight distance leads into it. The search goes on from where
-    it was whenever a place is asked for (D. Silver, Cooperative Pathfinding, AIIDE 2005: reverse resumable A*).
+    It knows the ways round obstacles, into which the straight distance leads. The search continues whenever a place is
+    asked for (D. Silver, Cooperative Pathfinding, AIIDE 2005: reverse resumable A*).
     """
 
     def __init__(self, lattice: _Lattice) -> None:
@@ -270,13 +250,14 @@ class _PlaceDistances:
         self._passable: dict[Place, bool] = {}
 
     def add(self, place: Place, distance: float) -> None:
-        """A way of so many metres leads to this place."""
+        """Add a way of so many metres to this place."""
         if distance < self._best.get(place, inf) - 1e-12:
             self._best[place] = distance
-            heappush(self._heap, (distance + self._ahead(place), place))
+            # to the goal it is at least as far as straight ahead
+            heappush(self._heap, (distance + BASE_MOTION.grid_pitch * hypot(*place), place))
 
     def to(self, place: Place) -> float:
-        """Metres; infinite where no way leads there, or where it is too far."""
+        """Return metres; infinite if no way leads there, or if it is too far."""
         while place not in self._closed and self._heap and len(self._closed) < BASE_MOTION.max_places:
             _, here = heappop(self._heap)
             if here in self._closed:
@@ -287,10 +268,6 @@ class _PlaceDistances:
                 if there not in self._closed and self._is_passable(there):
                     self.add(there, self._best[here] + BASE_MOTION.grid_pitch * hypot(dx, dy))
         return self._best[place] if place in self._closed else inf
-
-    def _ahead(self, place: Place) -> float:
-        """At least so far it is to the goal, from where the lattice's search comes."""
-        return BASE_MOTION.grid_pitch * hypot(*place)
 
     def _is_passable(self, place: Place) -> bool:
         if place not in self._passable:

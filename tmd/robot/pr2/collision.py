@@ -1,4 +1,4 @@
-"""What the PR2 would touch if its joints were elsewhere.
+"""Collision checks of a robot in configurations other than the present one.
 
 Two phases. Boxes around links are moved in numpy, for a whole batch of configurations: most are free after that. Only
 where boxes overlap are the joints set in the simulator and distances asked for, link by link; afterwards everything
@@ -11,34 +11,27 @@ import xml.etree.ElementTree as ET
 from collections.abc import Collection, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
 from tmd.robot.parameters import CONTACT
-from tmd.robot.pr2.kinematics import Array, Tree, motion, origin
+from tmd.robot.pr2.kinematics import Array, Tree, motion, shape_points
 from tmd.robot.pr2.urdf import TOOL, RobotDescription
 from tmd.robot.sim.pose import Pose, Vector
 
 if TYPE_CHECKING:
     from tmd.robot.sim.simulator import Simulator
 
+# The robot's link (a tool frame stands for what that hand holds), what it touches (body, link), and how deep.
 Collision: TypeAlias = tuple[str, int, int, float]
-"""The robot's link (a tool frame stands for what that hand holds), what it touches (body, link), and how deep."""
+# Bodies and links that may be touched; None: all links of the body.
 Ignored: TypeAlias = Collection[tuple[int, int | None]]
-"""Bodies and links that may be touched; None: all links of the body."""
 
 
 @dataclass(frozen=True, slots=True)
 class Held:
-    """A body in a hand.
-
-    Attributes:
-        body: The body.
-        side: The hand.
-        grip: The body's frame in the tool frame.
-    """
+    """A body in a hand; ``grip`` is the body's frame in the tool frame."""
 
     body: int
     side: str
@@ -53,12 +46,12 @@ class LinkBox:
     half: Array
 
 
+# Microseconds of comparing boxes, about: for a batch, and for each configuration in it.
 _BATCH_WORK = (130, 8)
-"""Microseconds of comparing boxes, about: for a batch, and for each configuration in it."""
 
 
 class CollisionModel(Protocol):
-    """What collision checking asks of a robot; attributes as those of :class:`~tmd.robot.pr2.pr2.Pr2`."""
+    """The part of a robot that collision checking needs; attributes as those of :class:`~tmd.robot.pr2.pr2.Pr2`."""
 
     sim: Simulator
     tree: Tree
@@ -70,13 +63,13 @@ class CollisionModel(Protocol):
     movable: list[int]
 
     def solid_links(self, body: int) -> list[int]:
-        """The links of a body that can be touched."""
+        """Return the links of a body that can be touched."""
 
     def positions(self) -> dict[str, float]:
-        """The positions of all joints that move, by name."""
+        """Return the positions of all joints that move, by name."""
 
     def helds(self) -> list[Held]:
-        """What the hands hold, as it lies in them now."""
+        """Return what the hands hold."""
 
 
 class CollisionChecker:
@@ -87,10 +80,10 @@ class CollisionChecker:
     Args:
         robot: The robot.
         vary: Names of the joints that the configurations give, in order; each below the one before.
-        positions: Of other joints that are to be elsewhere than they are.
+        positions: Of other joints, if not the present ones.
         arm: Check only the links of this arm (and what it holds); else all links.
-        helds: What is in the hands; None: what the robot holds.
-        ignore: What may be touched.
+        helds: The contents of the hands; None: what the robot holds.
+        ignore: (body, link) that may be touched.
         margin: Metres to keep away.
     """
 
@@ -106,7 +99,7 @@ class CollisionChecker:
         margin: float = 0.0,
     ) -> None:
         self._robot = robot
-        self._sim = robot.sim
+        self.sim = robot.sim
         self._margin = margin
         self._ignore = frozenset(ignore)
         self._vary = tuple(vary)
@@ -114,8 +107,8 @@ class CollisionChecker:
         self._helds = [held for held in everything if arm in (None, held.side)]
         self._others = [held for held in everything if held not in self._helds]
         self._undo = ExitStack()
+        # Allowed depths of pairs in each other; other pairs may not touch.
         self.allowed: dict[tuple[str, int, int], float] = {}
-        """How deep pairs may be in each other; those that are not named here: not at all."""
         self._ends: list[tuple[Array, Array, dict[tuple[str, int, int], float]]] = []
         tree = robot.tree
         top = tree.root if arm is None else f"{arm[0]}_shoulder_pan_link"
@@ -137,13 +130,8 @@ class CollisionChecker:
         self._upper = np.array([upper for _, _, _, upper in self._obstacles]).reshape(-1, 3)
         self._pairs = self._self_pairs(frames)
 
-    @property
-    def sim(self) -> Simulator:
-        """The simulation."""
-        return self._sim
-
     def __enter__(self) -> CollisionChecker:
-        sim, body, joints = self._sim, self._robot.body, self._robot.movable
+        sim, body, joints = self.sim, self._robot.body, self._robot.movable
         positions, velocities = sim.joint_states(body, joints)
         for held in (*self._helds, *self._others):
             self._undo.callback(sim.set_motion, held.body, sim.motion(held.body))
@@ -159,7 +147,7 @@ class CollisionChecker:
     # set-up
 
     def _chain(self, tree: Tree, frames: Mapping[str, Array], below: Sequence[str]) -> None:
-        """Split the tree at the joints that vary: what lies between two of them is rigid."""
+        """Split the tree at the joints that vary: the links between two of them are rigid."""
         carriers = [next(link for link in tree.links.values() if link.joint == joint) for joint in self._vary]
         self._carriers = carriers
         self._fixed = []  # from the frame of one varying link to the joint of the next
@@ -182,11 +170,10 @@ class CollisionChecker:
         self._links = [*self._links, tool]
         self._groups.append(group)
         self._relative.append(self._inverse[group] @ frames[tool] @ held.grip.homogeneous())
-        self._boxes.append(box_of(self._sim, held.body))
+        self._boxes.append(box_of(self.sim, held.body))
 
     def _find_obstacles(self) -> list[tuple[int, int, Vector, Vector]]:
-        """Links of other bodies with their boxes."""
-        sim = self._sim
+        sim = self.sim
         taken = {self._robot.body, *(held.body for held in self._helds)}
         found = []
         for body in sim.bodies():
@@ -202,25 +189,22 @@ class CollisionChecker:
         return found
 
     def _self_pairs(self, frames: Mapping[str, Array]) -> list[tuple[int, int | str]]:
-        """Pairs of the robot's own links to check: a mover's number, and a mover's number or a resting link's name."""
+        """Return pairs of own links to check: a mover's number, and a mover's number or a resting link's name."""
         disabled = self._robot.model.disabled
         number = {name: index for index, name in enumerate(self._links)}
         hand = {held.side: set(self._robot.tree.below(f"{held.side[0]}_wrist_flex_link")) for held in self._helds}
         result: list[tuple[int, int | str]] = []
-        resting: dict[str, None] = {}
         for index, name in enumerate(self._links):
             for other in self._robot.boxes:
                 second = number.get(other, -1)
+                near = (name, other) in disabled or 0 <= second <= index
                 if name.endswith(TOOL):
                     near = other in hand["right" if name[0] == "r" else "left"]
-                else:
-                    near = (name, other) in disabled or 0 <= second <= index
-                rigid = bool(self._vary) and second >= 0 and self._groups[second] == self._groups[index]
+                rigid = self._vary and second >= 0 and self._groups[second] == self._groups[index]
                 if near or rigid:
                     continue
                 result.append((index, second if second >= 0 else other))
-                if second < 0:
-                    resting[other] = None
+        resting = dict.fromkeys(other for _, other in result if isinstance(other, str))
         boxes = [moved(self._robot.boxes[name], frames[name][None]) for name in resting]
         self._resting = tuple(np.array([box[end][0] for box in boxes]).reshape(-1, 3) for end in (0, 1))
         place = {name: len(self._links) + row for row, name in enumerate(resting)}
@@ -229,15 +213,12 @@ class CollisionChecker:
         return result
 
     def allow(self, ends: Sequence[tuple[Array, float]], near: Array | None = None) -> bool:
-        """Allow what is near at the ends of a way to be as near as it is there.
+        """Allow what is near at the ends of a way to be as near as it is there; return False if an end is too deep.
 
         Args:
             ends: Configurations, each with how deep it may be in something, in metres.
-            near: How far from an end each joint may be where that holds; what touches there is apart elsewhere, so
+            near: Distance of each joint from an end within which that holds; what touches there is apart elsewhere, so
                 that it is neither dragged along nor pushed on. None: it holds all the way.
-
-        Returns:
-            False if an end is deeper in something.
         """
         self.allowed.clear()
         self._ends.clear()
@@ -253,13 +234,13 @@ class CollisionChecker:
         return True
 
     def touching(self) -> bool:
-        """Whether anything at the ends of a way, as given to :meth:`allow`, is nearer than it should be elsewhere."""
+        """Return whether anything at the ends given to :meth:`allow` is nearer than it should be elsewhere."""
         return any(depth > -CONTACT.apart for _, _, pairs in self._ends for depth in pairs.values())
 
     # checks
 
     def frames(self, configurations: Array) -> Array:
-        """Frames of the checked links in the world: (n, links, 4, 4) for configurations (n, joints)."""
+        """Return the frames of the checked links in the world: (n, links, 4, 4) for configurations (n, joints)."""
         count = len(configurations)
         frame = np.broadcast_to(np.eye(4), (count, 4, 4))
         tops = [frame]
@@ -270,7 +251,7 @@ class CollisionChecker:
         return result
 
     def collisions(self, configuration: Sequence[float]) -> list[Collision]:
-        """Everything that one configuration touches, deepest first."""
+        """Return everything that one configuration touches, deepest first."""
         batch = np.asarray(configuration, dtype=float).reshape(1, -1)
         frames = self.frames(batch)
         pairs = self._candidates(frames)[0]
@@ -278,7 +259,7 @@ class CollisionChecker:
         return sorted(found, key=lambda each: (-each[3], each[:3]))
 
     def free(self, configurations: Array, closer: float = 0.0) -> bool:
-        """Whether none of (n, joints) touches anything, with a margin that is smaller by ``closer`` metres."""
+        """Return whether none of (n, joints) touches anything, with a margin that is smaller by ``closer`` metres."""
         frames = self.frames(configurations)
         candidates = self._candidates(frames)
         busy = [index for index, pairs in enumerate(candidates) if pairs]
@@ -289,7 +270,7 @@ class CollisionChecker:
         return True
 
     def each_free(self, configurations: Array) -> list[bool]:
-        """For each of (n, joints) whether it touches nothing."""
+        """Return for each of (n, joints) whether it touches nothing."""
         frames = self.frames(configurations)
         return [
             not self._narrow(configuration, frame, pairs, every=False)
@@ -297,12 +278,12 @@ class CollisionChecker:
         ]
 
     def apart(self, configurations: Array) -> list[bool]:
-        """For each of (n, joints) whether not even boxes overlap: then it is free, else nothing is known."""
+        """Return for each of (n, joints) whether not even boxes overlap: then it is free, else nothing is known."""
         return [not pairs for pairs in self._candidates(self.frames(configurations))]
 
     def _candidates(self, frames: Array) -> list[list[tuple[int, int, int]]]:
-        """For each configuration, what may touch: (mover, body, link)."""
-        self._sim.work += _BATCH_WORK[0] + _BATCH_WORK[1] * len(frames)
+        """Return for each configuration the pairs that may touch: (mover, body, link)."""
+        self.sim.work += _BATCH_WORK[0] + _BATCH_WORK[1] * len(frames)
         centres = (frames[..., :3, :3] @ self._centres[:, :, None])[..., 0] + frames[..., :3, 3]
         halves = (np.abs(frames[..., :3, :3]) @ self._halves[:, :, None])[..., 0] + self._margin
         lower, upper = centres - halves, centres + halves
@@ -339,14 +320,14 @@ class CollisionChecker:
         allowed = self._allowed_at(configuration)
         first = len(self._links) - len(self._helds)
         for held, frame in zip(self._helds, frames[first:], strict=True):
-            self._sim.set_pose(held.body, Pose.from_matrix(frame))
+            self.sim.set_pose(held.body, Pose.from_matrix(frame))
         found = []
         for mover, body, link in pairs:
             name = self._links[mover]
             if mover >= first:
-                points = self._sim.closest(self._helds[mover - first].body, body, self._margin, other_link=link)
+                points = self.sim.closest(self._helds[mover - first].body, body, self._margin, other_link=link)
             else:
-                points = self._sim.closest(self._robot.body, body, self._margin, self._robot.index[name], link)
+                points = self.sim.closest(self._robot.body, body, self._margin, self._robot.index[name], link)
             depth = max((-point.distance for point in points), default=-np.inf)
             if depth > allowed.get((name, body, link), CONTACT.touch - self._margin) + closer:
                 found.append((name, body, link, float(depth)))
@@ -355,7 +336,7 @@ class CollisionChecker:
         return found
 
     def _allowed_at(self, configuration: Array) -> dict[tuple[str, int, int], float]:
-        """How deep pairs may be in each other in a configuration: more near the ends of a way."""
+        """Return the allowed depths of pairs in a configuration: more near the ends of a way."""
         found = self.allowed
         for end, near, pairs in self._ends:
             if np.all(np.abs(configuration - end) <= near):
@@ -364,47 +345,23 @@ class CollisionChecker:
 
     def _set(self, positions: Mapping[str, float]) -> None:
         joints = [self._robot.joint_index[name] for name in positions]
-        self._sim.set_joints(self._robot.body, joints, [float(value) for value in positions.values()])
+        self.sim.set_joints(self._robot.body, joints, [float(value) for value in positions.values()])
 
 
 def link_boxes(root: ET.Element) -> dict[str, LinkBox]:
-    """Boxes around the collision shapes of a URDF's links, from binary STL meshes and simple shapes.
-
-    Links with other meshes are left out.
-    """
+    """Return boxes around the collision shapes of a URDF's links, without links with cylinders or spheres."""
     result = {}
     for link in root.findall("link"):
-        clouds = [_corners(each) for each in link.findall("collision")]
-        if clouds and all(cloud is not None for cloud in clouds):
-            points = np.vstack([cloud for cloud in clouds if cloud is not None])
+        shapes = link.findall("collision")
+        if shapes and all({"mesh", "box"} & {each.tag for each in shape.iterfind("geometry/*")} for shape in shapes):
+            points = np.vstack([shape_points(each) for each in shapes])
             low, high = points.min(axis=0), points.max(axis=0)
             result[link.get("name", "")] = LinkBox((low + high) / 2, (high - low) / 2)
     return result
 
 
-def _corners(collision: ET.Element) -> Array | None:
-    """Points whose box is the shape's, in the link's frame; None for unknown meshes."""
-    mesh, box = collision.find("geometry/mesh"), collision.find("geometry/box")
-    if mesh is not None:
-        data = Path(mesh.get("filename", "")).read_bytes()
-        count = int.from_bytes(data[80:84], "little")
-        if len(data) != 84 + 50 * count:
-            return None
-        kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
-        points = np.frombuffer(data, kind, offset=84)["corners"].reshape(-1, 3).astype(float)
-        points = points * np.array([float(word) for word in mesh.get("scale", "1 1 1").split()])
-    elif box is not None:
-        size = np.array([float(word) for word in box.get("size", "").split()])
-        points = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * size / 2
-    else:
-        return None
-    frame = origin(collision.find("origin"))
-    moved: Array = points @ frame[:3, :3].T + frame[:3, 3]
-    return moved
-
-
 def box_of(sim: Simulator, body: int) -> LinkBox:
-    """A box round a body, in the frame of its root."""
+    """Return a box round a body, in the frame of its root."""
     lower, upper = sim.extents(body)
     corners = np.array(
         [[x, y, z] for x in (lower[0], upper[0]) for y in (lower[1], upper[1]) for z in (lower[2], upper[2])]
@@ -416,13 +373,13 @@ def box_of(sim: Simulator, body: int) -> LinkBox:
 
 
 def moved(box: LinkBox, frames: Array) -> tuple[Array, Array]:
-    """The least and the greatest corner of boxes round ``box`` at (n, 4, 4) frames: (n, 3) each."""
+    """Return the least and the greatest corner of boxes round ``box`` at (n, 4, 4) frames: (n, 3) each."""
     centre = frames[:, :3, :3] @ box.centre + frames[:, :3, 3]
     half = np.abs(frames[:, :3, :3]) @ box.half
     return centre - half, centre + half
 
 
 def _spread(index: int, count: int) -> int:
-    """A rank that takes far apart numbers first: the bits of the number, mirrored."""
+    """Return a rank that takes far apart numbers first: the bits of the number, mirrored."""
     bits = max(1, (count - 1).bit_length())
     return int(format(index, f"0{bits}b")[::-1], 2)

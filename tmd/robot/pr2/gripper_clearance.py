@@ -1,4 +1,4 @@
-"""What a hand would touch somewhere, whatever the rest of the robot does.
+"""Collision checks of a hand alone, independent of the rest of the robot.
 
 A skill knows many poses that would do, and each could be reached from many places. Where the hand itself, or what it
 holds, is in something, no place to stand helps: such poses are left out before a place is looked for.
@@ -22,13 +22,10 @@ if TYPE_CHECKING:
 
 
 class HandChecker:
-    """Collision checks for one hand that floats freely.
+    """Collision checks for one hand that floats freely; between two calls the robot is where it was.
 
-    Args:
-        robot: The robot; between two calls it is where it was.
-        side: The hand.
-        ignore: What may be touched: (body, link), link None for all of the body.
-        only: Ask about this link of a body and nothing else.
+    ``ignore`` is what may be touched: (body, link), link None for all of the body. ``only`` restricts the check to one
+    link.
     """
 
     def __init__(self, robot: Pr2, side: str, ignore: Ignored = (), *, only: tuple[int, int] | None = None) -> None:
@@ -56,7 +53,7 @@ class HandChecker:
         ]
 
     def depth(self, tools: Sequence[Pose]) -> list[float]:
-        """For each tool pose in the world, how deep the hand would be in something, in metres; 0 if in nothing."""
+        """Return for each tool pose in the world how deep the hand would be in something, in metres; else 0."""
         if not self._obstacles:
             return [0.0] * len(tools)
         sim, body = self._robot.sim, self._robot.body
@@ -72,28 +69,26 @@ class HandChecker:
                 sim.set_motion(self._held.body, held)
 
     def touched(self, tool: Pose) -> list[tuple[int, int]]:
-        """What the hand would be in at a tool pose: (body, link), in order."""
+        """Return what the hand would be in at a tool pose: (body, link), in order."""
         extents = [self._robot.sim.extents(*each) for each in self._obstacles]
         found = []
         for obstacle, extent in zip(self._obstacles, extents, strict=True):
             only = HandChecker(self._robot, self._side, only=obstacle)
             least, most = (np.array([extent[end]]) for end in (0, 1))
-            if self._meets(tool, least, most) and only.depth([tool])[0]:
+            if self._meeting(tool, least, most).any() and only.depth([tool])[0]:
                 found.append(obstacle)
         return found
 
-    def _meets(self, tool: Pose, least: Array, most: Array) -> bool:
-        """Whether boxes overlap."""
+    def _meeting(self, tool: Pose, least: Array, most: Array) -> Array:
+        """Return whether boxes overlap: (links of the hand, obstacles)."""
         frames = tool.homogeneous() @ np.array(self._relative)
         spans = [moved(box, frame[None]) for box, frame in zip(self._boxes, frames, strict=True)]
         low, high = (np.concatenate([span[end] for span in spans]) for end in (0, 1))
-        return bool(np.all((low[:, None] <= most) & (high[:, None] >= least), axis=2).any())
+        result: Array = np.all((low[:, None] <= most) & (high[:, None] >= least), axis=2)
+        return result
 
     def _depth(self, tool: Pose, least: Array, most: Array) -> float:
-        frames = tool.homogeneous() @ np.array(self._relative)
-        spans = [moved(box, frame[None]) for box, frame in zip(self._boxes, frames, strict=True)]
-        low, high = (np.concatenate([span[end] for span in spans]) for end in (0, 1))
-        meeting = np.all((low[:, None] <= most) & (high[:, None] >= least), axis=2)
+        meeting = self._meeting(tool, least, most)
         if not meeting.any():
             return 0.0
         sim, robot = self._robot.sim, self._robot

@@ -23,23 +23,19 @@ from tmd.robot.sim.pose import Pose
 
 _ROLL = 2
 _DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
+# Metres and radians: a descent from all of whose starts the pose is reached so well has ended.
 _EXACT = 1e-7
-"""Metres and radians: a descent from all of whose starts the pose is reached so well has ended."""
 _PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
 
 class ArmKinematics:
-    """One arm, from ``base_link`` to the tool frame.
-
-    Args:
-        tree: The robot.
-        side: ``right`` or ``left``.
+    """One arm, from ``base_link`` to the tool frame; ``side`` is ``right`` or ``left``.
 
     Attributes:
         joints: The names of the seven joints.
         lower: (7,), −inf for endless joints.
         upper: (7,).
-        endless: Which of the joints turn without end.
+        endless: The numbers of the joints that turn without end.
     """
 
     def __init__(self, tree: Tree, side: str) -> None:
@@ -56,11 +52,11 @@ class ArmKinematics:
         self._pitch = float(self.upper[_ROLL] - self.lower[_ROLL] - 2 * IK.margin) / (IK.rolls - 1)
 
     def tool(self, torso: float, arms: Array) -> Array:
-        """The tool frame in ``base_link``: (n, 4, 4) for arms (n, 7)."""
+        """Return the tool frame in ``base_link``: (n, 4, 4) for arms (n, 7)."""
         return self._tool_and_jacobian(torso, arms)[0]
 
     def _tool_and_jacobian(self, torso: float, arms: Array) -> tuple[Array, Array]:
-        """The tool frame (n, 4, 4) and its geometric Jacobian (n, 6, 7), both in ``base_link``."""
+        """Return the tool frame (n, 4, 4) and its geometric Jacobian (n, 6, 7), both in ``base_link``."""
         frame = np.broadcast_to(np.eye(4), (len(arms), 4, 4))
         axes, points = [], []
         for link in self._chain:
@@ -76,30 +72,24 @@ class ArmKinematics:
         return frame, np.concatenate([np.cross(axis, lever, axis=1), axis], axis=1)
 
     def near(self, arms: Array, seed: Sequence[float]) -> Array:
-        """The same configurations with the endless joints turned to within half a turn of ``seed``."""
+        """Return the same configurations with the endless joints turned to within half a turn of ``seed``."""
         result = arms.copy()
         for joint in self.endless:
             result[:, joint] -= tau * np.round((result[:, joint] - seed[joint]) / tau)
         return result
 
     def inside(self, arms: Array, margin: float = IK.margin) -> Array:
-        """Which of (n, 7) keep the limits: (n,) of bool."""
+        """Return for each of (n, 7) whether it keeps the limits."""
         kept: Array = np.all((arms >= self.lower + margin) & (arms <= self.upper - margin), axis=1)
         return kept
 
     def solve(
         self, tool: Pose, torso: float, seed: Sequence[float], *, numeric: bool | None = None
     ) -> list[tuple[float, ...]]:
-        """Configurations that bring the tool to a pose, within the limits.
+        """Return configurations that bring the tool frame to a pose in ``base_link``, within the limits.
 
-        Args:
-            tool: The tool frame in ``base_link``.
-            torso: The height of the torso joint.
-            seed: Seven positions: where the arm is, or should be near.
-            numeric: Damped least squares; None: only where ``pr2-ikfast`` is not installed.
-
-        Returns:
-            Nearest to ``seed`` first (largest joint motion counts); empty if the pose is out of reach.
+        ``torso`` is the height of the torso joint. Results near ``seed``, seven positions, come first (largest joint
+        motion counts). ``numeric`` selects damped least squares; None: only without ``pr2-ikfast``.
         """
         closed = None if numeric else self._closed_form
         if numeric is False and closed is None:
@@ -117,7 +107,7 @@ class ArmKinematics:
     def track(
         self, tool: Pose, torso: float, seed: Sequence[float], *, numeric: bool | None = None
     ) -> tuple[float, ...] | None:
-        """The solution next to ``seed``, for a tool that moves in small steps; None if there is none nearby.
+        """Return the solution next to ``seed``, for a tool that moves in small steps; None if there is none nearby.
 
         The arguments are those of :meth:`solve`.
         """
@@ -134,23 +124,22 @@ class ArmKinematics:
         return None
 
     def with_roll(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
-        """A solution with the upper arm rolled as in ``seed``, wherever the other joints are; None if there is none."""
-        closed = self._closed_form
-        start = np.asarray(seed, dtype=float)
+        """Return a solution with the upper arm rolled as in ``seed``, wherever the other joints are, or None."""
+        closed, start = self._closed_form, np.asarray(seed, dtype=float)
         if closed is None:
-            arms = self._kept(self._descend(start[None], tool, torso), tool, torso, seed)
+            arms = self._descend(start[None], tool, torso)
         else:
-            arms = self._kept(self._closed(closed, tool, torso, start[_ROLL : _ROLL + 1]), tool, torso, seed)
-        return _next_to(start, arms, np.inf)
+            arms = self._closed(closed, tool, torso, start[_ROLL : _ROLL + 1])
+        return _next_to(start, self._kept(arms, tool, torso, seed), np.inf)
 
     def _reaches(self, arm: Sequence[float], tool: Pose, torso: float) -> bool:
-        """Whether the closed form is right: always for the PR2 that it was made for, perhaps not for another one."""
+        """Return whether the closed form is right: always for the PR2 it was made for, perhaps not for another one."""
         if self._fits is None:
             self._fits = len(self._kept(np.array([arm]), tool, torso, arm)) == 1
         return self._fits
 
     def _kept(self, arms: Array, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
-        """Those within the limits that reach the pose: another PR2 than the solver was made for may not."""
+        """Return the rows within the limits that reach the pose: another PR2 than the solver was made for may not."""
         arms = self.near(arms, seed)
         arms = arms[self.inside(arms)]
         away = np.abs(_error(tool.homogeneous(), self.tool(torso, arms)))
@@ -158,10 +147,8 @@ class ArmKinematics:
         return result
 
     def _grid(self, closed: Callable[..., Any], tool: Pose, torso: float, shift: float) -> Array:
-        rolls = (
-            np.linspace(self.lower[_ROLL] + IK.margin, self.upper[_ROLL] - IK.margin, IK.rolls) + shift * self._pitch
-        )
-        return self._closed(closed, tool, torso, rolls)
+        rolls = np.linspace(self.lower[_ROLL] + IK.margin, self.upper[_ROLL] - IK.margin, IK.rolls)
+        return self._closed(closed, tool, torso, rolls + shift * self._pitch)
 
     def _closed(self, closed: Callable[..., Any], tool: Pose, torso: float, rolls: Array) -> Array:
         position, rotation = list(tool.position), tool.matrix().tolist()
@@ -181,7 +168,7 @@ class ArmKinematics:
         return self._descend(np.vstack([np.asarray(seed, dtype=float), starts]), tool, torso)
 
     def _descend(self, arms: Array, tool: Pose, torso: float) -> Array:
-        """Damped least squares from every row at once, always within the limits."""
+        """Run damped least squares from every row at once, always within the limits."""
         target = tool.homogeneous()
         for _ in range(IK.rounds):
             frame, jacobian = self._tool_and_jacobian(torso, arms)
@@ -189,9 +176,8 @@ class ArmKinematics:
             if np.abs(error).max(initial=0.0) < _EXACT:
                 break
             turned = np.swapaxes(jacobian, 1, 2)
-            damped = jacobian @ turned + IK.damping**2 * np.minimum(1.0, np.linalg.norm(error, axis=1) * 10)[
-                :, None, None
-            ] * np.eye(6)
+            weight = IK.damping**2 * np.minimum(1.0, np.linalg.norm(error, axis=1) * 10)
+            damped = jacobian @ turned + weight[:, None, None] * np.eye(6)
             damped += 1e-10 * np.eye(6)
             step = (turned @ np.linalg.solve(damped, error[:, :, None]))[:, :, 0]
             step *= np.minimum(1.0, IK.stride / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-12))
@@ -200,7 +186,7 @@ class ArmKinematics:
 
 
 def _next_to(start: Array, arms: Array, most: float) -> tuple[float, ...] | None:
-    """The row of ``arms`` (n, 7) that is nearest to ``start``, if no joint is farther away than ``most``."""
+    """Return the row of ``arms`` (n, 7) that is nearest to ``start``, if no joint is farther away than ``most``."""
     if not len(arms):
         return None
     far = np.abs(arms - start).max(axis=1)
@@ -209,16 +195,9 @@ def _next_to(start: Array, arms: Array, most: float) -> tuple[float, ...] | None
 
 
 def _error(target: Array, frames: Array) -> Array:
-    """(n, 6): metres and a rotation vector from ``frames`` (n, 4, 4) to ``target``."""
+    """Return metres and a rotation vector from ``frames`` (n, 4, 4) to ``target``: (n, 6)."""
     rotation = target[:3, :3] @ np.swapaxes(frames[:, :3, :3], 1, 2)
-    vector = np.stack(
-        [
-            rotation[:, 2, 1] - rotation[:, 1, 2],
-            rotation[:, 0, 2] - rotation[:, 2, 0],
-            rotation[:, 1, 0] - rotation[:, 0, 1],
-        ],
-        axis=1,
-    )
+    vector = np.stack([rotation[:, j, i] - rotation[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
     sine = np.linalg.norm(vector, axis=1) / 2
     cosine = (np.trace(rotation, axis1=1, axis2=2) - 1) / 2
     angle = np.arctan2(sine, cosine)
@@ -230,7 +209,7 @@ def _error(target: Array, frames: Array) -> Array:
 
 @cache
 def _halton(count: int) -> Array:
-    """(count, 7) points that cover the unit cube evenly, always the same (Halton 1960)."""
+    """Return (count, 7) points that cover the unit cube evenly, always the same (Halton 1960)."""
     result = np.zeros((count, len(_PRIMES)))
     for column, prime in enumerate(_PRIMES):
         for row in range(count):
@@ -245,7 +224,7 @@ def _halton(count: int) -> Array:
 
 @cache
 def _closed_form(side: str) -> Callable[..., Any] | None:
-    """The compiled solver of one arm, or None without the package."""
+    """Return the compiled solver of one arm, or None without the package."""
     try:
         module = importlib.import_module("pr2_ikfast")
     except ImportError:

@@ -1,4 +1,4 @@
-"""Where the links of a robot are for given joint positions, in numpy and for many configurations at once.
+"""Forward kinematics of a robot in numpy, for many configurations at once.
 
 The simulator can tell this as well, for one configuration at a time and by moving its robot. Planners ask for
 thousands.
@@ -9,10 +9,13 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from math import cos, inf, sin
+from itertools import product
+from math import asin, atan2, cos, inf, sin
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from tmd.robot.sim.urdf_files import end_of, mesh_library
 
 Array = NDArray[np.float64]
 
@@ -22,8 +25,6 @@ class Link:
     """A link and the joint that carries it.
 
     Attributes:
-        name: Of the link.
-        joint: The name of the joint.
         parent: The link that the joint stands on.
         kind: ``fixed``, ``revolute``, ``continuous`` or ``prismatic``.
         origin: The joint in the parent's frame, 4×4.
@@ -43,10 +44,7 @@ class Link:
 
 
 class Tree:
-    """The links of a URDF.
-
-    Args:
-        root: The parsed ``<robot>``.
+    """The links of a URDF, whose ``<robot>`` is ``root``.
 
     Attributes:
         links: By name, every link after its parent; the root is not among them.
@@ -66,7 +64,7 @@ class Tree:
                     reached.append(link.name)
 
     def below(self, link: str) -> list[str]:
-        """``link`` and everything it carries, in order."""
+        """Return ``link`` and everything it carries, in order."""
         result = {link}
         for name, each in self.links.items():
             if each.parent in result:
@@ -74,7 +72,7 @@ class Tree:
         return [name for name in self.links if name in result]
 
     def chain(self, first: str, last: str) -> list[Link]:
-        """The links after ``first`` up to ``last``."""
+        """Return the links after ``first`` up to ``last``."""
         result = []
         name = last
         while name != first:
@@ -85,15 +83,12 @@ class Tree:
     def forward(
         self, positions: Mapping[str, ArrayLike], links: Iterable[str], known: Mapping[str, Array]
     ) -> dict[str, Array]:
-        """Frames of links.
+        """Return the frames of ``links`` and of ``known``, 4×4 or (n, 4, 4), in the frame that ``known`` is given in.
 
         Args:
             positions: Of joints by name, numbers or arrays (n,); joints that are not named are at 0.
-            links: What to work out, every link after its parent.
-            known: Frames that are known already, 4×4 or (n, 4, 4), among them the parents of the first links.
-
-        Returns:
-            Each of ``links`` and of ``known``: 4×4 or (n, 4, 4), in the frame that ``known`` is given in.
+            links: Names, every link after its parent.
+            known: Known frames, among them the parents of the first links.
         """
         frames = dict(known)
         for name in links:
@@ -106,7 +101,7 @@ class Tree:
 
 
 def motion(link: Link, position: ArrayLike) -> Array:
-    """What a joint does to the frame of its link: 4×4, or (n, 4, 4) for n positions."""
+    """Return the motion of a joint in the frame of its link: 4×4, or (n, 4, 4) for n positions."""
     value = np.asarray(position, dtype=float)
     result = np.zeros((*value.shape, 4, 4))
     result[..., 3, 3] = 1.0
@@ -127,9 +122,9 @@ def _link(joint: ET.Element) -> Link:
     bounded = limit is not None and kind in ("revolute", "prismatic")
     axis = np.array(_numbers(joint.find("axis"), "xyz", (1.0, 0.0, 0.0)))
     return Link(
-        name=_end(joint, "child"),
+        name=end_of(joint, "child"),
         joint=joint.get("name", ""),
-        parent=_end(joint, "parent"),
+        parent=end_of(joint, "parent"),
         kind=kind,
         origin=origin(joint.find("origin")),
         axis=axis / (np.linalg.norm(axis) or 1.0),  # those of fixed joints may be 0
@@ -139,7 +134,7 @@ def _link(joint: ET.Element) -> Link:
 
 
 def origin(element: ET.Element | None) -> Array:
-    """The 4×4 matrix of an ``<origin>``."""
+    """Return the 4×4 matrix of an ``<origin>``."""
     roll, pitch, yaw = _numbers(element, "rpy", (0.0, 0.0, 0.0))
     cr, sr, cp, sp, cy, sy = cos(roll), sin(roll), cos(pitch), sin(pitch), cos(yaw), sin(yaw)
     result = np.eye(4)
@@ -152,11 +147,47 @@ def origin(element: ET.Element | None) -> Array:
     return result
 
 
+def set_origin(element: ET.Element, frame: Array) -> None:
+    """Write a 4×4 matrix as the ``<origin>`` of a joint or shape."""
+    found = element.find("origin")
+    if found is None:
+        found = ET.SubElement(element, "origin")
+    found.set("xyz", " ".join(repr(float(value)) for value in frame[:3, 3]))
+    found.set("rpy", " ".join(map(repr, angles(frame))))
+
+
+def angles(frame: Array) -> tuple[float, float, float]:
+    """Return roll, pitch and yaw of a 4×4 matrix, in radians."""
+    pitch = asin(max(-1.0, min(1.0, -float(frame[2, 0]))))
+    if abs(frame[2, 0]) > 1 - 1e-9:  # roll and yaw turn about one line
+        return 0.0, pitch, atan2(-float(frame[0, 1]), float(frame[1, 1]))
+    return atan2(frame[2, 1], frame[2, 2]), pitch, atan2(frame[1, 0], frame[0, 0])
+
+
+def shape_points(collision: ET.Element) -> Array:
+    """Return points (n, 3) of a collision shape in the link's frame: vertices of a mesh, else the corners of a box.
+
+    Raises:
+        ValueError: It has no mesh, box, cylinder or sphere with its size.
+    """
+    shape = next(iter(collision.find("geometry") or ()), ET.Element("nothing"))
+    if shape.tag == "mesh":
+        mesh = mesh_library().load(shape.get("filename", ""), force="mesh", process=False)
+        points = np.asarray(mesh.vertices) * np.array(_numbers(shape, "scale", (1.0, 1.0, 1.0)))
+    else:
+        if shape.tag == "box":
+            half = np.array(_numbers(shape, "size", ())).reshape(3) / 2
+        elif shape.tag in ("cylinder", "sphere"):
+            radius = float(shape.get("radius", ""))
+            half = np.array([radius, radius, float(shape.get("length", "")) / 2 if shape.tag == "cylinder" else radius])
+        else:
+            raise ValueError(f"no known shape: {shape.tag}")
+        points = np.array(list(product((-1, 1), repeat=3))) * half
+    frame = origin(collision.find("origin"))
+    moved: Array = points @ frame[:3, :3].T + frame[:3, 3]
+    return moved
+
+
 def _numbers(element: ET.Element | None, name: str, default: Sequence[float]) -> Sequence[float]:
     text = None if element is None else element.get(name)
     return default if text is None else [float(word) for word in text.split()]
-
-
-def _end(joint: ET.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")

@@ -1,55 +1,28 @@
-"""Arms out of the way: postures for driving, and how to get into them."""
+"""Postures of the arms for driving, and the ways to them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import pi, tau
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from tmd.robot.parameters import ARM_MOTION
-from tmd.robot.pr2.arm_motion import ArmModel, plan_arm, plan_level, plan_line
-from tmd.robot.pr2.collision import Collision
+from tmd.robot.pr2.arm_motion import plan_arm, plan_level, plan_line
 from tmd.robot.sim.pose import Pose
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
 
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
 
 
-class PostureModel(ArmModel, Protocol):
-    """What folding the arms asks of a robot besides."""
+def tuck(robot: Pr2, budget: int = ARM_MOTION.tuck_samples) -> bool:
+    """Fold both arms, each along a collision-free path, and return whether both arrived.
 
-    arms: tuple[str, str]
-    rng: np.random.Generator
-
-    def base(self) -> tuple[float, float, float]:
-        """Where the base is: x, y, theta."""
-
-    def tool(self, side: str) -> Pose:
-        """The tool frame of a hand in the world."""
-
-    def held(self, side: str) -> int | None:
-        """The body that a hand holds."""
-
-    def move_arm(self, side: str, path: Sequence[Sequence[float]]) -> bool:
-        """Move an arm along a path."""
-
-    def collides(self, *, side: str | None = None, arm: Sequence[float] | None = None) -> list[Collision]:
-        """What the robot would touch."""
-
-    def clear(self, side: str, arms: Sequence[Sequence[float]]) -> list[bool]:
-        """For many positions of one arm, whether they touch nothing."""
-
-
-def tuck(robot: PostureModel, budget: int = ARM_MOTION.tuck_samples) -> bool:
-    """Fold both arms, each along a collision-free path; an arm that is in the other's way is moved first.
-
-    Args:
-        robot: The robot.
-        budget: Samples for the path of an arm.
-
-    Returns:
-        Whether both arms arrived.
+    A hand that holds something brings it to the front, as upright as it is held. An arm that is in the other's way is
+    moved first. ``budget`` is the number of samples for the path of an arm.
     """
     waiting = sorted(robot.arms, key=lambda side: robot.held(side) is not None)
     for _ in robot.arms:
@@ -57,13 +30,13 @@ def tuck(robot: PostureModel, budget: int = ARM_MOTION.tuck_samples) -> bool:
     return not waiting
 
 
-def _tuck_arm(robot: PostureModel, side: str, budget: int) -> bool:
+def _tuck_arm(robot: Pr2, side: str, budget: int) -> bool:
     if robot.held(side) is not None:
         return _in_front(robot, side) or _carry(robot, side, budget // 3)
     return _fold(robot, side, budget) or _carry(robot, side, budget // 3)
 
 
-def _fold(robot: PostureModel, side: str, budget: int) -> bool:
+def _fold(robot: Pr2, side: str, budget: int) -> bool:
     for goal in _folded(robot, side):
         (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
         if np.max(np.abs(near - goal)) < ARM_MOTION.there:
@@ -74,8 +47,8 @@ def _fold(robot: PostureModel, side: str, budget: int) -> bool:
     return False
 
 
-def _folded(robot: PostureModel, side: str) -> list[tuple[float, ...]]:
-    """The tucked posture; the nearest free one like it where it touches something at which the robot stands."""
+def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
+    """Return the tucked posture; if it touches something, the nearest free ones like it."""
     usual = robot.model.tucked[side]
     others = [
         tuple(value + shift * (joint == number) for number, value in enumerate(usual))
@@ -83,14 +56,12 @@ def _folded(robot: PostureModel, side: str) -> list[tuple[float, ...]]:
         for joint in range(ARM_MOTION.max_shifted)
     ]
     free, *rest = robot.clear(side, [usual, *others])
-    return (
-        [usual]
-        if free
-        else [other for other, clear in zip(others, rest, strict=True) if clear][: ARM_MOTION.max_folded]
-    )
+    if free:
+        return [usual]
+    return [other for other, clear in zip(others, rest, strict=True) if clear][: ARM_MOTION.max_folded]
 
 
-def _carry(robot: PostureModel, side: str, budget: int) -> bool:
+def _carry(robot: Pr2, side: str, budget: int) -> bool:
     """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
@@ -125,8 +96,8 @@ def _carry(robot: PostureModel, side: str, budget: int) -> bool:
     return False
 
 
-def _in_front(robot: PostureModel, side: str) -> bool:
-    """Whether a hand is in front of the robot, where it may be for driving."""
+def _in_front(robot: Pr2, side: str) -> bool:
+    """Return whether a hand is in front of the robot, where it may be for driving."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     x, y, z = (base.inverse() * robot.tool(side)).position
     inside = (x, -y if side == "right" else y, z)
@@ -134,11 +105,9 @@ def _in_front(robot: PostureModel, side: str) -> bool:
 
 
 def _tool_places(now: Pose, side: str) -> Iterator[Pose]:
-    """Tool frames in the base's frame, compact ones first; at each place the least turning first."""
+    """Yield tool frames in the base's frame, compact ones first; at each place the least turning first."""
     for x, y, z in _PLACES:
         for index in range(ARM_MOTION.carrying_yaws):
             yaw = (index + 1) // 2 * tau / ARM_MOTION.carrying_yaws * (1 if index % 2 else -1)
             turn = Pose.flat(0.0, 0.0, yaw=(yaw + pi) % tau - pi)
-            yield Pose(
-                (x, -y if side == "right" else y, z), (turn * Pose((0.0, 0.0, 0.0), now.orientation)).orientation
-            )
+            yield Pose((x, -y if side == "right" else y, z), now.orientation).spun(turn)

@@ -1,4 +1,4 @@
-"""The PR2 in a simulated world: what its joints do, what its hands hold, what it sees.
+"""The PR2 in a simulated world: its joints, its hands, its head.
 
 In the default mode everything moves under physics: motors follow trajectories, and what is held is welded to the palm.
 In the kinematic mode joints are set along the same paths, and what is held goes along. Both use the same motors to
@@ -10,7 +10,7 @@ ten times what the real one does. Motors are stronger than the real ones, whose 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from math import asin, atan2, cos, hypot, pi, sin
@@ -19,13 +19,11 @@ from pathlib import Path
 import numpy as np
 
 from tmd.robot.assets.colours import robot_colour
-from tmd.robot.parameters import ARM_MOTION, MOTOR
+from tmd.robot.parameters import MOTOR
 from tmd.robot.pr2.collision import Collision, CollisionChecker, Held, Ignored, LinkBox, link_boxes
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree
-from tmd.robot.pr2.posture import tuck
-from tmd.robot.pr2.trajectory import unwound
-from tmd.robot.pr2.trajectory_following import JointGroup, hold, jump, run
+from tmd.robot.pr2.trajectory_following import JointGroup, hold, jump, run, unwound
 from tmd.robot.pr2.urdf import BASE_JOINTS, HEAD, TOOL, TORSO, prepare
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
@@ -34,33 +32,28 @@ ARMS = ("right", "left")
 _TORSO_START = 0.15
 _FINGER_RANGE = (0.0, 0.548)
 _TOUCHING = 0.002
+# Microseconds of the inverse kinematics of a pose, about.
 _SOLVE_WORK = 350
-"""Microseconds of the inverse kinematics of a pose, about."""
+# Half of the angle of view, radians: to the sides, up and down.
 _VIEW = (0.75, 0.6)
-"""Half of the angle of view, radians: to the sides, up and down."""
 
 
 class Pr2:
-    """The robot, with tucked arms and open hands.
+    """The robot, with tucked arms and open hands; ``rng`` is for planners that it calls itself.
 
     Args:
         sim: The world; it is loaded into it.
         urdf: Another PR2's URDF; None: the packaged one.
         kinematic: Set joints instead of driving them.
         pose: Of the base: x, y, theta.
-        rng: For planners that the robot calls itself.
 
     Attributes:
-        body: Its body.
-        tree: Its kinematic tree.
-        model: The repaired URDF.
         boxes: Boxes around its solid links, by link name.
         index: Link numbers by name.
         joint_index: Joint numbers by name.
         movable: The numbers of all joints that move.
-        arm_joints: The names of the seven joints of each arm.
-        arm_groups: The drives of the arms.
-        keeps_level: See :class:`tmd.robot.pr2.arm_motion.ArmModel`; who knows what the hands hold sets it.
+        keeps_level: Whether what a hand holds must stay upright on its way (True), should if possible (False) or need
+            not (None). Set by :class:`tmd.robot.skills.robot_context.Cell`.
 
     Raises:
         MissingToolError: pybullet or the robot's package is not installed.
@@ -148,37 +141,37 @@ class Pr2:
     # where it is
 
     def solid_links(self, body: int) -> list[int]:
-        """The links of a body that can be touched."""
+        """Return the links of a body that can be touched."""
         if body not in self._solid:
             self._solid[body] = self.sim.solid_links(body)
         return self._solid[body]
 
     def positions(self) -> dict[str, float]:
-        """The positions of all joints that move, by name."""
+        """Return the positions of all joints that move, by name."""
         return dict(zip(self._movable_names, self.sim.joint_states(self.body, self.movable)[0], strict=True))
 
     def _where(self, group: JointGroup) -> tuple[float, ...]:
         return tuple(self.sim.joint_states(self.body, group.joints)[0])
 
     def base(self) -> tuple[float, float, float]:
-        """Where the base is: x, y, and theta in (−π, π]."""
+        """Return the pose of the base: x, y, and theta in (−π, π]."""
         x, y, theta = self._where(self.base_group)
         return x, y, pi - (pi - theta) % (2 * pi)
 
     def torso(self) -> float:
-        """The height of the torso joint, 0 to 0.31."""
+        """Return the height of the torso joint, 0 to 0.31."""
         return self._where(self.torso_group)[0]
 
     def arm(self, side: str) -> tuple[float, ...]:
-        """The seven joint positions of an arm."""
+        """Return the seven joint positions of an arm."""
         return self._where(self.arm_groups[side])
 
     def tool(self, side: str) -> Pose:
-        """The tool frame of a hand in the world: +x out of the hand, fingers open along ±y."""
+        """Return the tool frame of a hand in the world: +x out of the hand, fingers open along ±y."""
         return self.sim.pose(self.body, self.index[f"{side[0]}_{TOOL}"])
 
     def gap(self, side: str) -> float:
-        """Metres between the finger tips, from where they are."""
+        """Return the metres between the finger tips, from their poses."""
         tips = [self.sim.pose(self.body, self.index[f"{side[0]}_gripper_{finger}_finger_tip_link"]) for finger in "lr"]
         across = self.tool(side).inverse()
         left, right = (across.apply(tip.position)[1] for tip in tips)
@@ -187,7 +180,6 @@ class Pr2:
     # motion
 
     def _go(self, group: JointGroup, path: Sequence[Sequence[float]], endless: Sequence[int] = ()) -> bool:
-        """Follow a path from where the joints are."""
         rows = unwound(np.array([self._where(group), *path], dtype=float), endless)
         if self.kinematic:
             jump(self.sim, self.body, group, rows, self._carry)
@@ -197,31 +189,23 @@ class Pr2:
     def drive(self, path: Sequence[tuple[float, float, float]], *, pace: float = 1.0) -> bool:
         """Drive the base through (x, y, theta), each turn the short way.
 
-        Args:
-            path: The way. Its corners are rounded, by up to 5 cm at full speed, where they are not given twice.
-            pace: The speed, as a part of the full one; corners are rounded by as much less.
-
-        Returns:
-            Whether it arrived, to 5 mm and 5 mrad, within its budget of steps.
+        Corners are rounded, by up to 5 cm at full speed, unless they are given twice. ``pace`` is the share of the full
+        speed. Return whether it arrived, to 5 mm and 5 mrad, within its budget of steps.
         """
         group = replace(self.base_group, speeds=tuple(pace * speed for speed in self.base_group.speeds))
         return self._go(group, path, endless=(2,))
 
     def raise_torso(self, height: float) -> bool:
-        """Move the torso to ``height`` (0 to 0.31); True if it arrived, to 3 mm."""
+        """Move the torso to ``height`` (0 to 0.31); return whether it arrived, to 3 mm."""
         link = self.tree.links["torso_lift_link"]
         return self._go(self.torso_group, [(min(max(height, link.lower), link.upper),)])
 
     def move_arm(self, side: str, path: Sequence[Sequence[float]]) -> bool:
-        """Move an arm through joint positions.
-
-        Returns:
-            Whether it arrived, every joint to 0.01 rad, within its budget of steps.
-        """
+        """Move an arm through joint positions; return whether it arrived, to 0.01 rad, within its budget of steps."""
         return self._go(self.arm_groups[side], path, endless=self.arm_kinematics[side].endless)
 
     def fingers(self, gap: float) -> tuple[float, ...]:
-        """The positions of a hand's finger joints for a gap between its tips, within what they can do."""
+        """Return the positions of a hand's finger joints for a gap between its tips, within their limits."""
         if self.model.is_pr2:
             return (finger_angle(gap),) * len(self.model.fingers)
         if not self._gaps:
@@ -236,18 +220,13 @@ class Pr2:
         return (float(np.interp(gap, gaps, angles)),) * len(self.model.fingers)
 
     def open_gripper(self, side: str, gap: float = 0.08) -> bool:
-        """Open a hand until its tips are ``gap`` apart; True if they are."""
+        """Open a hand until its tips are ``gap`` apart; return whether they are."""
         return self._go(self.finger_groups[side], [self.fingers(gap)])
 
     def close_gripper(self, side: str, force: float = MOTOR.grip_force) -> float:
-        """Close a hand until both fingers meet something, or each other.
+        """Close a hand until both fingers meet something, or each other; return the gap left, in metres.
 
-        Args:
-            side: The hand.
-            force: The most that each finger joint may push, in N·m.
-
-        Returns:
-            The gap left, in metres.
+        ``force`` is the maximum of each finger joint, in N·m.
         """
         group = self.finger_groups[side]
         angles = np.array(self._where(group))
@@ -276,7 +255,7 @@ class Pr2:
         return self.gap(side)
 
     def _squeeze(self, group: JointGroup, angles: Array, force: float) -> None:
-        """Push the fingers to ``angles``; the tips follow their fingers, as the linkage of the real hand makes them."""
+        """Push the fingers to ``angles``; the tips follow their fingers, as by the linkage of the real hand."""
         actual = np.clip(self._where(group), *self.model.finger_range)
         follow = len(group.joints) // 2 - 1
         targets = [angles[0], angles[1], *[actual[0], actual[1]] * follow]
@@ -284,7 +263,7 @@ class Pr2:
         self.sim.drive_joints(self.body, group.joints, targets, [0.0] * len(targets), forces, 0.1)
 
     def _finger_stops(self, side: str, finger: str, angles: Array, mask: Array) -> bool:
-        """Whether a finger is closed, or meets something: seen by its lag, or by its contacts if it is set."""
+        """Return whether a finger is closed, or meets something: seen by its lag, or by its contacts if it is set."""
         if angles[mask].max() <= self.model.finger_range[0]:
             return True
         if not self.kinematic:
@@ -297,7 +276,7 @@ class Pr2:
     # hands
 
     def touches(self, side: str, body: int, link: int | None = None) -> bool:
-        """Whether the palm or a finger of a hand is within 2 mm of a body, or of one of its links."""
+        """Return whether the palm or a finger of a hand is within 2 mm of a body, or of one of its links."""
         names = [name for name in self.tree.below(f"{side[0]}_gripper_palm_link") if name in self.boxes]
         return any(self.sim.closest(self.body, body, _TOUCHING, self.index[name], link) for name in names)
 
@@ -313,11 +292,11 @@ class Pr2:
             self.sim.unweld(self._held.pop(side)[1])
 
     def held(self, side: str) -> int | None:
-        """The body that a hand holds."""
+        """Return the body that a hand holds."""
         return self._held[side][0] if side in self._held else None
 
     def helds(self) -> list[Held]:
-        """What the hands hold, as it lies in them now."""
+        """Return what the hands hold, as it lies in them now."""
         return [
             Held(body, side, self.tool(side).inverse() * self.sim.pose(body))
             for side, (body, _, _) in sorted(self._held.items())
@@ -327,25 +306,14 @@ class Pr2:
         for side, (body, _, grip) in sorted(self._held.items()):
             self.sim.set_pose(body, self.tool(side) * grip)
 
-    def tuck(self, budget: int = ARM_MOTION.tuck_samples) -> bool:
-        """Fold the arms for driving; a hand that holds something brings it to the front as upright as it is held.
-
-        Args:
-            budget: Samples for the path of an arm.
-
-        Returns:
-            Whether both arms arrived. Paths are planned with the robot's own generator.
-        """
-        return tuck(self, budget)
-
     # the head
 
     def eye(self) -> Pose:
-        """The cameras in the world: +x is where they look."""
+        """Return the pose of the cameras in the world, which look along +x."""
         return self.sim.pose(self.body, self.index["head_tilt_link"]) * Pose(self.model.eye)
 
     def look_at(self, point: Sequence[float]) -> bool:
-        """Turn the head to a point; True if it is then in the middle of the view, to 0.1 rad."""
+        """Turn the head to a point; return whether it is then in the middle of the view, to 0.1 rad."""
         torso = self.sim.pose(self.body, self.index["torso_lift_link"])
         pan_link, tilt_link = (self.tree.links[name] for name in ("head_pan_link", "head_tilt_link"))
         x, y, z = (a - b for a, b in zip(torso.inverse().apply(point), pan_link.origin[:3, 3], strict=True))
@@ -357,7 +325,7 @@ class Pr2:
         return ahead > 0 and atan2(hypot(left, up), ahead) < 0.1
 
     def sees(self, point: Sequence[float], body: int) -> bool:
-        """Whether a point of a body is in the view of the cameras, and nothing else is in between."""
+        """Return whether a point of a body is in the view of the cameras, and nothing else is in between."""
         ahead, left, up = self.eye().inverse().apply(point)
         if ahead <= 0 or abs(atan2(left, ahead)) > _VIEW[0] or abs(atan2(up, ahead)) > _VIEW[1]:
             return False
@@ -375,17 +343,10 @@ class Pr2:
         torso: float | None = None,
         seed: Sequence[float] | None = None,
     ) -> list[tuple[float, ...]]:
-        """Arm positions that bring a tool frame to a pose of the world; nothing moves.
+        """Return arm positions that bring a tool frame to a pose of the world; nothing moves.
 
-        Args:
-            side: The arm.
-            tool: The tool frame in the world.
-            base: Where the base would be; None: where it is.
-            torso: How high the torso would be; None: as it is. Only this height is tried.
-            seed: What solutions should be near; None: where the arm is.
-
-        Returns:
-            Solutions within the joint limits, nearest to the seed first; collisions are not looked at.
+        They are within the joint limits, nearest to ``seed`` (None: where the arm is) first, without a collision check.
+        ``base`` and ``torso`` are the present ones if None.
         """
         kinematics = self.arm_kinematics[side]
         self.sim.work += _SOLVE_WORK
@@ -393,7 +354,7 @@ class Pr2:
         return kinematics.solve(inside, self.torso() if torso is None else torso, seed or self.arm(side))
 
     def base_link(self, base: tuple[float, float, float] | None = None) -> Pose:
-        """The frame base_link for a pose of the base; None: where it is."""
+        """Return the frame base_link for a pose of the base; None: the present one."""
         x, y, theta = self.base() if base is None else base
         return Pose.flat(x, y, float(self.tree.links["base_link"].origin[2, 3]), theta)
 
@@ -405,13 +366,13 @@ class Pr2:
         base: tuple[float, float, float] | None = None,
         torso: float | None = None,
     ) -> Pose:
-        """Where the tool frame would be in the world."""
+        """Return the tool frame in the world for positions of an arm; nothing moves."""
         height = self.torso() if torso is None else torso
         frame = self.arm_kinematics[side].tool(height, np.array([arm], dtype=float))[0]
         return self.base_link(base) * Pose.from_matrix(frame)
 
     def elsewhere(self, base: tuple[float, float, float] | None = None, torso: float | None = None) -> dict[str, float]:
-        """Joint positions for :class:`CollisionChecker`: those of a base and a torso that would be elsewhere."""
+        """Return joint positions for :class:`CollisionChecker`: those of a base and a torso."""
         result = {} if base is None else dict(zip(BASE_JOINTS, base, strict=True))
         return result if torso is None else result | {TORSO: torso}
 
@@ -425,19 +386,11 @@ class Pr2:
         ignore: Ignored = (),
         margin: float = 0.0,
     ) -> list[Collision]:
-        """What the robot would touch; nothing moves.
+        """Return what the robot would touch: (robot link, body, link, depth), deepest first; nothing moves.
 
-        Args:
-            side: Check this arm only, with what it holds; None: the whole robot.
-            arm: Its positions; None: as they are. Needs ``side``.
-            base: Where the base would be.
-            torso: How high the torso would be.
-            ignore: (body, link) that may be touched, link None: all of the body.
-            margin: Metres that count as touching.
-
-        Returns:
-            (robot link, body, link, depth), deepest first. A tool frame stands for what that hand holds; the robot's
-            own body stands for itself.
+        ``side`` restricts the check to one arm, with what it holds, at positions ``arm`` (None: the present ones).
+        ``base`` and ``torso`` are the present ones if None. (body, link) of ``ignore`` may be touched, link None: all
+        of the body; ``margin`` is in metres. A tool frame stands for what that hand holds.
         """
         if arm is not None and side is None:
             raise ValueError("whose arm?")
@@ -448,16 +401,16 @@ class Pr2:
             return checker.collisions(())
 
     @contextmanager
-    def as_if(self, base: tuple[float, float, float]) -> Iterator[None]:
-        """As if the base, with all that it carries, were elsewhere; afterwards all is where it was, to the bit."""
+    def as_if(self, positions: Mapping[str, float]) -> Iterator[None]:
+        """Put some joints, with all that they carry, elsewhere for a while; afterwards all is back, to the bit."""
         helds = self.helds()
-        with CollisionChecker(self, (), positions=self.elsewhere(base), helds=helds):
+        with CollisionChecker(self, (), positions=positions, helds=helds):
             for held in helds:
                 self.sim.set_pose(held.body, self.tool(held.side) * held.grip)
             yield
 
     def free_bases(self, bases: Sequence[tuple[float, float, float]]) -> list[bool]:
-        """For many poses of the base, whether the robot as it is would touch nothing there."""
+        """Return for many poses of the base whether the robot as it is would touch nothing there."""
         if not bases:
             return []
         with CollisionChecker(self, BASE_JOINTS) as checker:
@@ -472,10 +425,7 @@ class Pr2:
         torso: float | None = None,
         ignore: Ignored = (),
     ) -> list[bool]:
-        """For many positions of one arm, whether they touch nothing: one call is much faster than :meth:`collides`.
-
-        The arguments are those of :meth:`collides`.
-        """
+        """Return for many positions of one arm whether they touch nothing, much faster than by :meth:`collides`."""
         if not arms:
             return []
         positions = self.elsewhere(base, torso)
@@ -484,12 +434,12 @@ class Pr2:
 
 
 def finger_gap(angle: float) -> float:
-    """Metres between the finger tips for an angle of the finger joints; measured on the model, negative is closed."""
+    """Return the metres between the finger tips for an angle of the finger joints; measured on the model."""
     return max(0.0, -0.0037 + 0.1827 * sin(angle) + 0.0099 * (cos(angle) - 1))
 
 
 def finger_angle(gap: float) -> float:
-    """The angle of the finger joints for a gap, within what they can do."""
+    """Return the angle of the finger joints for a gap, within their limits."""
     low, high = _FINGER_RANGE
     for _ in range(40):
         middle = (low + high) / 2

@@ -1,4 +1,4 @@
-"""What an arm can span: the quickest of all questions about a pose, asked before inverse kinematics.
+"""Bounds on the reach of an arm: the quickest check of a pose, before inverse kinematics.
 
 The hand, the wrist and the elbow of a PR2 are links of fixed length: the wrist is a hand's length behind the tool,
 and its distance from the shoulder lies between that of the bent elbow and that of the straight one. What is refused
@@ -25,18 +25,10 @@ _ELBOW = 3
 
 
 class ReachBounds:
-    """One arm's lengths.
+    """One arm's lengths in metres: ``shoulder`` is the pan joint in ``base_link`` with the torso at 0, (3,).
 
-    Args:
-        robot: The robot.
-        side: The arm.
-
-    Attributes:
-        shoulder: The pan joint in ``base_link`` with the torso at 0, (3,).
-        offset: Metres from the pan axis to the lift axis.
-        nearest: Least metres from the lift axis to the wrist, with the elbow bent as far as it goes.
-        farthest: The same with the arm straight.
-        hand: Metres from the wrist to the tool.
+    ``offset`` is the distance from the pan axis to the lift axis, ``nearest`` and ``farthest`` those from the lift axis
+    to the wrist with the elbow bent and straight, ``hand`` that from the wrist to the tool.
     """
 
     def __init__(self, robot: Pr2, side: str) -> None:
@@ -55,7 +47,7 @@ class ReachBounds:
             self.farthest += float(np.linalg.norm(tool - wrist))
 
     def holds(self, wrists: Array, torso: float) -> Array:
-        """Which of the wrists (n, 3), in ``base_link``, are in reach: (n,) of bool."""
+        """Return for each of the wrists (n, 3), in ``base_link``, whether it is in reach."""
         away = wrists - self.shoulder - np.array([0.0, 0.0, torso])
         level = np.abs(np.hypot(away[:, 0], away[:, 1]) - self.offset)
         # the lift axis is on a circle round the pan axis: the nearest point of it bounds how far the wrist may be,
@@ -66,13 +58,7 @@ class ReachBounds:
 
 
 class Wrists:
-    """The wrists for many sequences of tool poses.
-
-    Args:
-        robot: The robot.
-        sides: The arm of each sequence.
-        poses: The sequences, in the world.
-    """
+    """The wrists for many sequences of tool poses in the world, each of one arm."""
 
     def __init__(self, robot: Pr2, sides: Sequence[str], poses: Sequence[Sequence[Pose]]) -> None:
         self._robot = robot
@@ -88,7 +74,7 @@ class Wrists:
         self._points = np.array(points).reshape(-1, 3)
 
     def within(self, base: tuple[float, float, float], torso: float) -> list[int]:
-        """The numbers of the sequences whose wrists are all in reach from a base and a torso."""
+        """Return the numbers of the sequences whose wrists are all in reach from a base and a torso."""
         back = self._robot.base_link(base).inverse().homogeneous()
         inside = self._points @ back[:3, :3].T + back[:3, 3]
         held = np.zeros(len(inside), dtype=bool)
@@ -99,12 +85,12 @@ class Wrists:
 
 
 def _moved_by(robot: Pr2, joint: str) -> str:
-    """The link that a joint carries: its frame is at the joint."""
+    """Return the link that a joint carries: its frame is at the joint."""
     return next(link.name for link in robot.tree.links.values() if link.joint == joint)
 
 
 def _point(robot: Pr2, link: str) -> Array:
-    """Where a link is in ``base_link`` when all joints are at 0."""
+    """Return the position of a link in ``base_link`` with all joints at 0."""
     frames = robot.tree.forward({}, robot.tree.links, {robot.tree.root: np.eye(4)})
     point: Array = (np.linalg.inv(frames["base_link"]) @ frames[link])[:3, 3]
     return point

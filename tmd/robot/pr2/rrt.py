@@ -15,12 +15,12 @@ import numpy as np
 
 from tmd.robot.parameters import ARM_MOTION
 from tmd.robot.pr2.kinematics import Array
-from tmd.robot.pr2.trajectory import dense
+from tmd.robot.pr2.trajectory_following import dense
 
+# Returns whether all of (n, k) configurations are free.
 Free = Callable[[Array], bool]
-"""Whether all of (n, k) configurations are free."""
+# A configuration (k,) nearby that keeps a constraint; None if there is none.
 Project = Callable[[Array], Array | None]
-"""A configuration (k,) nearby that keeps a constraint; None if there is none."""
 
 
 @dataclass
@@ -55,7 +55,7 @@ def plan(
     budget: int,
     project: Project | None = None,
 ) -> Array | None:
-    """A path from ``start`` to ``goal``: the straight line if that is free, else one by RRT-connect.
+    """Return a path (n, k), corners only, from ``start`` to ``goal``, or None: a straight line, else by RRT-connect.
 
     Args:
         start: (k,), taken to be free.
@@ -63,12 +63,8 @@ def plan(
         free: The collision check.
         sample: Draws (k,) from the space.
         strides: (k,): motions that a check may jump over.
-        budget: How many samples to draw at most.
-        project: Brings each new node to where a constraint holds (CBiRRT, Berenson et al. 2009); ``free`` asks about it
-            as well.
-
-    Returns:
-        (n, k), corners only, or None.
+        budget: Maximum number of samples.
+        project: Brings new nodes to where a constraint holds (CBiRRT, Berenson et al. 2009); ``free`` checks it too.
     """
     if _clear(start, goal, free, strides):
         return np.array([start, goal])
@@ -89,7 +85,7 @@ def plan(
 def shorten(
     path: Array, free: Free, strides: Array, rng: np.random.Generator, tries: int = ARM_MOTION.rrt_shortcuts
 ) -> Array:
-    """The path with random pieces replaced by straight lines where these are free; never longer."""
+    """Replace random pieces of the path by straight lines if these are free; it never gets longer."""
     for _ in range(tries):
         if len(path) < 3:
             break
@@ -109,7 +105,7 @@ def shorten(
 
 
 def _clear(start: Array, end: Array, free: Free, strides: Array) -> bool:
-    """Whether the line is free, ``start`` not asked."""
+    """Return whether the line is free; ``start`` is not checked."""
     return free(dense(np.array([start, end]), strides.tolist())[1:])
 
 

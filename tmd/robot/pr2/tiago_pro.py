@@ -13,30 +13,25 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 
-from tmd.robot.pr2.kinematics import Array, origin
+from tmd.robot.pr2.kinematics import origin, set_origin
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.urdf_files import end_of
 
+# Radians that the fingers turn from open to closed.
 CLOSED = 0.8028514559173916
-"""Radians that the fingers turn from open to closed."""
+# Metres between the frames of the finger tips when their surfaces would meet: they come to 8 mm of each other.
 TIP_OFFSET = 0.023
-"""Metres between the frames of the finger tips when their surfaces would meet: they come to 8 mm of each other."""
+# Metres from the palm's frame to the tool's. The finger tips then reach 1 mm (open) to 18 mm (closed) beyond it, for
+# they swing forward as they close: a hand comes as near to the table as the PR2's, which reaches 18 mm.
 TOOL_AHEAD = 0.158
-"""Metres from the palm's frame to the tool's.
-
-The finger tips then reach 1 mm (open) to 18 mm (closed) beyond it, for they swing forward as they close: a hand comes
-as near to the table as the PR2's, which reaches 18 mm.
-"""
+# The camera, in the frame of head_tilt_link.
 EYE = (0.06, 0.0, 0.168)
-"""The camera, in the frame of head_tilt_link."""
+# Above the base, 0.27 m to the front and 0.37 m to the sides at most, the hands look ahead. The best of 200 000 random
+# postures, by how far they reach beyond the base and its height, that touch nothing.
 TUCKED: dict[str, tuple[float, ...]] = {
     "right": (-0.637, -2.299, 2.491, -2.296, 2.943, 0.958, -2.004),
     "left": (0.637, -2.299, -2.491, -2.296, -2.943, 0.958, 2.004),
 }
-"""Above the base, 0.27 m to the front and 0.37 m to the sides at most, the hands look ahead.
-
-The best of 200 000 random postures, by how far they reach beyond the base and its height, that touch nothing.
-"""
 _ARM = (
     "shoulder_pan", "shoulder_lift", "upper_arm_roll", "elbow_flex", "forearm_roll", "wrist_flex", "wrist_roll",
 )  # fmt: skip
@@ -44,7 +39,7 @@ _SIDES = ("right", "left")
 
 
 def _names() -> dict[str, str]:
-    """The names of joints and links here, by their own."""
+    """Return the names of joints and links here, by their own."""
     found = {
         "head_1_joint": "head_pan_joint", "head_1_link": "head_pan_link",
         "head_2_joint": "head_tilt_joint", "head_2_link": "head_tilt_link",
@@ -78,14 +73,14 @@ def _own_joints() -> dict[str, tuple[str, float, float]]:
     return found
 
 
+# By the names of the skills: the robot's own name of a joint, and sign and shift from a position here to one there.
 OWN_JOINTS = _own_joints()
-"""By the names of the skills: the robot's own name of a joint, and sign and shift from a position here to one there."""
+# Finger joints besides the four of the PR2.
 COUPLED = ("gripper_l_outer_finger_joint", "gripper_r_outer_finger_joint")
-"""Finger joints besides the four of the PR2."""
 
 
 def missing_joints(root: ET.Element) -> list[str] | None:
-    """The joints of a TIAGo Pro that a parsed URDF lacks; ``None`` where it lacks the arms: it is another robot."""
+    """Return the joints of a TIAGo Pro that a parsed URDF lacks; ``None`` if it lacks the arms: it is another robot."""
     joints = {joint.get("name") for joint in root.findall("joint")}
     wanted = [name for name in NAMES if name.endswith("_joint")]
     if not joints.issuperset(name for name in wanted if name.startswith("arm_")) or "torso_lift_joint" not in joints:
@@ -94,10 +89,10 @@ def missing_joints(root: ET.Element) -> list[str] | None:
 
 
 def never_checked(root: ET.Element) -> set[tuple[str, str]]:
-    """Pairs of links that need no check, by the names of the skills.
+    """Return pairs of links that need no check, by the names of the skills.
 
-    Those that one joint or only fixed joints join, those of one hand, and the shoulders beside the column, whose convex
-    hull they are in when the lift is low. There is no SRDF of this robot in the package.
+    These are pairs joined by one joint or by fixed ones, those of one hand, and the shoulders beside the column, whose
+    convex hull they are in when the lift is low. There is no SRDF of this robot in the package.
     """
     parents = {end_of(joint, "child"): (end_of(joint, "parent"), joint.get("type")) for joint in root.findall("joint")}
     carrier = {}
@@ -134,9 +129,8 @@ def adapt(root: ET.Element) -> None:
         each.set("name", NAMES.get(each.get("name", ""), each.get("name", "")))
     for joint in joints.values():
         for end in ("parent", "child"):
-            found = joint.find(end)
-            if found is not None:
-                found.set("link", NAMES.get(found.get("link", ""), found.get("link", "")))
+            found = _child(joint, end)
+            found.set("link", NAMES.get(found.get("link", ""), found.get("link", "")))
     for side in _SIDES:
         frame, palm = f"{side[0]}_gripper_tool_frame", f"{side[0]}_gripper_palm_link"
         ET.SubElement(root, "link", name=frame)
@@ -147,13 +141,17 @@ def adapt(root: ET.Element) -> None:
         ET.SubElement(joint, "origin", xyz=f"0 0 {TOOL_AHEAD}", rpy=f"0 {-math.pi / 2} 0")
 
 
+def _child(element: ET.Element, tag: str) -> ET.Element:
+    found = element.find(tag)
+    assert found is not None
+    return found
+
+
 def _reverse(joint: ET.Element, zero: float, sign: float) -> None:
     """Let a finger joint be 0 where it is at ``zero`` now, and count from there to where the hand is open."""
     place = origin(joint.find("origin")) @ Pose.about((0.0, 0.0, 1.0), zero).homogeneous()
-    _set_origin(joint, place)
-    axis, limit = joint.find("axis"), joint.find("limit")
-    assert axis is not None
-    assert limit is not None
+    set_origin(joint, place)
+    axis, limit = _child(joint, "axis"), _child(joint, "limit")
     axis.set("xyz", f"0 0 {sign:g}")
     limit.set("lower", "0")
     limit.set("upper", repr(CLOSED))
@@ -163,38 +161,22 @@ def _head(root: ET.Element, joints: dict[str, ET.Element]) -> None:
     """Let the head pan on the lift, and tilt down about its y."""
     pan, tilt = joints["head_1_joint"], joints["head_2_joint"]
     neck = origin(joints["torso_head_joint"].find("origin"))
-    _set_origin(pan, neck @ origin(pan.find("origin")))
-    parent = pan.find("parent")
-    assert parent is not None
-    parent.set("link", "torso_lift_link")
+    set_origin(pan, neck @ origin(pan.find("origin")))
+    _child(pan, "parent").set("link", "torso_lift_link")
     place = origin(tilt.find("origin"))
     turned = np.eye(4)
     turned[:3, :3] = place[:3, :3]
     place[:3, :3] = np.eye(3)
-    _set_origin(tilt, place)
-    axis, limit = tilt.find("axis"), tilt.find("limit")
-    assert axis is not None
-    assert limit is not None
-    axis.set("xyz", "0 1 0")
+    set_origin(tilt, place)
+    _child(tilt, "axis").set("xyz", "0 1 0")
+    limit = _child(tilt, "limit")
     lower, upper = float(limit.get("lower", "0")), float(limit.get("upper", "0"))
     limit.set("lower", repr(-upper))
     limit.set("upper", repr(-lower))
     for link in root.findall("link"):
         if link.get("name") == "head_2_link":
             for each in (*link.findall("visual"), *link.findall("collision"), *link.findall("inertial")):
-                _set_origin(each, turned @ origin(each.find("origin")))
+                set_origin(each, turned @ origin(each.find("origin")))
     for joint in root.findall("joint"):
         if end_of(joint, "parent") == "head_2_link":
-            _set_origin(joint, turned @ origin(joint.find("origin")))
-
-
-def _set_origin(element: ET.Element, frame: Array) -> None:
-    found = element.find("origin")
-    if found is None:
-        found = ET.SubElement(element, "origin")
-    pitch = math.asin(max(-1.0, min(1.0, -float(frame[2, 0]))))
-    roll, yaw = math.atan2(frame[2, 1], frame[2, 2]), math.atan2(frame[1, 0], frame[0, 0])
-    if abs(frame[2, 0]) > 1 - 1e-9:  # roll and yaw turn about one line
-        roll, yaw = 0.0, math.atan2(-float(frame[0, 1]), float(frame[1, 1]))
-    found.set("xyz", " ".join(repr(float(value)) for value in frame[:3, 3]))
-    found.set("rpy", f"{roll!r} {pitch!r} {yaw!r}")
+            set_origin(joint, turned @ origin(joint.find("origin")))

@@ -1,4 +1,4 @@
-"""The PR2's URDF: where it is, what is wrong with it, and a repaired copy in the user's cache directory.
+"""The PR2's URDF, its faults, and a repaired copy in the user's cache directory.
 
 The package ``example-robot-data`` holds the robot with its meshes. pybullet loads it as it is, and then the arms are
 black (their meshes have no normals), the robot is 14 kg too heavy (frames without ``<inertial>`` get 1 kg each) and it
@@ -12,15 +12,14 @@ import importlib.metadata
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from io import BytesIO
 from pathlib import Path
-
-import numpy as np
 
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.files import make_directory, write_bytes
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.pr2 import tiago_pro
-from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, read_urdf
+from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, mesh_library, read_urdf
 
 BASE_JOINTS = ("base_x_joint", "base_y_joint", "base_theta_joint")
 TORSO = "torso_lift_joint"
@@ -41,24 +40,22 @@ FINGERS = (
     "gripper_r_finger_tip_joint",
 )
 TOOL = "gripper_tool_frame"
+# For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most. Found
+# by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms lie
+# across each other, and one in the way of the other.
 TUCKED = {
     "right": (-0.192, 1.046, -0.883, -2.301, 1.193, -1.594, 1.345),
     "left": (0.192, 1.046, 0.883, -2.301, -1.193, -1.594, -1.345),
 }
-"""For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most.
-
-Found by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms
-lie across each other, and one in the way of the other.
-"""
+# The robots of ``example-robot-data`` that the skills can move.
 ROBOTS = {"pr2": "pr2_description/urdf/pr2.urdf", "tiago_pro": "tiago_pro_description/robots/tiago_pro.urdf"}
-"""The robots of ``example-robot-data`` that the skills can move."""
 _DISTRIBUTION = "example-robot-data"
 _ADVICE = "pip install 'tmd[robot]'"
 _WITH_HANDS = "the skills take things: name a PR2 or a TIAGo Pro with both of its grippers"
 _ANOTHER = "the skills move a PR2 or a TIAGo Pro: leave --urdf out, or say --robot tiago_pro"
 _FRAME_MASS = 1e-3
+# Metres: the range of the base's two sliding joints, more than any room.
 _HALL = 100.0
-"""Metres: the range of the base's two sliding joints, more than any room."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +72,7 @@ class RobotDescription:
         tip_offset: Metres between the frames of the finger tips when their surfaces meet.
         eye: The cameras, in the frame of head_tilt_link.
         own_joints: By the PR2's names of joints: the robot's own, and sign and shift from a position here to one there.
-        is_pr2: Whether lengths and axes are those of the PR2's arms, which closed forms can use.
+        is_pr2: Whether lengths and axes are those of the PR2's arms, for closed forms.
     """
 
     urdf: Path
@@ -100,7 +97,7 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
     source = packaged("urdf/pr2.urdf") if urdf is None else urdf
     root = read_urdf(source)
     missing = tiago_pro.missing_joints(root)
-    if missing and _finger_joints(root) == set():
+    if missing and not any("finger" in joint.get("name", "") for joint in root.findall("joint")):
         raise TmdError(f"{source} has no hands: {_lacks('joint', missing)}", hint=_WITH_HANDS)
     other = missing == []
     if other:
@@ -122,12 +119,12 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
     names = {path: f"{index:02d}-{path.name}" for index, path in enumerate(contents)}
     repair(root, {name: str(folder / names[path]) for name, path in meshes.items()})
     target = folder / "pr2.urdf"
-    files = {folder / names[path]: with_normals(data) for path, data in contents.items()}
-    files[target] = ET.tostring(root, encoding="utf-8")  # last: where it is, everything is
-    if not all(file.is_file() for file in files):
+    copies = {folder / names[path]: data for path, data in contents.items()}
+    if not all(file.is_file() for file in (*copies, target)):
         make_directory(folder)
-        for file, data in files.items():
-            write_bytes(file, data)
+        for file, data in copies.items():
+            write_bytes(file, with_normals(data) if file.suffix.lower() == ".stl" else data)
+        write_bytes(target, ET.tostring(root, encoding="utf-8"))  # last: where it is, everything is
     if other:
         return RobotDescription(
             target, root, _both_ways(tiago_pro.never_checked(root)), tiago_pro.TUCKED,
@@ -138,7 +135,7 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
 
 
 def packaged_robot(name: str) -> Path | None:
-    """The URDF of a robot of :data:`ROBOTS`; ``None`` for the PR2, which everything takes where nothing is said.
+    """Return the URDF of a robot of :data:`ROBOTS`; ``None`` for the PR2, the default everywhere.
 
     Raises:
         MissingToolError: The package, or the file in it, is not there.
@@ -152,7 +149,7 @@ def packaged_robot(name: str) -> Path | None:
 
 
 def packaged(name: str) -> Path:
-    """A file of the PR2 in ``example-robot-data``.
+    """Return a file of the PR2 in ``example-robot-data``.
 
     Raises:
         MissingToolError: The package, or the file in it, is not there.
@@ -161,11 +158,6 @@ def packaged(name: str) -> Path:
 
 
 def _of_package(name: str) -> Path:
-    """A file of a robot in ``example-robot-data``.
-
-    Raises:
-        MissingToolError: The package, or the file in it, is not there.
-    """
     try:
         files = importlib.metadata.files(_DISTRIBUTION) or []
     except importlib.metadata.PackageNotFoundError as error:
@@ -178,7 +170,7 @@ def _of_package(name: str) -> Path:
 
 
 def check(source: Path, root: ET.Element) -> None:
-    """See that a URDF is a PR2's.
+    """Refuse a URDF that is not a PR2's.
 
     Raises:
         TmdError: Joints are missing; the message names some of them.
@@ -202,25 +194,16 @@ def check(source: Path, root: ET.Element) -> None:
         )
 
 
-def _finger_joints(root: ET.Element) -> set[str]:
-    """The joints of hands, whosever they are."""
-    return {name for joint in root.findall("joint") if "finger" in (name := joint.get("name", ""))}
-
-
 def _lacks(kind: str, names: list[str]) -> str:
     plural = "s" if len(names) > 1 else ""
     return f"{len(names)} {kind}{plural} missing: {', '.join(names[:4])}{', …' if len(names) > 4 else ''}"
 
 
 def repair(root: ET.Element, meshes: dict[str, str]) -> None:
-    """Repair a parsed URDF in place.
+    """Repair a parsed URDF in place, with new names of its mesh files.
 
-    Frames that carry nothing are left out, except the tool frames: fewer links are faster. What remains without
-    ``<inertial>`` gets a gram. The base gets joints: x and y slide, theta turns.
-
-    Args:
-        root: ``<robot>``.
-        meshes: What to write for every mesh file name.
+    Frames that carry nothing are left out, except the tool frames: fewer links are faster. Links without
+    ``<inertial>`` get a gram. The base gets joints: x and y slide, theta turns.
     """
     for extra in [child for child in root if child.tag not in ("link", "joint", "material")]:
         root.remove(extra)
@@ -248,17 +231,9 @@ def repair(root: ET.Element, meshes: dict[str, str]) -> None:
 
 
 def with_normals(data: bytes) -> bytes:
-    """A binary STL with the normals of its facets; any other file as it is."""
-    facets = int.from_bytes(data[80:84], "little")
-    if len(data) != 84 + 50 * facets:
-        return data
-    kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
-    mesh = np.frombuffer(data, kind, offset=84).copy()
-    corners = mesh["corners"].astype(float)
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
-    mesh["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    return data[:84] + mesh.tobytes()
+    """Return an STL file with the normals of its facets."""
+    mesh = mesh_library().load(BytesIO(data), file_type="stl", process=False)
+    return bytes(mesh.export(file_type="stl"))
 
 
 def _root_link(root: ET.Element) -> str:
@@ -267,7 +242,7 @@ def _root_link(root: ET.Element) -> str:
 
 
 def _idle_leaves(root: ET.Element) -> set[str]:
-    """Links without children that are neither seen nor met: sensor frames, and helpers of the gripper."""
+    """Return links without children, visuals and collisions: sensor frames, and helpers of the gripper."""
     parents = {end_of(joint, "parent") for joint in root.findall("joint")}
     return {
         link.get("name", "")
@@ -280,7 +255,7 @@ def _idle_leaves(root: ET.Element) -> set[str]:
 
 
 def _inertial(mass: float) -> ET.Element:
-    """A small ball of 2 cm, so that the tensor is positive."""
+    """Return the inertia of a small ball of 2 cm, so that the tensor is positive."""
     inertial = ET.Element("inertial")
     ET.SubElement(inertial, "mass", value=repr(mass))
     moment = repr(0.4 * mass * 0.02**2)
@@ -289,7 +264,7 @@ def _inertial(mass: float) -> ET.Element:
 
 
 def _disabled(root: ET.Element) -> frozenset[tuple[str, str]]:
-    """Pairs that need no check: the SRDF's, and links that are joined by one joint."""
+    """Return pairs that need no check: the SRDF's, and links that are joined by one joint."""
     pairs = {(end_of(joint, "parent"), end_of(joint, "child")) for joint in root.findall("joint")}
     srdf = read_urdf(packaged("srdf/pr2.srdf"))
     pairs |= {(pair.get("link1", ""), pair.get("link2", "")) for pair in srdf.findall("disable_collisions")}
@@ -301,14 +276,6 @@ def _both_ways(pairs: Iterable[tuple[str, str]]) -> frozenset[tuple[str, str]]:
 
 
 def _digest(*parts: bytes) -> str:
-    """A name for the contents and for the present text of the modules whose repairs are in the copy."""
-    total = hashlib.sha256()
-    for part in _lengths((*parts, Path(__file__).read_bytes(), Path(tiago_pro.__file__).read_bytes())):
-        total.update(part)
-    return total.hexdigest()[:20]
-
-
-def _lengths(parts: Iterable[bytes]) -> Iterable[bytes]:
-    for part in parts:
-        yield len(part).to_bytes(8, "little")
-        yield part
+    """Return a name for the contents and for the present text of the modules whose repairs are in the copy."""
+    parts = (*parts, Path(__file__).read_bytes(), Path(tiago_pro.__file__).read_bytes())
+    return hashlib.sha256(b"".join(hashlib.sha256(part).digest() for part in parts)).hexdigest()[:20]

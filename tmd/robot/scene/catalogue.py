@@ -1,24 +1,24 @@
-"""What there is in a scene by name: objects, their parts, how they are built. No simulator is needed to know that."""
+"""The objects of a scene and their parts by name, without a simulator."""
 
 from __future__ import annotations
 
 from tmd.diagnostics import TmdError
-from tmd.robot.assets.features import Opening, Region
+from tmd.robot.assets.features import Grip, Opening, Region
 from tmd.robot.assets.shapes import Blueprint, Shapes
 from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.scene.furniture_layout import Footprint
-from tmd.robot.sim.pose import Vector
+from tmd.robot.sim.pose import Pose, Vector
 from tmd.world.classes import ROOT as CLASS_ROOT
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
 FLOOR = "floor"
+# A thing that is so many times as high as wide falls over.
 TALL = 1.2
-"""What is so many times as high as it is wide falls over."""
 
 
 def built(environment: Environment, folder: DomainFolder) -> tuple[dict[str, Blueprint], dict[str, list[str]]]:
-    """How each object of an environment is built, and the names of its parts.
+    """Return the blueprint of each object of an environment, and the names of its parts.
 
     Raises:
         TmdError: A shape makes no sense; with its place in ``objects.yaml``.
@@ -33,13 +33,7 @@ def built(environment: Environment, folder: DomainFolder) -> tuple[dict[str, Blu
 
 
 class Catalogue:
-    """The objects of an environment, and the names of their parts.
-
-    Args:
-        environment: What there is.
-        blueprints: How each object is built.
-        parts: The parts of each object.
-    """
+    """The objects of an environment, their blueprints, and the names of their parts."""
 
     def __init__(self, environment: Environment, blueprints: dict[str, Blueprint], parts: dict[str, list[str]]) -> None:
         self.environment = environment
@@ -55,16 +49,16 @@ class Catalogue:
                 self._places[said] = self.where(meant)
 
     def named(self, whole: str, part: str) -> str:
-        """The name of a part of an object; of the object itself where no part is given."""
+        """Return the name of a part of an object; of the object itself if no part is given."""
         usual = f"{whole}_{part}"
         return self._spelled.get(usual, usual) if part else whole
 
     def whole(self, name: str) -> str:
-        """The object that an object or part belongs to."""
+        """Return the object that an object or part belongs to."""
         return self.where(name)[0]
 
     def where(self, name: str) -> tuple[str, str]:
-        """The object, and the part of it (``ROOT``: the whole), that a name means.
+        """Return the object, and the part of it (``ROOT``: the whole), that a name means.
 
         Raises:
             TmdError: There is no such thing.
@@ -74,33 +68,33 @@ class Catalogue:
         return self._places[name]
 
     def is_item(self, name: str) -> bool:
-        """Whether it can be carried."""
+        """Return whether it can be carried."""
         return name in self.blueprints and self.blueprints[name].sort == "item"
 
     def items(self) -> list[str]:
-        """All items, in file order."""
+        """Return all items, in file order."""
         return [name for name in self.blueprints if self.is_item(name)]
 
     def names(self) -> list[str]:
-        """All objects and parts, in file order."""
+        """Return all objects and parts, in file order."""
         return [name for name in self._places if name != FLOOR]
 
     def holds_contents(self, item: str) -> bool:
-        """Whether it is a vessel: what is in it is seen."""
+        """Return whether it is a vessel with visible contents."""
         return bool(self.blueprints[item].model.contents)
 
     def opening(self, item: str) -> Opening | None:
-        """The rim of a vessel; None for what holds nothing or is closed."""
+        """Return the rim of a vessel; None for a thing that holds nothing or is closed."""
         return self.blueprints[item].model.opening if item in self.blueprints else None
 
     def spouts(self, whole: str) -> dict[str, Vector]:
-        """Where streams leave an object, in its own frame, by the full name of the part."""
+        """Return where streams leave an object, in its own frame, by the full name of the part."""
         if whole not in self.blueprints:
             return {}
         return {self.named(whole, part): place for part, place in self.blueprints[whole].model.spouts.items()}
 
     def stands(self, item: str) -> bool:
-        """Whether it is to be put down upright: what holds something, and what is tall."""
+        """Return whether it is to be put down upright: vessels, and tall things."""
         model = self.blueprints[item].model
         if model.contents and model.opening is None:
             return False  # a spoon
@@ -108,17 +102,33 @@ class Catalogue:
         return model.opening is not None or bool(model.regions) or height > TALL * max(depth, width)
 
     def size(self, item: str) -> tuple[Vector, Vector]:
-        """The item's box, lower and upper corner, in its own frame."""
+        """Return the item's box, lower and upper corner, in its own frame."""
         model = self.blueprints[item].model
         return (model.low[0], model.low[1], model.low[2]), (model.high[0], model.high[1], model.high[2])
 
     def footprint(self, item: str) -> Footprint:
-        """The item's rectangle on what it stands on."""
+        """Return the item's rectangle on its support."""
         low, high = self.size(item)
         return (low[0], low[1], high[0], high[1])
 
+    def grip(self, whole: str, part: str) -> Grip | None:
+        """Return the grip of a part in the frame of its link; None if it has none."""
+        return next((g for g in self.blueprints[whole].model.grips if g.part == part), None)
+
+    def frame(self, whole: str, link: str) -> Pose:
+        """Return the pose of a link of an object now."""
+        raise NotImplementedError
+
+    def pose_of(self, item: str) -> Pose:
+        """Return the pose of an object now."""
+        raise NotImplementedError
+
+    def top_of(self, item: str) -> float:
+        """Return the height of the highest point of an object now."""
+        raise NotImplementedError
+
     def regions(self, name: str, relation: str | None = None) -> list[tuple[str, Region]]:
-        """The regions of an object or part, each with the object; those of one relation if it is given."""
+        """Return the regions of an object or part, of one relation if it is given, each with the object."""
         whole, part = self.where(name)
         if whole == FLOOR:
             return []

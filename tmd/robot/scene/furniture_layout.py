@@ -1,4 +1,4 @@
-"""Where things stand: fixtures along three walls, items on free spots of what they are at.
+"""Layout of a room: fixtures along three walls, items on free spots of their supports.
 
 The robot starts in the middle, at the origin, and looks along +x at the far wall. Fixtures stand in file order along
 the left wall, the far wall and the right wall. Everything is plain geometry: no physics, nothing random.
@@ -12,14 +12,14 @@ from dataclasses import dataclass
 
 from tmd.robot.sim.pose import Pose, Vector
 
+# From the middle of the room to the fronts, at least.
 FREE_FLOOR = 1.75
-"""From the middle of the room to the fronts, at least."""
+# Between neighbours.
 GAP = 0.12
-"""Between neighbours."""
+# Beside the outermost fixture of a wall.
 CORNER = 0.35
-"""Beside the outermost fixture of a wall."""
+# x and y of the lower and of the upper corner, in the thing's own frame.
 Footprint = tuple[float, float, float, float]
-"""x and y of the lower and of the upper corner, in the thing's own frame."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,10 +27,10 @@ class Room:
     """The room around the fixtures.
 
     Attributes:
-        poses: Where the fixtures stand.
+        poses: Of the fixtures.
         low: x and y of the lower corner.
         high: x and y of the upper corner.
-        corners: Where its walls meet, anticlockwise; empty: the rectangle of ``low`` and ``high``.
+        corners: Of its walls, anticlockwise; empty: the rectangle of ``low`` and ``high``.
     """
 
     poses: dict[str, Pose]
@@ -39,13 +39,13 @@ class Room:
     corners: tuple[tuple[float, float], ...] = ()
 
     def walls(self) -> list[tuple[tuple[float, float], tuple[float, float]]]:
-        """The two ends of each wall, anticlockwise: the room is on the left of who goes from one to the other."""
+        """Return the two ends of each wall, anticlockwise: the room is on the left of the way from one to the other."""
         (x0, y0), (x1, y1) = self.low, self.high
         corners = self.corners or ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
         return list(zip(corners, (*corners[1:], corners[0]), strict=True))
 
     def holds(self, pose: Pose, own: Footprint) -> bool:
-        """Whether an upright thing is wholly within the walls."""
+        """Return whether an upright thing is wholly within the walls."""
         points = _corners(pose, own, -0.001)
         middle = pose.apply(((own[0] + own[2]) / 2, (own[1] + own[3]) / 2, 0.0))[:2]
         order = (points[0], points[1], points[3], points[2])
@@ -53,7 +53,7 @@ class Room:
         return self._within(middle) and not any(_cross(*side, *wall) for side in sides for wall in self.walls())
 
     def _within(self, point: tuple[float, float]) -> bool:
-        """Whether a point is inside (by the number of walls that a line from it along x meets)."""
+        """Return whether a point is inside, by the number of walls that a line from it along x crosses."""
         x, y = point
         met = 0
         for (ax, ay), (bx, by) in self.walls():
@@ -63,7 +63,7 @@ class Room:
 
 
 def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]) -> bool:
-    """Whether the lines from a to b and from c to d meet."""
+    """Return whether the lines from a to b and from c to d cross."""
 
     def side(p: tuple[float, float], q: tuple[float, float], r: tuple[float, float]) -> float:
         return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
@@ -72,7 +72,7 @@ def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float
 
 
 def room_of(corners: Sequence[tuple[float, float]]) -> Room:
-    """An empty room by the corners of its walls.
+    """Return an empty room by the corners of its walls.
 
     Raises:
         ValueError: They are not those of a room; the message says why.
@@ -92,11 +92,7 @@ def room_of(corners: Sequence[tuple[float, float]]) -> Room:
 
 
 def arrange(sizes: dict[str, tuple[float, float]]) -> Room:
-    """Stand fixtures along the walls of a room.
-
-    Args:
-        sizes: Depth and width of each, in file order.
-    """
+    """Place fixtures, given by depth and width in file order, along the walls of a room."""
     groups = _thirds(sizes)
     lengths = [_length([sizes[n][1] for n in group]) for group in groups]
     across = max(FREE_FLOOR, lengths[1] / 2 + CORNER)
@@ -127,7 +123,7 @@ def _length(widths: Sequence[float]) -> float:
 
 
 def _thirds(sizes: dict[str, tuple[float, float]]) -> list[list[str]]:
-    """The names in order, cut into three groups whose greatest length is least."""
+    """Cut the names, in order, into three groups whose greatest length is least."""
     names = list(sizes)
     best: tuple[float, int, int] | None = None
     for first in range(len(names) + 1):
@@ -141,7 +137,7 @@ def _thirds(sizes: dict[str, tuple[float, float]]) -> list[list[str]]:
 
 
 def apart(one: Pose, own: Footprint, other: Pose, its: Footprint, gap: float) -> bool:
-    """Whether two upright things stand at least ``gap`` from each other (by separating axes of their rectangles)."""
+    """Return whether two upright things are at least ``gap`` apart, by separating axes of their rectangles."""
     corners = [_corners(one, own, gap / 2), _corners(other, its, gap / 2)]
     for pose in (one, other):
         yaw = pose.yaw()
@@ -154,15 +150,9 @@ def apart(one: Pose, own: Footprint, other: Pose, its: Footprint, gap: float) ->
 
 
 def inside(pose: Pose, own: Footprint, low: Vector, high: Vector, frame: Pose, beyond: float) -> bool:
-    """Whether an upright thing's footprint is within the box ``low`` to ``high`` of ``frame``.
+    """Return whether the footprint of an upright thing is within the box ``low`` to ``high`` of ``frame``.
 
-    Args:
-        pose: Of the thing in the world.
-        own: Its footprint.
-        low: Lower corner.
-        high: Upper corner.
-        frame: The box's frame in the world.
-        beyond: How far it may stick out at the front (+x); ``inf``: anywhere, only its origin must be within.
+    It may stick out at the front (+x) by ``beyond``; ``inf``: anywhere, only its origin must be within.
     """
     if math.isinf(beyond):
         own = (0.0, 0.0, 0.0, 0.0)
@@ -184,7 +174,7 @@ def _corners(pose: Pose, own: Footprint, more: float) -> list[tuple[float, float
 
 
 def floor_spots(room: Room, taken: Iterable[tuple[Pose, Footprint]], own: Footprint) -> list[Pose]:
-    """Free places on the floor, those behind the robot first; the ways in front of the fixtures stay wide."""
+    """Return free places on the floor, those behind the robot first; the ways in front of the fixtures stay wide."""
     spots = []
     standing = list(taken)
     robot = (Pose.flat(0.0, 0.0), (-0.45, -0.45, 0.45, 0.45))

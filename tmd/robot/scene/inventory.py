@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tmd.robot.assets.shapes import Blueprint
@@ -13,17 +15,41 @@ from tmd.world.environment import Environment
 if TYPE_CHECKING:
     from tmd.robot.sim.simulator import Simulator
 
-__all__ = ["FLOOR", "Inventory"]
+
+@dataclass(frozen=True, slots=True)
+class Handle:
+    """The place to work a joint at, in its current pose.
+
+    Attributes:
+        kind: ``door``, ``flap`` (a door without a handle: pushed), ``drawer``, ``lid``, ``slide`` (a curtain), ``knob``
+            or ``button``.
+        index: The joint's number, also that of the link that moves.
+        grasp: The tool in the world with the fingers at the handle. Of a button and a flap: the closed tips touch it.
+        opening: Gap of the fingers before they close; 0 means closed.
+        origin: A point of the joint's axis in the world.
+        axis: The joint's axis in the world: of turning, or of sliding.
+        turns: Whether it turns (radians) or slides (metres).
+        closed: Position when closed, off or not pressed.
+        open: Position when open or pressed.
+        settings: Of a knob: the position of each setting.
+    """
+
+    kind: str
+    body: int
+    joint: str
+    index: int
+    grasp: Pose
+    opening: float
+    origin: Vector
+    axis: Vector
+    turns: bool
+    closed: float
+    open: float
+    settings: Mapping[str, float]
 
 
 class Inventory(Catalogue):
     """The objects of an environment as bodies of a simulator.
-
-    Args:
-        sim: The simulator.
-        environment: What there is.
-        blueprints: How each object is built.
-        parts: The parts of each object.
 
     Attributes:
         bodies: The body of every object (parts are links of it), and of the floor.
@@ -38,12 +64,12 @@ class Inventory(Catalogue):
         self._owners: dict[int, str] = {}
 
     def keep(self, name: str, body: int) -> None:
-        """A body was loaded for an object."""
+        """Register the body of an object."""
         self.bodies[name] = body
         self._owners[body] = name
 
     def index(self) -> None:
-        """All bodies are loaded: numbers of links are looked up once."""
+        """Look up the numbers of links, once all bodies are loaded."""
         self._links: dict[tuple[str, str], int] = {(FLOOR, ROOT): -1}
         self._named: dict[tuple[int, int], str] = {}
         for name, blueprint in self.blueprints.items():
@@ -55,7 +81,7 @@ class Inventory(Catalogue):
                 self._named[body, self._links[name, link]] = self.named(name, part)
 
     def place(self, name: str) -> tuple[int, int]:
-        """The body and link (−1: the root) of an object or part.
+        """Return the body and link (−1: the root) of an object or part.
 
         Raises:
             TmdError: There is no such thing.
@@ -66,27 +92,49 @@ class Inventory(Catalogue):
         return self.bodies[whole], self.link(whole, self.blueprints[whole].model.part_links.get(part, ROOT))
 
     def link(self, whole: str, link: str) -> int:
-        """The number of a link of an object."""
+        """Return the number of a link of an object."""
         return self._links[whole, link]
 
     def owner(self, body: int, link: int = -1) -> str | None:
-        """The object or part that a link belongs to; None for the robot and others that are not of the scene."""
+        """Return the object or part that a link belongs to; None for the robot and others outside of the scene."""
         return self._named.get((body, link), self._owners.get(body))
 
     def frame(self, whole: str, link: str) -> Pose:
-        """Where a link of an object is now."""
+        """Return the pose of a link of an object now."""
         return self.sim.pose(self.bodies[whole], self.link(whole, link))
 
+    def handle(self, name: str) -> Handle | None:
+        """Return the current handle of an object or part; None if it has none."""
+        whole, part = self.where(name)
+        grip = self.grip(whole, part) if whole != FLOOR else None
+        if grip is None:
+            return None
+        link, frame = self.blueprints[whole].model.links[grip.link], self.frame(whole, grip.link)
+        return Handle(
+            grip.kind,
+            self.bodies[whole],
+            grip.link,
+            self.link(whole, grip.link),
+            frame * grip.tool.pose(),
+            grip.opening,
+            frame.position,
+            frame.rotate(link.axis),
+            link.kind == "revolute",
+            grip.closed,
+            grip.open,
+            dict(grip.settings),
+        )
+
     def entry(self, name: str, relation: str) -> Vector:
-        """The direction in which the gripper comes in there: (0, 0, −1) is from above."""
+        """Return the direction in which the gripper enters there: (0, 0, −1) is from above."""
         for whole, region in self.regions(name, relation):
             return self.frame(whole, region.link).rotate(region.entry)
         return (0.0, 0.0, -1.0)
 
     def pose_of(self, item: str) -> Pose:
-        """Where an object is now."""
+        """Return the pose of an object now."""
         return self.sim.pose(self.bodies[item])
 
     def top_of(self, item: str) -> float:
-        """The height of its highest point now."""
+        """Return the height of its highest point now."""
         return self.sim.extents(self.bodies[item])[1][2]

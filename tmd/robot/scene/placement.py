@@ -1,4 +1,4 @@
-"""Where every object of an environment goes: positions that it gives, else places that are found."""
+"""The poses of all objects of an environment: positions that it gives, else free places."""
 
 from __future__ import annotations
 
@@ -15,26 +15,22 @@ from tmd.robot.scene.furniture_layout import Footprint, Room, apart, arrange, fl
 from tmd.robot.sim.pose import Pose
 from tmd.world.environment import Environment
 
+# Between items, the first that fits.
 GAPS = (0.1, 0.07, 0.05)
-"""Between items, the first that fits."""
+# Turns of things that do not fit with their front to the front, in radians.
 TURNS = (0.0, 0.8, -0.8, 1.57, -1.57)
-"""How things may be turned where they do not fit with their front to the front."""
+# Items from this height on stand behind the lower ones.
 TALL = 0.12
-"""Items from this height on stand behind the lower ones."""
 JITTER = 0.003
 _OPEN = "opened"
+# Footprint of the robot.
 _ROBOT: Footprint = (-0.35, -0.35, 0.35, 0.35)
-"""What the robot stands on."""
 
 
 class Placing:
-    """The poses of all objects.
+    """The poses of all objects of an environment.
 
-    Args:
-        environment: What there is, and where.
-        blueprints: How each object is built.
-        names: What there is, objects and parts, whether it has a shape or not.
-        rng: Moves items by millimetres; None: not at all.
+    ``names`` are all objects and parts, with a shape or without; ``rng`` moves items by millimetres.
 
     Attributes:
         room: The fixtures' poses and the walls.
@@ -88,7 +84,8 @@ class Placing:
             return room
         far = [0.0, 0.0]
         for name, pose in given.items():
-            corners = [pose.apply((x, y, 0.0)) for x, y in _rectangle(_footprint(self._blueprints[name]))]
+            x0, y0, x1, y1 = _footprint(self._blueprints[name])
+            corners = [pose.apply((x, y, 0.0)) for x in (x0, x1) for y in (y0, y1)]
             for axis in (0, 1):
                 reach = max(abs(corner[axis]) for corner in corners) + 0.05
                 far[axis] = max(far[axis], abs(pose.position[axis]) + 0.6, reach)
@@ -97,7 +94,6 @@ class Placing:
         return Room({**room.poses, **given}, low, high)
 
     def _walled(self, arranged: Room) -> Room:
-        """The same fixtures within the walls that the environment has."""
         source = self._environment.source
         try:
             empty = room_of(self._environment.room)
@@ -153,7 +149,7 @@ class Placing:
         raise self._error(name, f"'{name}' finds no room {relation} '{where}'", hint)
 
     def _free(self, name: str, whole: str, part: str, relation: str, gap: float) -> Pose | None:
-        """The first free spot; tall things take the rear row first, low ones the front row."""
+        """Return the first free spot; tall things take the rear row first, low ones the front row."""
         blueprint, own = self._blueprints[name], self._footprints[name]
         high, said = blueprint.model.high[2], self._environment.objects[name].yaw
         for region in self._blueprints[whole].model.regions:
@@ -177,7 +173,7 @@ class Placing:
         return None
 
     def _frame(self, whole: str, region: Region) -> Pose:
-        """The region's frame as the fixture stands at the start: a drawer may be open."""
+        """Return the region's frame at the start: a drawer may be open."""
         model, pose = self._blueprints[whole].model, self.poses[whole]
         frame = pose * model.frame(region.link)
         link = model.links[region.link]
@@ -191,26 +187,21 @@ class Placing:
         if self._rng is None:
             return pose
         dx, dy = (float(value) for value in self._rng.uniform(-JITTER, JITTER, 2))
-        x, y, z = pose.position
-        return Pose((x + dx, y + dy, z), pose.orientation)
+        return pose.moved((dx, dy, 0.0))
 
     def _split(self, name: str, where: str) -> tuple[str, str]:
         for whole in self._blueprints:
             if where == whole:
                 return whole, ROOT
-            if where.startswith(f"{whole}_") and where[len(whole) + 1 :] in self._parts(whole):
-                return whole, where[len(whole) + 1 :]
+            model, part = self._blueprints[whole].model, where.removeprefix(f"{whole}_")
+            if part != where and part in (*model.part_links, *(region.part for region in model.regions)):
+                return whole, part
         if where in self._names:
             message = f"'{where}', where '{name}' is to be, has no shape of its own in the scene"
             raise self._error(name, message, "say a fitting `shape:` in objects.yaml (docs/scenes.md)")
         raise self._error(name, f"there is no '{where}' that '{name}' could be at", None)
 
-    def _parts(self, whole: str) -> set[str]:
-        model = self._blueprints[whole].model
-        return set(model.part_links) | {region.part for region in model.regions}
-
     def _error(self, name: str, message: str, hint: str | None, key: str | None = "at") -> TmdError:
-        """An error at what the environment says of an object."""
         path = ("objects", name) if key is None else ("objects", name, key)
         return self._environment.source.error(path, message, hint, "no-room")
 
@@ -220,12 +211,8 @@ def _footprint(blueprint: Blueprint) -> Footprint:
     return (model.low[0], model.low[1], model.high[0], model.high[1])
 
 
-def _rectangle(own: Footprint) -> list[tuple[float, float]]:
-    return [(x, y) for x in (own[0], own[2]) for y in (own[1], own[3])]
-
-
 def _facing_the_middle(x: float, y: float) -> Pose:
-    """A fixture at a given place looks along the axis that leads most straight to the middle of the room."""
+    """Return the pose of a fixture that looks along the axis that leads most straight to the middle of the room."""
     if abs(x) >= abs(y):
         return Pose.flat(x, y, 0.0, 3.141592653589793 if x > 0 else 0.0)
     return Pose.flat(x, y, 0.0, -1.5707963267948966 if y > 0 else 1.5707963267948966)

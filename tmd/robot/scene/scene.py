@@ -1,4 +1,4 @@
-"""An environment as a physical world: what stands where, what can be taken, opened and put on, and what it shows."""
+"""An environment as a physical world: its bodies, what can be taken, opened and put on, and what is visible."""
 
 from __future__ import annotations
 
@@ -15,10 +15,9 @@ from tmd.robot.assets.colours import mixed
 from tmd.robot.assets.features import Grasp
 from tmd.robot.assets.room import build_room
 from tmd.robot.assets.urdf_builder import ROOT
-from tmd.robot.scene.catalogue import built
+from tmd.robot.scene.catalogue import FLOOR, built
 from tmd.robot.scene.furniture_layout import Room
-from tmd.robot.scene.handles import Handle, grip_of, handle_of
-from tmd.robot.scene.inventory import FLOOR, Inventory
+from tmd.robot.scene.inventory import Handle, Inventory
 from tmd.robot.scene.placement import Placing
 from tmd.robot.scene.support_relations import Spot, boxes_meet, free_spots, supported
 from tmd.robot.sim.box_mesh import CUBE, cube
@@ -32,34 +31,28 @@ if TYPE_CHECKING:
 
 __all__ = ["FLOOR", "OVERLAP", "SETTLE", "Handle", "Scene", "Spot"]
 
+# Steps of physics before the scene is ready.
 SETTLE = 240
-"""Steps of physics before the scene is ready."""
+# Metres that two things may be in each other.
 OVERLAP = 0.002
-"""Metres that two things may be in each other."""
+# Ticks between two looks at where lids are.
 _LIDS_EVERY = 4
-"""Ticks between two looks at where lids are."""
+# Radians, or metres, that a lid has moved when somebody moved it.
 _LID_MOVED = 0.01
-"""Radians, or metres, that a lid has moved when somebody moved it."""
 _OPENED, _SET_TO, _CONTAINS = "opened", "set_to", "contains"
 
 
 class Scene(Inventory):
-    """All objects of an environment in a simulator, settled.
+    """All objects of an environment in a simulator, settled by ``settle`` steps of physics.
 
-    Args:
-        sim: An empty simulator.
-        environment: What there is and where.
-        folder: Its domain, with the shapes of its classes.
-        rng: Moves things by millimetres, so that no two seeds see quite the same scene; None: exact places.
-        settle: Steps of physics before the scene is ready.
+    ``rng`` moves things by millimetres, so that no two seeds see quite the same scene; without it, places are exact.
 
     Attributes:
-        bodies: The body of every object (parts are links of it), and of the floor.
-        room: Where the fixtures and walls are.
-        placed: Where every object was put before physics began.
+        room: The places of fixtures and walls.
+        placed: The pose of every object before physics began.
 
     Raises:
-        TmdError: A shape makes no sense, something does not fit where it should be, or things are in each other.
+        TmdError: A shape makes no sense, something does not fit where it should be, or things overlap.
     """
 
     def __init__(
@@ -79,8 +72,8 @@ class Scene(Inventory):
             for name, entry in environment.objects.items()
         }
         self._shown: dict[str, tuple[str, ...]] = {}
+        # The friction of the joints of items, and where each was when it was last seen to have moved.
         self._lids: dict[tuple[int, str], tuple[float, float]] = {}
-        """The friction of the joints of items, and where each was when it was last seen to have moved."""
         with tempfile.TemporaryDirectory(prefix="tmd-scene-") as directory:
             self._load(Path(directory), rng)
         self.index()
@@ -114,7 +107,6 @@ class Scene(Inventory):
             self.keep(name, self.sim.load(path, pose, fixed=blueprint.sort != "item", own_inertia=True))
 
     def _start(self, name: str) -> None:
-        """Joints, contents and signs as the environment says."""
         body, model, entry = self.bodies[name], self.blueprints[name].model, self.environment.objects[name]
         for link in model.links.values():
             if link.spring:
@@ -126,7 +118,7 @@ class Scene(Inventory):
         for vertex, usual in self._states[name].items():
             part = ROOT if vertex == CLASS_ROOT else vertex
             states = {**usual, **(entry.states if part == ROOT else entry.parts.get(part, {}))}
-            grip = grip_of(self, name, part)
+            grip = self.grip(name, part)
             if grip is not None and grip.kind != "button":
                 setting = dict(grip.settings).get(str(states.get(_SET_TO)))
                 position = setting if setting is not None else grip.open if states.get(_OPENED) is True else grip.closed
@@ -136,10 +128,8 @@ class Scene(Inventory):
                 self.sign(whole, predicate, value is True)
             contained = states.get(_CONTAINS, [])
             if part == ROOT and model.contents:
-                several = (
-                    contained if isinstance(contained, list) else [contained] if isinstance(contained, str) else []
-                )
-                self.show(name, several)
+                one = [contained] if isinstance(contained, str) else []
+                self.show(name, contained if isinstance(contained, list) else one)
 
     def _refuse_overlaps(self) -> None:
         names = list(self.bodies)
@@ -151,49 +141,27 @@ class Scene(Inventory):
                 near = self.sim.closest(self.bodies[one], self.bodies[other], 0.0)
                 depth = max((-c.distance for c in near), default=0.0)
                 if depth > OVERLAP:
-                    self._overlap(one, other, depth)
-
-    def _overlap(self, one: str, other: str, depth: float) -> None:
-        guilty = other if self.environment.objects[other].position or one == FLOOR else one
-        path = ("objects", guilty, "position")
-        both = f"'{other}' and the floor or a wall" if one == FLOOR else f"'{one}' and '{other}'"
-        raise self.environment.source.error(
-            path,
-            f"{both} are in each other by {depth * 1000:.0f} mm",
-            "give other positions, or leave them out: then places are found",
-            "overlap",
-        )
+                    guilty = other if self.environment.objects[other].position or one == FLOOR else one
+                    both = f"'{other}' and the floor or a wall" if one == FLOOR else f"'{one}' and '{other}'"
+                    message = f"{both} are in each other by {depth * 1000:.0f} mm"
+                    hint = "give other positions, or leave them out: then places are found"
+                    raise self.environment.source.error(("objects", guilty, "position"), message, hint, "overlap")
 
     # ------------------------------------------------------------------ where things may stand, and stand
 
     def support(self, name: str, relation: str, item: str | None = None, held: Collection[str] = ()) -> list[Spot]:
-        """Free places on, in or next to something as it is now, best first.
-
-        Args:
-            name: An object or part, or the floor.
-            relation: ``on``, ``in`` or ``next_to``.
-            item: What is to stand there; without it, a thing 7 cm wide is meant.
-            held: What is in a hand, and takes no place away.
-        """
+        """Return free places: see :func:`tmd.robot.scene.support_relations.free_spots`."""
         return free_spots(self, self.room, name, relation, item, held)
 
     def supported(self, item: str) -> tuple[str, str] | None:
-        """What the item physically is on, in or next to now, and how; None while it is in the air or in a hand.
-
-        Where the middle of its underside is decides, together with what it touches: itself or, in a vessel or on
-        another item, through that.
-        """
+        """Return what an item is at: see :func:`tmd.robot.scene.support_relations.supported`."""
         return supported(self, item)
 
     # ------------------------------------------------------------------ what can be taken and worked
 
     def grasps(self, item: str) -> Sequence[Grasp]:
-        """How an item can be taken: ``Grasp.tool.pose()`` is in the item's frame."""
+        """Return the grasps of an item: ``Grasp.tool.pose()`` is in the item's frame."""
         return self.blueprints[item].model.grasps
-
-    def handle(self, name: str) -> Handle | None:
-        """What opens, turns or presses an object or part now; None where nothing does."""
-        return handle_of(self, name)
 
     def spring_open(self, name: str) -> None:
         """Let a door that has been unlatched swing open by itself."""
@@ -205,7 +173,7 @@ class Scene(Inventory):
     def calm(self, name: str) -> None:
         """Leave a joint to its own friction again, after :meth:`spring_open` or a drive."""
         whole, part = self.where(name)
-        grip = grip_of(self, whole, part)
+        grip = self.grip(whole, part)
         if grip is not None:
             self.sim.brake_joint(self.bodies[whole], grip.link, self.blueprints[whole].model.links[grip.link].friction)
 
@@ -227,7 +195,7 @@ class Scene(Inventory):
     # ------------------------------------------------------------------ what it shows
 
     def show(self, name: str, substances: Sequence[str]) -> None:
-        """Let a vessel be seen to contain this: the first substance fills it, the others lie on top."""
+        """Show the contents of a vessel: the first substance fills it, the others lie on top."""
         whole, _ = self.where(name)
         model, body = self.blueprints[whole].model, self.bodies[whole]
         groups = [list(substances[:1]), list(substances[1:])]
@@ -237,15 +205,15 @@ class Scene(Inventory):
             self.sim.colour(body, self.link(whole, link), colour)
 
     def shown(self, name: str) -> tuple[str, ...]:
-        """What a vessel is seen to contain."""
+        """Return the visible contents of a vessel."""
         return self._shown.get(name, ())
 
     def filled(self) -> list[str]:
-        """The items that are seen to contain something, in file order."""
+        """Return the items with visible contents, in file order."""
         return [name for name in self.blueprints if self._shown.get(name) and self.is_item(name)]
 
     def sign(self, name: str, predicate: str, on: bool) -> None:
-        """Let a state be seen: a burner glows, the tap runs, the microwave is lit; nothing where there is no sign."""
+        """Show a state, if there is a sign for it: a burner glows, the tap runs, the microwave is lit."""
         whole, part = self.where(name)
         if whole == FLOOR:
             return
@@ -254,7 +222,7 @@ class Scene(Inventory):
                 self.sim.colour(self.bodies[whole], self.link(whole, lamp.link), lamp.on if on else lamp.off)
 
     def viewpoint(self, around: Sequence[str] = ()) -> tuple[Vector, Vector]:
-        """Eye and target of a camera that sees some things (or the whole room) and the robot before them."""
+        """Return eye and target of a camera that sees some things (or the whole room) and the robot before them."""
         if not around:
             return (self.room.low[0] - 0.9, 0.0, 3.4), (0.5, 0.0, 0.4)
         points = [self.sim.pose(*self.place(name)).position for name in around]

@@ -1,4 +1,4 @@
-"""Where things may stand in a scene as it is now, and what they stand on, in or next to."""
+"""Free places in a scene as it is now, and the supports of items."""
 
 from __future__ import annotations
 
@@ -6,91 +6,46 @@ import math
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import product
-from typing import Protocol
 
-from tmd.robot.assets.features import Opening, Region
+from tmd.robot.assets.features import Region
 from tmd.robot.assets.urdf_builder import ROOT
+from tmd.robot.scene.catalogue import FLOOR, Catalogue
 from tmd.robot.scene.furniture_layout import Footprint, Room, apart, floor_spots, inside
-from tmd.robot.scene.inventory import FLOOR, Inventory
+from tmd.robot.scene.inventory import Inventory
 from tmd.robot.scene.placement import TURNS
 from tmd.robot.sim.pose import Pose, Vector
 
+# Between two items that stand side by side, at least.
 GAP = 0.05
-"""Between two items that stand side by side, at least."""
+# The same in a basket or a bag, which nothing is to be taken out of in order.
 HEAP_GAP = 0.01
-"""The same in a basket or a bag, which nothing is to be taken out of in order."""
+# The same where no spot of a region has GAP around it: hands get in from above still.
 TIGHT_GAP = 0.02
-"""The same where no spot of a region has :data:`GAP` around it: hands get in from above still."""
+# Between the places that are tried then, all over the region.
 PITCH = 0.03
-"""Between the places that are tried then, all over the region."""
+# Between spots that count as different.
 APART = 0.15
-"""Between spots that count as different."""
 _TOUCH = 0.004
+# Above what lies in a heap already.
 _ON_TOP = 0.004
-"""Above what lies in a heap already."""
 
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """A free place.
-
-    Attributes:
-        pose: That the item's frame would have, in the world, now.
-        outlet: The part whose stream would run into the item there; empty where there is none.
-    """
+    """A free place: the pose of the item's frame, and the part whose stream would run into it there, if any."""
 
     pose: Pose
     outlet: str = ""
 
 
-class Things(Protocol):
-    """What has to be known of a scene to find free places in it."""
-
-    def items(self) -> list[str]:
-        """All items."""
-        ...
-
-    def whole(self, name: str) -> str:
-        """The object that an object or part belongs to."""
-        ...
-
-    def footprint(self, item: str) -> Footprint:
-        """The item's rectangle on what it stands on."""
-        ...
-
-    def size(self, item: str) -> tuple[Vector, Vector]:
-        """The item's box in its own frame."""
-        ...
-
-    def opening(self, item: str) -> Opening | None:
-        """The rim of a vessel."""
-        ...
-
-    def spouts(self, whole: str) -> dict[str, Vector]:
-        """Where streams leave an object, in its own frame."""
-        ...
-
-    def regions(self, name: str, relation: str | None = None) -> list[tuple[str, Region]]:
-        """The regions of an object or part, each with the object."""
-        ...
-
-    def frame(self, whole: str, link: str) -> Pose:
-        """Where a link of an object is now."""
-        ...
-
-    def pose_of(self, item: str) -> Pose:
-        """Where an object is now."""
-        ...
-
-    def top_of(self, item: str) -> float:
-        """The height of its highest point now."""
-        ...
-
-
 def free_spots(
-    things: Things, room: Room, name: str, relation: str, item: str | None, held: Collection[str] = ()
+    things: Catalogue, room: Room, name: str, relation: str, item: str | None, held: Collection[str] = ()
 ) -> list[Spot]:
-    """Free places on, in or next to something, best first; see :meth:`tmd.robot.scene.scene.Scene.support`."""
+    """Return free places on, in or next to something as it is now, best first.
+
+    ``relation`` is ``on``, ``in`` or ``next_to``. ``item`` is to stand there; None: a thing 7 cm wide. ``held``
+    items are in a hand, and take no place away.
+    """
     own = things.footprint(item) if item is not None else (-0.035, -0.035, 0.035, 0.035)
     names = [other for other in things.items() if other not in (item, things.whole(name), *held)]
     others = {other: (things.pose_of(other), things.footprint(other)) for other in names}
@@ -108,27 +63,32 @@ def free_spots(
         near = {o: at for o, at in others.items() if low - 0.05 < at[0].position[2] < high}
         if filled:
             spots += _under_spouts(things, whole, region, own, near)
-        for turned in TURNS:
-            fitting = _fitting(frame, region, turned, own)
-            gap = HEAP_GAP if region.heap else GAP
-            free = [pose for pose in fitting if all(apart(pose, own, *at, gap) for at in near.values())]
-            spots += map(Spot, free)
-            if region.heap:
-                taken = [pose for pose in fitting if pose not in free]
-                heaped += (Spot(pose) for pose in _heaped(things, taken, own, near, high))
-            if free:
-                break
-        else:
-            if not region.heap:
-                spots += map(Spot, _squeezed_in(frame, region, own, near))
+        free, taken = _unoccupied(frame, region, own, near)
+        spots += map(Spot, free)
+        heaped += map(Spot, _heaped(things, taken, own, near, high))
     # beside what lies in a heap there may be room for a thing, and none for the hand
     return _spread(spots) + _spread(sorted(heaped, key=lambda spot: spot.pose.position[2]))
 
 
+def _unoccupied(
+    frame: Pose, region: Region, own: Footprint, near: Mapping[str, tuple[Pose, Footprint]]
+) -> tuple[list[Pose], list[Pose]]:
+    """Return free poses in a region, in the first turn that has any; of a heap also the other poses up to that."""
+    gap = HEAP_GAP if region.heap else GAP
+    taken: list[Pose] = []
+    for turned in TURNS:
+        fitting = _fitting(frame, region, turned, own)
+        free = [pose for pose in fitting if all(apart(pose, own, *at, gap) for at in near.values())]
+        taken += [pose for pose in fitting if region.heap and pose not in free]
+        if free:
+            return free, taken
+    return [] if region.heap else _squeezed_in(frame, region, own, near), taken
+
+
 def _under_spouts(
-    things: Things, whole: str, region: Region, own: Footprint, near: dict[str, tuple[Pose, Footprint]]
+    things: Catalogue, whole: str, region: Region, own: Footprint, near: dict[str, tuple[Pose, Footprint]]
 ) -> list[Spot]:
-    """Where a stream would run into a vessel: its middle is below the spout."""
+    """Return where a stream would run into a vessel: its middle is below the spout."""
     frame = things.frame(whole, region.link)
     found = []
     for part, place in things.spouts(whole).items():
@@ -148,13 +108,13 @@ def _under_spouts(
 
 
 def _fitting(frame: Pose, region: Region, turned: float, own: Footprint) -> list[Pose]:
-    """The spots of a region in which a thing does not stick out."""
+    """Return the spots of a region in which a thing does not stick out."""
     poses = [frame * Pose.flat(x, y, z, yaw + turned) for x, y, z, yaw in region.spots]
     return [pose for pose in poses if inside(pose, own, region.low, region.high, frame, region.overhang)]
 
 
 def _squeezed_in(frame: Pose, region: Region, own: Footprint, near: Mapping[str, tuple[Pose, Footprint]]) -> list[Pose]:
-    """Where there is just room between what stands there, the nearest to the front first."""
+    """Return where there is just room between the things there, the nearest to the front first."""
     across, deep = (int((region.high[axis] - region.low[axis]) / PITCH) for axis in (1, 0))
     places = [
         (region.high[0] - PITCH * row, region.low[1] + PITCH * column)
@@ -169,9 +129,9 @@ def _squeezed_in(frame: Pose, region: Region, own: Footprint, near: Mapping[str,
 
 
 def _heaped(
-    things: Things, poses: list[Pose], own: Footprint, near: dict[str, tuple[Pose, Footprint]], rim: float
+    things: Catalogue, poses: list[Pose], own: Footprint, near: dict[str, tuple[Pose, Footprint]], rim: float
 ) -> list[Pose]:
-    """The same spots, on top of what lies there."""
+    """Return the same spots, on top of the things there."""
     found = []
     for pose in poses:
         below = [other for other, at in near.items() if not apart(pose, own, *at, 0.0)]
@@ -182,7 +142,11 @@ def _heaped(
 
 
 def supported(things: Inventory, item: str) -> tuple[str, str] | None:
-    """What an item is on, in or next to, and how; see :meth:`tmd.robot.scene.scene.Scene.supported`."""
+    """Return what an item is on, in or next to now, and the relation; None while it is in the air or in a hand.
+
+    The middle of its underside decides, together with what it touches: itself or, in a vessel or on another item,
+    through that.
+    """
     touched = _touched(things, item)
     if not touched:
         return None
@@ -202,7 +166,7 @@ def supported(things: Inventory, item: str) -> tuple[str, str] | None:
 
 
 def _reaches(region: Region, local: Vector) -> bool:
-    """Whether a point of the region's frame is in it, or a little below."""
+    """Return whether a point of the region's frame is in it, or a little below."""
     deep = 0.03 if region.relation != "in" else 0.015
     return all(
         low - (deep if axis == 2 else 0.005) <= value <= high + (0.0 if axis == 2 else 0.005)
@@ -211,7 +175,7 @@ def _reaches(region: Region, local: Vector) -> bool:
 
 
 def _touched(things: Inventory, item: str) -> set[str]:
-    """The objects that carry an item, directly or through other items."""
+    """Return the objects that carry an item, directly or through other items."""
     found: set[str] = set()
     waiting = [item]
     while waiting:
@@ -237,7 +201,7 @@ def _neighbours(things: Inventory, item: str) -> list[str]:
 
 
 def _spread(spots: list[Spot]) -> list[Spot]:
-    """The same spots with those first that are not beside an earlier one: a few tries then reach far."""
+    """Move spots beside an earlier one to the end: a few tries then reach far."""
     first: list[Spot] = []
     for spot in spots:
         if all(spot.pose.distance(other.pose) >= APART for other in first):
@@ -246,5 +210,5 @@ def _spread(spots: list[Spot]) -> list[Spot]:
 
 
 def boxes_meet(one: tuple[Vector, Vector], other: tuple[Vector, Vector], gap: float = 0.0) -> bool:
-    """Whether two boxes along the axes are less than ``gap`` from each other."""
+    """Return whether two boxes along the axes are less than ``gap`` apart."""
     return all(one[0][axis] - gap <= other[1][axis] and other[0][axis] - gap <= one[1][axis] for axis in range(3))

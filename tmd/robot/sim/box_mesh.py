@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+# The mesh that boxes are drawn by: a unit cube with a normal for every face. Boxes drawn as boxes are shaded round.
 CUBE = "cube.obj"
-"""The mesh that boxes are drawn by: a unit cube with a normal for every face. Boxes drawn as boxes are shaded round."""
 
 
 def cube() -> str:
-    """The text of :data:`CUBE`."""
+    """Return the text of :data:`CUBE`."""
     lines: list[str] = []
     faces: list[tuple[list[float], list[int]]] = []
     for axis in range(3):

@@ -1,39 +1,36 @@
-"""A pybullet world before anything is in it: the connection, its clock, its camera, its saved states."""
+"""A pybullet world before anything is in it: the connection, its clock, its camera."""
 
 from __future__ import annotations
 
 import importlib.util
 from collections.abc import Callable, Sequence
-from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmd.diagnostics import MissingToolError
-from tmd.robot.sim.rendering import egl_starts, pybullet, quiet, window_opens
+from tmd.robot.sim.rendering import bullet_client, egl_starts, pybullet, quiet, window_opens
 
 STEPS_PER_SECOND = 240
 ITERATIONS = 50
 GRAVITY = 9.81
+# Microseconds of a step, about.
 _STEP_WORK = 500
-"""Microseconds of a step, about."""
 
 
 class Engine:
     """A world with gravity, empty at first.
 
-    Args:
-        gui: Open a window. Needs a display.
-        pictures: Draw by EGL where it starts. This must be known before anything is loaded; without it, pictures are
-            drawn by pybullet's own slower renderer.
+    ``gui`` opens a window, for which a display is needed. ``pictures`` lets EGL draw if it starts, which must be known
+    before anything is loaded; without it, pictures are drawn by pybullet's own slower renderer.
 
     Attributes:
-        client: The number of pybullet's connection, for who reads the world past this class.
+        client: The number of pybullet's connection, for direct calls.
         steps: Physics steps so far.
-        ticks: Steps and kinematic ticks so far: how often the watchers were called.
-        work: What was computed so far, in about microseconds on one core. It is counted and not measured: the same
-            calls give the same number on every machine.
+        ticks: Steps and kinematic ticks so far, that is calls of the watchers.
+        work: Approximate microseconds of computing on one core so far, counted and not measured: the same calls give
+            the same number on every machine.
         renderer: ``window``, ``egl`` or ``tiny``.
 
     Raises:
@@ -41,7 +38,7 @@ class Engine:
     """
 
     def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
-        self._bullet = bullet = pybullet()
+        bullet = pybullet()
         if gui and not window_opens():
             raise MissingToolError(
                 "no window can be opened: there is no display, or it has no OpenGL",
@@ -50,42 +47,34 @@ class Engine:
         self.steps = 0
         self.ticks = 0
         self.work = 0
-        self.gui = gui
         self._watchers: list[Callable[[Any], None]] = []
         with quiet():
-            self.client: int = bullet.connect(bullet.GUI if gui else bullet.DIRECT)
+            # passes the number of the connection to every call
+            self._bullet: Any = bullet_client(bullet.GUI if gui else bullet.DIRECT)
+            self.client: int = self._bullet._client
             self.renderer = "window" if gui else "egl" if pictures and egl_starts() else "tiny"
             if self.renderer == "egl":
-                self._load_egl()
+                spec = importlib.util.find_spec("eglRenderer")
+                assert spec is not None  # the probe found it
+                self._bullet.loadPlugin(spec.origin, "_eglRendererPlugin")
         if gui:
-            bullet.configureDebugVisualizer(bullet.COV_ENABLE_GUI, 0, physicsClientId=self.client)
-        bullet.setGravity(0, 0, -GRAVITY, physicsClientId=self.client)
-        bullet.setPhysicsEngineParameter(
-            fixedTimeStep=1 / STEPS_PER_SECOND,
-            numSolverIterations=ITERATIONS,
-            deterministicOverlappingPairs=1,
-            physicsClientId=self.client,
+            self._bullet.configureDebugVisualizer(bullet.COV_ENABLE_GUI, 0)
+        self._bullet.setGravity(0, 0, -GRAVITY)
+        self._bullet.setPhysicsEngineParameter(
+            fixedTimeStep=1 / STEPS_PER_SECOND, numSolverIterations=ITERATIONS, deterministicOverlappingPairs=1
         )
-
-    def _load_egl(self) -> None:
-        spec = importlib.util.find_spec("eglRenderer")
-        if spec is None or spec.origin is None:
-            raise AssertionError("the probe found the plugin")
-        self._bullet.loadPlugin(spec.origin, "_eglRendererPlugin", physicsClientId=self.client)
 
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
         """End the world; nothing else can be called afterwards, except this."""
         if self.client >= 0:
             with quiet():
-                self._bullet.disconnect(physicsClientId=self.client)
+                self._bullet.disconnect()
             self.client = -1
 
     # time
@@ -95,13 +84,13 @@ class Engine:
         self._watchers.append(watcher)
 
     def remove_watcher(self, watcher: Callable[[Self], None]) -> None:
-        """Call it no more."""
+        """Stop calling a watcher."""
         self._watchers.remove(watcher)
 
     def step(self, count: int = 1) -> None:
         """Let ``count`` 240ths of a second pass."""
         for _ in range(count):
-            self._bullet.stepSimulation(physicsClientId=self.client)
+            self._bullet.stepSimulation()
             self.steps += 1
             self.work += _STEP_WORK
             self.tick()
@@ -112,7 +101,7 @@ class Engine:
         for watcher in tuple(self._watchers):
             watcher(self)
 
-    # pictures and states
+    # pictures
 
     def picture(
         self,
@@ -124,19 +113,7 @@ class Engine:
         fov: float = 60.0,
         shadow: bool = True,
     ) -> NDArray[np.uint8]:
-        """What a camera at ``eye`` that looks at ``target`` sees, z up.
-
-        Args:
-            eye: Where the camera is.
-            target: Where it looks.
-            width: Pixels.
-            height: Pixels.
-            fov: Vertical angle of view in degrees.
-            shadow: Draw shadows.
-
-        Returns:
-            (height, width, 3), RGB.
-        """
+        """Return the picture of a camera, z up: (height, width, 3), RGB; ``fov`` is vertical, in degrees."""
         bullet = self._bullet
         view = bullet.computeViewMatrix(eye, target, (0, 0, 1))
         projection = bullet.computeProjectionMatrixFOV(fov, width / height, 0.05, 30.0)
@@ -153,20 +130,6 @@ class Engine:
                 lightSpecularCoeff=0.05,
                 renderer=bullet.ER_TINY_RENDERER if self.renderer == "tiny" else bullet.ER_BULLET_HARDWARE_OPENGL,
                 flags=bullet.ER_NO_SEGMENTATION_MASK,
-                physicsClientId=self.client,
             )
         pixels = np.asarray(image[2], dtype=np.uint8).reshape(height, width, 4)
         return np.ascontiguousarray(pixels[:, :, :3])
-
-    def save(self) -> int:
-        """Keep positions, velocities and contacts in memory (8 ms). Constraints and motor targets are not in it."""
-        token: int = self._bullet.saveState(physicsClientId=self.client)
-        return token
-
-    def restore(self, token: int) -> None:
-        """Make the world as it was when ``token`` was given; bodies must be the same."""
-        self._bullet.restoreState(token, physicsClientId=self.client)
-
-    def forget(self, token: int) -> None:
-        """Free the memory of a saved state."""
-        self._bullet.removeState(token, physicsClientId=self.client)

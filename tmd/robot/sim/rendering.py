@@ -1,4 +1,4 @@
-"""pybullet itself: importing it without its chatter, and finding out what it can draw with on this machine."""
+"""Import of pybullet without its output, and detection of renderers."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _PATIENCE = 60.0
 
 @cache
 def pybullet() -> Any:  # noqa: ANN401 - it has no types
-    """The module ``pybullet``.
+    """Import the module ``pybullet``.
 
     Raises:
         MissingToolError: It is not installed.
@@ -40,6 +40,11 @@ def pybullet() -> Any:  # noqa: ANN401 - it has no types
         raise MissingToolError("the simulator pybullet is not installed", hint=_advice()) from error
 
 
+def bullet_client(mode: int) -> Any:  # noqa: ANN401 - it has no types
+    """Connect to a new world."""
+    return importlib.import_module("pybullet_utils.bullet_client").BulletClient(mode)
+
+
 def _advice() -> str:
     if sys.version_info >= (3, 12):
         return "pip install 'tmd[robot]' with Python 3.11: pybullet has no wheels for newer ones"
@@ -48,7 +53,7 @@ def _advice() -> str:
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Drop what C code prints: standard output belongs to the results, standard error to the remarks of the program."""
+    """Discard the output of C code: standard output is for results, standard error for the program's messages."""
     sys.stdout.flush()
     sys.stderr.flush()
     library = ctypes.CDLL(None)
@@ -69,16 +74,13 @@ def quiet() -> Iterator[None]:
 
 @cache
 def egl_starts() -> bool:
-    """Whether pictures can be drawn by EGL.
-
-    It is tried in a process of its own: where EGL cannot start, the plugin ends its process.
-    """
+    """Return whether EGL can draw; tried in another process, which the plugin ends if it cannot start."""
     return importlib.util.find_spec("eglRenderer") is not None and _succeeds(_EGL)
 
 
 @cache
 def window_opens() -> bool:
-    """Whether pybullet can open its window; without a display it may end its process, so this is tried in another."""
+    """Return whether pybullet can open its window; tried in another process, which may end without a display."""
     return _succeeds(_WINDOW)
 
 

@@ -1,4 +1,4 @@
-"""One pybullet world: the only class that knows how pybullet is called (in three layers: engine, bodies, this one).
+"""One pybullet world: the only class that knows how pybullet is called, on top of the engine.
 
 Metres, kilograms, radians, seconds; the floor is z = 0 and z is up. A *body* is a number that :meth:`Simulator.load`
 gives, a *link* is the number of the joint that carries it, and −1 is the root. Poses are those of the frames in the
@@ -9,11 +9,9 @@ The world is deterministic: the same calls in the same order give the same float
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -30,53 +28,61 @@ class Joint:
 
     Attributes:
         index: Its number, also that of its link.
-        name: Its name.
         kind: ``revolute`` (continuous ones too), ``prismatic`` or ``fixed``; ``other`` for the rest.
-        lower: Least position; −inf without limits.
-        upper: Greatest position; inf without limits.
-        axis: In the frame of the joint.
-        link_name: The name of the link.
     """
 
     index: int
     name: str
     kind: str
-    lower: float
-    upper: float
-    axis: Vector
     link_name: str
 
 
-class Bodies(Engine):
-    """A world with bodies; the arguments are those of :class:`tmd.robot.sim.engine.Engine`."""
+# Asked for a distance of 0, Bullet uses other algorithms, which find nothing between most bodies that overlap (metres).
+_LEAST_DISTANCE = 1e-6
+# Approximate cost of a distance query, in microseconds.
+_QUERY_WORK = 18
+# Maximum force of a weld or a pin, in newtons: more than any item weighs, and less than what tears furniture.
+WELD_FORCE = 500.0
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A link near another body, and the distance between the surfaces (negative: they overlap)."""
+
+    link: int
+    distance: float
+
+
+@dataclass(frozen=True, slots=True)
+class Hit:
+    """First surface on a ray."""
+
+    body: int
+    position: Vector
+
+
+class Simulator(Engine):
+    """A world with bodies that move, meet and are held; the arguments are those of the engine."""
 
     def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
         super().__init__(gui=gui, pictures=pictures)
         self._inertial: dict[int, Pose] = {}
         self._sleepers: set[int] = set()
         self._names: dict[int, dict[str, Joint]] = {}
+        self._joined: dict[int, tuple[int, int]] = {}
 
-    def load(
-        self,
-        urdf: Path,
-        pose: Pose,
-        *,
-        fixed: bool,
-        own_inertia: bool = False,
-        sleeps: bool = True,
-    ) -> int:
-        """Load a URDF.
+    # bodies
+
+    def load(self, urdf: Path, pose: Pose, *, fixed: bool, own_inertia: bool = False, sleeps: bool = True) -> int:
+        """Load a URDF and return its body.
 
         Args:
             urdf: The file; meshes beside it or with absolute paths.
             pose: Of the root's frame in the world.
             fixed: The root is fixed to the world.
             own_inertia: Take the inertia tensors of the file; else they are computed from the collision shapes.
-            sleeps: When it has been at rest for two seconds, leave it out of the computation until something that
-                moves touches it: a room at rest costs next to nothing.
-
-        Returns:
-            The body.
+            sleeps: After two seconds at rest, leave it out of the computation until something that moves touches it: a
+                room at rest costs next to nothing.
 
         Raises:
             TmdError: pybullet cannot read the file.
@@ -87,40 +93,25 @@ class Bodies(Engine):
         flags |= bullet.URDF_ENABLE_SLEEPING if sleeps else 0
         try:
             with quiet():
-                body: int = bullet.loadURDF(
-                    str(urdf),
-                    pose.position,
-                    pose.orientation,
-                    useFixedBase=fixed,
-                    flags=flags,
-                    physicsClientId=self.client,
-                )
+                body: int = bullet.loadURDF(str(urdf), pose.position, pose.orientation, useFixedBase=fixed, flags=flags)
         except bullet.error as error:
             raise TmdError(
                 f"{urdf}: the simulator cannot read this as URDF", hint="see that its meshes exist"
             ) from error
         if sleeps:
             self._sleepers.add(body)
-        info = bullet.getDynamicsInfo(body, -1, physicsClientId=self.client)
+        info = bullet.getDynamicsInfo(body, -1)
         self._inertial[body] = Pose(info[3], info[4])
         # the root's frame is meant, whatever the file says about its centre of mass
         self.set_pose(body, pose)
         return body
 
-    def remove(self, body: int) -> None:
-        """Take a body out of the world."""
-        self.wake()
-        self._bullet.removeBody(body, physicsClientId=self.client)
-        self._inertial.pop(body, None)
-        self._sleepers.discard(body)
-        self._names.pop(body, None)
-
     def bodies(self) -> list[int]:
-        """All bodies, in the order they were loaded in."""
+        """Return all bodies, in the order of loading."""
         return sorted(self._inertial)
 
     def joints(self, body: int) -> dict[str, Joint]:
-        """The joints of a body by name, in their order."""
+        """Return the joints of a body by name, in their order."""
         if body not in self._names:
             bullet = self._bullet
             kinds = {
@@ -129,61 +120,58 @@ class Bodies(Engine):
                 bullet.JOINT_FIXED: "fixed",
             }
             found = {}
-            for index in range(bullet.getNumJoints(body, physicsClientId=self.client)):
-                info = bullet.getJointInfo(body, index, physicsClientId=self.client)
-                lower, upper = (-inf, inf) if info[8] > info[9] else (info[8], info[9])
+            for index in range(bullet.getNumJoints(body)):
+                info = bullet.getJointInfo(body, index)
                 name = info[1].decode()
                 kind = kinds.get(info[2], "other")
-                turned = bullet.getDynamicsInfo(body, index, physicsClientId=self.client)[4]
-                axis = Pose((0.0, 0.0, 0.0), turned).rotate(info[13])  # given in the frame of the mass
-                found[name] = Joint(index, name, kind, lower, upper, axis, info[12].decode())
+                found[name] = Joint(index, name, kind, info[12].decode())
             self._names[body] = found
         return self._names[body]
 
     def pose(self, body: int, link: int = -1) -> Pose:
-        """The frame of a link in the world."""
+        """Return the frame of a link in the world."""
         bullet = self._bullet
         if link == -1:
-            position, orientation = bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
+            position, orientation = bullet.getBasePositionAndOrientation(body)
             return Pose(position, orientation) * self._inertial[body].inverse()
-        state = bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self.client)
+        state = bullet.getLinkState(body, link, computeForwardKinematics=1)
         return Pose(state[4], state[5])
 
     def set_pose(self, body: int, pose: Pose) -> None:
-        """Put the root's frame there, at rest: for setting up, for kinematic motion and for faults.
+        """Put the root's frame there, at rest, for set-up, kinematic motion and faults.
 
-        What stood on it does not notice by itself: :meth:`wake`.
+        Things on top of it do not notice by themselves: see :meth:`wake`.
         """
         self.wake(body)
         mass = pose * self._inertial[body]
-        self._bullet.resetBasePositionAndOrientation(body, mass.position, mass.orientation, physicsClientId=self.client)
-        self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self.client)
+        self._bullet.resetBasePositionAndOrientation(body, mass.position, mass.orientation)
+        self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0))
 
     def wake(self, body: int | None = None) -> None:
-        """Let a body, or every body, notice what changed under it while it slept."""
+        """Let a body, or every body, notice changes under it during its sleep."""
         for each in sorted(self._sleepers if body is None else self._sleepers & {body}):
             state = self._bullet.ACTIVATION_STATE_WAKE_UP
-            self._bullet.changeDynamics(each, -1, activationState=state, physicsClientId=self.client)
+            self._bullet.changeDynamics(each, -1, activationState=state)
 
     def motion(self, body: int) -> tuple[Pose, Vector, Vector]:
-        """The exact state of a root, for :meth:`set_motion`: the frame of its mass, its velocity, its turning."""
-        position, orientation = self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
-        linear, angular = self._bullet.getBaseVelocity(body, physicsClientId=self.client)
+        """Return the exact state of a root, for :meth:`set_motion`: frame of its mass, linear and angular velocity."""
+        position, orientation = self._bullet.getBasePositionAndOrientation(body)
+        linear, angular = self._bullet.getBaseVelocity(body)
         return Pose(position, orientation), linear, angular
 
     def set_motion(self, body: int, motion: tuple[Pose, Vector, Vector]) -> None:
-        """Put a root back as :meth:`motion` found it, to the bit."""
+        """Restore the state of :meth:`motion`, to the bit."""
         pose, linear, angular = motion
-        self._bullet.resetBasePositionAndOrientation(body, pose.position, pose.orientation, physicsClientId=self.client)
-        self._bullet.resetBaseVelocity(body, linear, angular, physicsClientId=self.client)
+        self._bullet.resetBasePositionAndOrientation(body, pose.position, pose.orientation)
+        self._bullet.resetBaseVelocity(body, linear, angular)
 
     def extents(self, body: int, link: int | None = None) -> tuple[Vector, Vector]:
-        """A box, parallel to the world's axes, around the collision shapes of one link, or of all links.
+        """Return an axis-parallel box around the collision shapes of one link, or of all links.
 
-        It is a bound: where the frame of the mass is turned against the shape, it is a little too large.
+        It is an upper bound: if the frame of the mass is turned against the shape, it is a little too large.
         """
         if link is not None:
-            lower, upper = self._bullet.getAABB(body, link, physicsClientId=self.client)
+            lower, upper = self._bullet.getAABB(body, link)
             return lower, upper
         boxes = [self.extents(body, each) for each in self.solid_links(body)]
         if not boxes:
@@ -193,64 +181,10 @@ class Bodies(Engine):
         return (float(low[0]), float(low[1]), float(low[2])), (float(high[0]), float(high[1]), float(high[2]))
 
     def solid_links(self, body: int) -> list[int]:
-        """The links that have a collision shape, the root first."""
+        """Return the links that have a collision shape, the root first."""
         bullet = self._bullet
-        links = range(-1, bullet.getNumJoints(body, physicsClientId=self.client))
-        return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self.client)]
-
-
-_LEAST_DISTANCE = 1e-6
-"""Metres. Asked for 0, Bullet uses other algorithms, which find nothing between most bodies that are in each other."""
-_QUERY_WORK = 18
-"""Microseconds of asking what touches or is near, about."""
-WELD_FORCE = 500.0
-"""Newtons that a weld or a pin may pull with: more than any item weighs, and less than what tears furniture."""
-
-
-@dataclass(frozen=True, slots=True)
-class Contact:
-    """Two links that touch, or that are near each other.
-
-    Attributes:
-        body: The body asked about.
-        link: Its link.
-        other: The other body.
-        other_link: Its link.
-        distance: Between the surfaces; negative where they are in each other.
-        force: Of the contact along its normal, in newtons; 0 for distances.
-        position: On ``body``, in the world.
-    """
-
-    body: int
-    link: int
-    other: int
-    other_link: int
-    distance: float
-    force: float
-    position: Vector
-
-
-@dataclass(frozen=True, slots=True)
-class Hit:
-    """What a ray met first."""
-
-    body: int
-    link: int
-    position: Vector
-
-
-class Simulator(Bodies):
-    """A world with bodies that move, meet and are held.
-
-    Args:
-        gui: Open a window. Needs a display.
-        pictures: Draw by EGL where it starts. This must be known before anything is loaded; without it, pictures are
-            drawn by pybullet's own slower renderer.
-    """
-
-    def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
-        super().__init__(gui=gui, pictures=pictures)
-        self._joined: dict[int, tuple[int, int]] = {}
+        links = range(-1, bullet.getNumJoints(body))
+        return [link for link in links if bullet.getCollisionShapeData(body, link)]
 
     # joints
 
@@ -258,19 +192,19 @@ class Simulator(Bodies):
         return joint if isinstance(joint, int) else self.joints(body)[joint].index
 
     def joint_position(self, body: int, joint: int | str) -> float:
-        """Radians or metres."""
-        state = self._bullet.getJointState(body, self._index(body, joint), physicsClientId=self.client)
+        """Return the position in radians or metres."""
+        state = self._bullet.getJointState(body, self._index(body, joint))
         return float(state[0])
 
     def joint_states(self, body: int, joints: Sequence[int]) -> tuple[list[float], list[float]]:
-        """Positions and velocities of several joints."""
-        states = self._bullet.getJointStates(body, joints, physicsClientId=self.client)
+        """Return positions and velocities of several joints."""
+        states = self._bullet.getJointStates(body, joints)
         return [state[0] for state in states], [state[1] for state in states]
 
     def set_joint(self, body: int, joint: int | str, position: float) -> None:
         """Put a joint there, at rest: never while physics runs."""
         self.wake(body)
-        self._bullet.resetJointState(body, self._index(body, joint), position, 0.0, physicsClientId=self.client)
+        self._bullet.resetJointState(body, self._index(body, joint), position, 0.0)
 
     def set_joints(
         self, body: int, joints: Sequence[int], positions: Sequence[float], velocities: Sequence[float] | None = None
@@ -278,11 +212,7 @@ class Simulator(Bodies):
         """Put several joints there at once: never while physics runs."""
         speeds = [0.0] * len(joints) if velocities is None else velocities
         self._bullet.resetJointStatesMultiDof(
-            body,
-            joints,
-            [[position] for position in positions],
-            [[speed] for speed in speeds],
-            physicsClientId=self.client,
+            body, joints, [[position] for position in positions], [[speed] for speed in speeds]
         )
 
     def drive_joint(
@@ -292,13 +222,7 @@ class Simulator(Bodies):
         self.wake(body)
         limit = {} if velocity is None else {"maxVelocity": velocity}
         self._bullet.setJointMotorControl2(
-            body,
-            self._index(body, joint),
-            self._bullet.POSITION_CONTROL,
-            targetPosition=target,
-            force=force,
-            physicsClientId=self.client,
-            **limit,
+            body, self._index(body, joint), self._bullet.POSITION_CONTROL, targetPosition=target, force=force, **limit
         )
 
     def drive_joints(
@@ -310,15 +234,9 @@ class Simulator(Bodies):
         forces: Sequence[float],
         gain: float,
     ) -> None:
-        """Let several motors follow a trajectory: where to be now, and how fast to move.
+        """Let several motors follow a trajectory, given by positions and velocities for now.
 
-        Args:
-            body: Whose joints.
-            joints: Their numbers.
-            targets: Positions.
-            velocities: Velocities at the targets.
-            forces: The most that each motor may use.
-            gain: The part of a position error that a motor removes in one step.
+        ``gain`` is the share of a position error that a motor removes in one step.
         """
         self._bullet.setJointMotorControlArray(
             body,
@@ -329,25 +247,19 @@ class Simulator(Bodies):
             forces=forces,
             positionGains=[gain] * len(joints),
             velocityGains=[1.0] * len(joints),
-            physicsClientId=self.client,
         )
 
     def brake_joint(self, body: int, joint: int | str, force: float) -> None:
-        """Switch the joint's motor off; ``force`` (N or N·m) of friction is left, 0 lets it swing."""
+        """Switch the joint's motor off, with ``force`` (N or N·m) of friction left; 0 lets it swing."""
         self.wake(body)
         self._bullet.setJointMotorControl2(
-            body,
-            self._index(body, joint),
-            self._bullet.VELOCITY_CONTROL,
-            targetVelocity=0.0,
-            force=force,
-            physicsClientId=self.client,
+            body, self._index(body, joint), self._bullet.VELOCITY_CONTROL, targetVelocity=0.0, force=force
         )
 
     # constraints
 
     def weld(self, body: int, link: int, other: int) -> int:
-        """Fix the root of ``other`` to a link as the two are now; returns a handle for :meth:`unweld`."""
+        """Fix the root of ``other`` to a link as the two are now; return a handle for :meth:`unweld`."""
         held = self._mass_frame(body, link).inverse() * self._mass_frame(other, -1)
         return self._constrain(body, link, other, -1, self._bullet.JOINT_FIXED, held, Pose((0.0, 0.0, 0.0)), WELD_FORCE)
 
@@ -361,68 +273,47 @@ class Simulator(Bodies):
         """Undo a weld or a pin."""
         for body in self._joined.pop(handle):
             self.wake(body)  # what hung asleep falls now
-        self._bullet.removeConstraint(handle, physicsClientId=self.client)
+        self._bullet.removeConstraint(handle)
 
     def _constrain(
         self, body: int, link: int, other: int, other_link: int, kind: int, mine: Pose, theirs: Pose, force: float
     ) -> int:
         handle: int = self._bullet.createConstraint(
             body, link, other, other_link, kind, (0, 0, 0),
-            mine.position, theirs.position, mine.orientation, theirs.orientation,
-            physicsClientId=self.client,
-        )  # fmt: skip
-        self._bullet.changeConstraint(handle, maxForce=force, physicsClientId=self.client)
+            mine.position, theirs.position, mine.orientation, theirs.orientation)  # fmt: skip
+        self._bullet.changeConstraint(handle, maxForce=force)
         self._joined[handle] = body, other
         return handle
 
     def _mass_frame(self, body: int, link: int) -> Pose:
-        """The frame at the centre of mass, which constraints are given in."""
+        """Return the frame at the centre of mass, in which constraints are given."""
         if link == -1:
-            return Pose(*self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client))
-        state = self._bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self.client)
+            return Pose(*self._bullet.getBasePositionAndOrientation(body))
+        state = self._bullet.getLinkState(body, link, computeForwardKinematics=1)
         return Pose(state[0], state[1])
 
     # what touches, what is near, what is seen
 
-    def contacts(self, body: int, other: int | None = None) -> list[Contact]:
-        """What ``body`` touched in the last step."""
-        return self._contacts(self._bullet.getContactPoints, {}, body, other, None, None)
-
     def closest(
         self, body: int, other: int, distance: float, link: int | None = None, other_link: int | None = None
     ) -> list[Contact]:
-        """What is not farther away than ``distance`` now, with 0 what touches; no step is needed."""
-        options = {"distance": max(distance, _LEAST_DISTANCE)}
-        return self._contacts(self._bullet.getClosestPoints, options, body, other, link, other_link)
+        """Return the links of ``body`` that are at most ``distance`` from another body; with 0: that touch it.
 
-    def _contacts(
-        self,
-        query: Callable[..., Sequence[Sequence[Any]] | None],
-        options: dict[str, float],
-        body: int,
-        other: int | None,
-        link: int | None,
-        other_link: int | None,
-    ) -> list[Contact]:
-        asked = {"bodyB": other, "linkIndexA": link, "linkIndexB": other_link}
+        No step is needed.
+        """
+        asked = {"linkIndexA": link, "linkIndexB": other_link}
         chosen = {name: value for name, value in asked.items() if value is not None}
         self.work += _QUERY_WORK
-        points = query(bodyA=body, **chosen, **options, physicsClientId=self.client) or ()
-        return [_contact(point, body) for point in points]
+        points = self._bullet.getClosestPoints(
+            bodyA=body, bodyB=other, **chosen, distance=max(distance, _LEAST_DISTANCE)
+        )
+        return [Contact(point[3] if point[1] == body else point[4], point[8]) for point in points or ()]
 
     def ray(self, start: Sequence[float], end: Sequence[float]) -> Hit | None:
-        """What a straight line from ``start`` to ``end`` meets first."""
-        body, link, _, position, _ = self._bullet.rayTest(start, end, physicsClientId=self.client)[0]
-        return None if body < 0 else Hit(body, link, position)
+        """Return the first surface on a straight line."""
+        body, _, _, position, _ = self._bullet.rayTest(start, end)[0]
+        return None if body < 0 else Hit(body, position)
 
     def colour(self, body: int, link: int, rgba: Sequence[float]) -> None:
         """Paint a link; each value in [0, 1]."""
-        self._bullet.changeVisualShape(body, link, rgbaColor=rgba, physicsClientId=self.client)
-
-
-def _contact(point: Sequence[Any], body: int) -> Contact:
-    """A row of getContactPoints or getClosestPoints, seen from ``body``."""
-    _, first, second, link, other_link, on_first, on_second, _, distance, force, *_ = point
-    if first != body:
-        first, second, link, other_link, on_first = second, first, other_link, link, on_second
-    return Contact(first, link, second, other_link, distance, force, on_first)
+        self._bullet.changeVisualShape(body, link, rgbaColor=rgba)

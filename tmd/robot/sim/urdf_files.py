@@ -8,17 +8,18 @@ import xml.etree.ElementTree as ET
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from types import ModuleType
 
 from tmd import files
-from tmd.diagnostics import OutputError, TmdError
+from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.files import make_directory, read_bytes
 
 
 def read_urdf(path: Path) -> ET.Element:
-    """The parsed ``<robot>`` of a URDF or SRDF.
+    """Parse the ``<robot>`` of a URDF or SRDF.
 
     Raises:
-        TmdError: The file cannot be read, or is none.
+        TmdError: The file cannot be read, or is not a URDF.
     """
     try:
         root = ET.fromstring(read_bytes(path))
@@ -34,7 +35,7 @@ def read_urdf(path: Path) -> ET.Element:
 
 
 def find_mesh(source: Path, name: str) -> Path | None:
-    """A mesh file that a URDF names: beside it, or anywhere above it for ``package://`` names."""
+    """Return a mesh file named in a URDF: beside it, or in any folder above it for ``package://`` names."""
     path = Path(name.removeprefix("file://"))
     if not name.startswith("package://"):
         found = path if path.is_absolute() else source.resolve().parent / path
@@ -45,8 +46,21 @@ def find_mesh(source: Path, name: str) -> Path | None:
     return next((candidate for candidate in candidates if candidate.is_file()), None)
 
 
+def mesh_library() -> ModuleType:
+    """Import trimesh.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
+    try:
+        import trimesh
+    except ImportError as error:
+        raise MissingToolError("reading meshes needs the package trimesh", hint="pip install 'tmd[meshes]'") from error
+    return trimesh
+
+
 def end_of(joint: ET.Element, end: str) -> str:
-    """The link at an end, ``parent`` or ``child``, of a joint."""
+    """Return the link at an end, ``parent`` or ``child``, of a joint."""
     found = joint.find(end)
     return "" if found is None else found.get("link", "")
 

@@ -1,4 +1,4 @@
-"""What the robot can do: pick and place, work doors and knobs, pour and dip, and where it stands for that.
+"""The skills of the robot: pick and place, doors and knobs, pouring and dipping, and the search for stances.
 
 Begin with :mod:`tmd.robot.skills.performer`; ``skills.yaml`` of a domain says which skill does which action.
 """

@@ -17,14 +17,14 @@ from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Accept, Base, Links, Option, follow, reach
 
 _PULLED, _PUSHED = 0, 1
+# Radians by which the hand is turned about the way a finger points.
 _ROLLS = (0.0, pi / 2)
-"""Radians by which the hand is turned about the way a finger points."""
+# A lid's tab is taken from the front, or from a side: then the hand points along the hinge, and only rolls.
 _SIDES = (
     Pose((0.0, 0.0, 0.0)),
     Pose((0.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)),
     Pose((0.0, 0.0, 0.0), (0.5, -0.5, -0.5, 0.5)),
 )
-"""A lid's tab is taken from the front, or from a side: then the hand points along the hinge, and only rolls."""
 
 
 def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
@@ -33,8 +33,7 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
     Raises:
         SkillError: It has none, cannot be reached, or does not move.
     """
-    if not cell.free():
-        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    cell.need_free_hand()
     if opened:
         _refuse_to_spill(cell, name)
     for _ in range(ARTICULATION.stages):
@@ -45,11 +44,7 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
 
 
 def _refuse_to_spill(cell: Cell, name: str) -> None:
-    """What lies is not opened as long as something is in it.
-
-    Raises:
-        SkillError: It does, and what is in it would run out.
-    """
+    """Refuse to open what lies as long as something is in it."""
     if not cell.scene.is_item(name) or not cell.scene.shown(name):
         return
     limit, tilt = cell.spills_when_open_from(name), cell.tilt(name)
@@ -59,7 +54,6 @@ def _refuse_to_spill(cell: Cell, name: str) -> None:
 
 
 def _swing_somehow(cell: Cell, name: str, attempt: int, goals: Sequence[Sequence[float]]) -> None:
-    """Move it as far as the first of the goals that is possible."""
     last = SkillError(SkillPhase.STANCE, f"{name} cannot be moved any farther")
     for each in goals:
         try:
@@ -74,22 +68,16 @@ def _swing_somehow(cell: Cell, name: str, attempt: int, goals: Sequence[Sequence
 
 
 def _goals(cell: Cell, name: str, opened: bool) -> list[tuple[float, ...]]:
-    """How far open a thing may be at the end, best first.
+    """Return goals of how far open a thing may be at the end, best first.
 
-    From no one place may a hand get all the way: then a part of it is done from here, and the rest from elsewhere.
+    If no place lets a hand get all the way, a part of it is done from here, and the rest from elsewhere.
     """
     now, door = cell.way(name), _handle(cell, name).kind == "door"
     if not opened:
         return [(0.0,), *([tuple(now - piece for piece in ARTICULATION.partial_shares if now > piece)] if door else [])]
     wide: list[tuple[float, ...]] = [(part,) for part in ARTICULATION.open_shares]
-    return (
-        [
-            *wide,
-            tuple(now + piece for piece in ARTICULATION.partial_shares if now + piece < ARTICULATION.open_shares[2]),
-        ]
-        if door
-        else wide
-    )
+    further = tuple(now + piece for piece in ARTICULATION.partial_shares if now + piece < ARTICULATION.open_shares[2])
+    return [*wide, further] if door else wide
 
 
 def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
@@ -97,22 +85,16 @@ def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
     for side in cell.free():
         cell.robot.open_gripper(side, handle.opening)
     chosen = reach_for(
-        cell,
-        name,
-        lambda: swing_options(cell, name, goals),
-        handle.grasp,
-        attempt,
-        stop=2,
-        front=_aside(cell, name, handle),
-        accept=_out_of_its_way(cell, name, handle),
-    )
+        cell, name, lambda: swing_options(cell, name, goals), handle.grasp, attempt, stop=2,
+        front=_aside(cell, name, handle), accept=_out_of_its_way(cell, name, handle),
+    )  # fmt: skip
     _pull(cell, name, _handle(cell, name), chosen)
     cell.moment()
     cell.retire(chosen.side, chosen.ignore, lid=handle.kind == "lid")
 
 
 def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
-    """The heading from which a door is best opened: its front, and somewhat off the side of its hinges."""
+    """Return the heading from which a door is best opened: its front, and somewhat off the side of its hinges."""
     front = cell.front(name)
     if front is None or handle.kind != "door":
         return front
@@ -122,7 +104,6 @@ def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
 
 
 def _closed_grasp(cell: Cell, name: str, handle: Handle) -> Vector:
-    """Where the handle of a door is when it is shut."""
     start = cell.sim.joint_position(handle.body, handle.index)
     cell.sim.set_joint(handle.body, handle.index, handle.closed)
     shut = _handle(cell, name).grasp.position
@@ -131,7 +112,7 @@ def _closed_grasp(cell: Cell, name: str, handle: Handle) -> Vector:
 
 
 def _out_of_its_way(cell: Cell, name: str, handle: Handle) -> Accept:
-    """Asks whether a door passes the robot; the same place is asked about once."""
+    """Return a check whether a door passes the robot, which remembers its answers."""
     known: dict[tuple[Base, float, str], bool] = {}
 
     def accept(option: Option, base: Base) -> bool:
@@ -144,12 +125,9 @@ def _out_of_its_way(cell: Cell, name: str, handle: Handle) -> Accept:
 
 
 def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]:
-    """Ways to open or close something with a free hand; the spot of an option says whether it is pulled or pushed.
+    """Return ways to open or close something with a free hand; ``spot`` of an option: whether it is pulled or pushed.
 
-    Args:
-        cell: Robot and scene.
-        name: The door, drawer or lid.
-        goals: How far open it may be at the end (1 is as far as it goes), best first.
+    ``goals`` are shares of the whole way (1 is as far as it goes), best first.
     """
     handle, hands = _handle(cell, name), cell.free()
     start = cell.sim.joint_position(handle.body, handle.index)
@@ -169,7 +147,7 @@ def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]
 
 
 def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) -> list[Option]:
-    """The ways along which a lid does not swing into the hand that lifts it."""
+    """Return the ways along which a lid does not swing into the hand that lifts it."""
     start = cell.sim.joint_position(handle.body, handle.index)
     kept = list(options)
     for side in sorted({option.side for option in options}):
@@ -187,14 +165,13 @@ def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) 
 
 
 def _end(handle: Handle, part: float) -> float:
-    """The joint's position when it is open for a part of its way."""
     return handle.closed + part * (handle.open - handle.closed)
 
 
 def _ways(
     handle: Handle, tools: Mapping[float, Pose], way: float, headings: Sequence[tuple[float, float]] | None = None
 ) -> Iterator[tuple[int, tuple[Pose, ...]]]:
-    """Tool poses that move a handle, each with whether it is pushed: before it, at it, and along."""
+    """Yield tool poses that move a handle (before it, at it, and along), each with whether it is pushed."""
     pushes = handle.kind == "flap" or headings is not None
     if headings is None:
         headings = ARTICULATION.pushes if pushes else ARTICULATION.pulls if handle.turns else ARTICULATION.pulls[:1]
@@ -209,7 +186,7 @@ def _ways(
 
 
 def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> dict[float, Pose]:
-    """The tool at the handle for shares of the way, if the hand turned with it."""
+    """Return the tool at the handle for shares of the way, if the hand turned with it."""
     found = {}
     for number in range(ARTICULATION.waypoints + 1):
         share = number / ARTICULATION.waypoints
@@ -220,17 +197,13 @@ def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> 
 
 
 def _turned(tool: Pose, handle: Handle, angle: float, pushes: bool) -> Pose:
-    """``tool`` turned back about the joint's axis: through the handle, or through the finger tips that push."""
-    x, y, z = handle.axis
-    half = -angle / 2
-    back = Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
-    turned = (back * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation
+    """Return ``tool`` turned back about the joint's axis: through the handle, or through the finger tips that push."""
     tips = TIP if pushes else 0.0
-    return Pose(tool.apply((tips, 0.0, 0.0)), turned) * Pose((-tips, 0.0, 0.0))
+    turned = Pose(tool.apply((tips, 0.0, 0.0)), tool.orientation).spun(Pose.about(handle.axis, -angle))
+    return turned * Pose((-tips, 0.0, 0.0))
 
 
 def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
-    """Close the hand on the handle and move it along."""
     side = option.side
     if option.spot == _PUSHED:
         with cell.pushed(side, handle):
@@ -257,9 +230,7 @@ def push(cell: Cell, name: str, attempt: int) -> str:
         SkillError: It cannot be reached, or does not go down.
     """
     handle = _handle(cell, name)
-    hands = cell.free()
-    if not hands:
-        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    hands = cell.need_free_hand()
     button: Links = frozenset({(handle.body, handle.index)})
 
     def options() -> list[Option]:
@@ -273,7 +244,13 @@ def push(cell: Cell, name: str, attempt: int) -> str:
 
     for side in hands:
         cell.robot.open_gripper(side, 0.0)
-    farthest = _Farthest(handle)
+    share = 0.0
+
+    def note_depth(sim: Simulator) -> None:
+        nonlocal share
+        at = sim.joint_position(handle.body, handle.index)
+        share = max(share, (at - handle.closed) / (handle.open - handle.closed))
+
     chosen = reach_for(cell, name, options, handle.grasp, attempt)
     held = cell.side_of(cell.whole(name)) is not None
     depth, touch = ARTICULATION.button_share * abs(handle.open - handle.closed), handle.grasp
@@ -284,7 +261,7 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     # a finger tip is wider than the buttons of what fits into a hand
     ignore: Links = button | {(handle.body, None)} if held else button
     roll = _ROLLS[chosen.spot]
-    cell.sim.add_watcher(farthest)
+    cell.sim.add_watcher(note_depth)
     try:
         with cell.pushed(chosen.side, handle):
             follow(cell, chosen.side, (_rolled(beyond, roll),), ignore)
@@ -293,26 +270,14 @@ def push(cell: Cell, name: str, attempt: int) -> str:
         touched = cell.robot.touches(chosen.side, handle.body, handle.index)
         cell.moment()
     finally:
-        cell.sim.remove_watcher(farthest)
+        cell.sim.remove_watcher(note_depth)
     cell.come_back(handle)
     cell.retire(chosen.side, ignore)
     if not touched:
         raise SkillError(SkillPhase.CONTACT, f"the finger does not touch {name}")
-    if farthest.share < ARTICULATION.pressed_share:
-        raise SkillError(SkillPhase.EFFECT, f"{name} went down {100 * farthest.share:.0f} % of its way")
-    return f"{name} went down {100 * min(farthest.share, 1.0):.0f} % of its way"
-
-
-class _Farthest:
-    """Remembers how far a joint was moved at most."""
-
-    def __init__(self, handle: Handle) -> None:
-        self.handle = handle
-        self.share = 0.0
-
-    def __call__(self, sim: Simulator) -> None:
-        at = sim.joint_position(self.handle.body, self.handle.index)
-        self.share = max(self.share, (at - self.handle.closed) / (self.handle.open - self.handle.closed))
+    if share < ARTICULATION.pressed_share:
+        raise SkillError(SkillPhase.EFFECT, f"{name} went down {100 * share:.0f} % of its way")
+    return f"{name} went down {100 * min(share, 1.0):.0f} % of its way"
 
 
 def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:
@@ -324,9 +289,7 @@ def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:
     handle = _handle(cell, name)
     if setting not in handle.settings:
         raise SkillError(SkillPhase.PRECONDITION, f"{name} has no setting {setting}")
-    hands = cell.free()
-    if not hands:
-        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    hands = cell.need_free_hand()
     ignore: Links = frozenset({(handle.body, handle.index)})
     start = cell.sim.joint_position(handle.body, handle.index)
     goal = handle.settings[setting]
@@ -355,5 +318,5 @@ def _handle(cell: Cell, name: str) -> Handle:
 
 
 def _rolled(tool: Pose, angle: float) -> Pose:
-    """The tool turned about the way it points."""
-    return tool * Pose((0.0, 0.0, 0.0), (sin(angle / 2), 0.0, 0.0, cos(angle / 2)))
+    """Return the tool turned about the way it points."""
+    return tool * Pose.about((1.0, 0.0, 0.0), angle)

@@ -1,4 +1,4 @@
-"""Holding a thing out for the other hand: what is in one hand can be opened, filled and emptied by the other.
+"""Holding a thing out for the other hand, which then opens, fills or empties it.
 
 The base stays where it is. The arm that holds the thing brings it to places in front of the robot, upright, with
 different sides to the front, until the other arm can do what it is to do with it.
@@ -7,7 +7,7 @@ different sides to the front, until the other arm can do what it is to do with i
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from itertools import islice, product
 from math import cos, pi, sin, tau
 
@@ -19,17 +19,17 @@ from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Accept, Option, candidates, get_to, reach, with_room
 
 _TURNS = 8
+# Places to hold a thing out: metres up, ahead, and to the side of the arm that holds it; and the number of its turn.
 _PLACES = tuple(product(product((0.8, 1.1, 0.95), (0.5, 0.6), (0.1, 0.22, 0.0)), range(_TURNS)))
-"""Where the thing is held out: metres up, ahead, and to the side of the arm that holds it; and how it is turned."""
+# Places that follow each other are not alike.
 _STRIDE = 29
-"""Places that follow each other are not alike."""
 _POSTURES = 4
+# Maximum number of places thought through at one stand.
 _MOST_ASKED = 16
-"""Maximum number of places thought through at one stand."""
+# Metres that the robot goes back, and radians that it turns.
 _STANDS = ((0.0, 0.0), *product((0.4, 0.6, 0.0), (pi / 2, -pi / 2, pi, 0.0)))
-"""Metres that the robot goes back, and radians that it turns."""
+# Maximum number of places tried from one stand, and in all.
 _MOST_HERE, _MOST = 4, 24
-"""Maximum number of places tried from one stand, and in all."""
 
 
 def reach_for(
@@ -43,17 +43,11 @@ def reach_for(
     front: float | None = None,
     accept: Accept | None = None,
 ) -> Option:
-    """Bring a hand through the poses of an option that has to do with ``name``; if that is held, it is held out.
+    """Bring a hand through the poses of an option for ``name``; if that is held, it is held out.
 
-    Args:
-        cell: Robot and scene.
-        name: What the options are about.
-        options: Makes them for where it is now.
-        focus: Where to stand round, if it is not held.
-        attempt: How often it was tried before.
-        stop: Number of poses to go to.
-        front: The heading of the side it is reached from; None: that of what it is a part of.
-        accept: As for :func:`tmd.robot.skills.stance_search.reach`; what is held out is not asked about.
+    ``options`` makes them for its present pose. The other arguments are those of
+    :func:`tmd.robot.skills.stance_search.reach`; by default ``front`` is that of the whole, and ``accept`` is not
+    called for a thing that is held out.
 
     Raises:
         SkillError: As :func:`tmd.robot.skills.stance_search.reach`.
@@ -76,7 +70,7 @@ def reach_for(
 
 
 def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Option]]) -> Iterator[None]:
-    """Hold a thing out here, then with the robot turned away from what it stands before, then farther back."""
+    """Hold a thing out here, then turned away from what the robot stands before, then farther back."""
     x, y, theta = cell.robot.base()
     for back, turn in dict.fromkeys(_STANDS):
         base = (x - back * cos(theta), y - back * sin(theta), theta + turn)
@@ -88,12 +82,13 @@ def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[O
         except SkillError:
             continue
         for goal in islice(_places(cell, side, item, options), _MOST_HERE):
-            if _bring(cell, side, goal):
+            path = plan_arm(cell.robot, side, goal, rng=cell.rng, budget=200)
+            if path is not None and cell.robot.move_arm(side, path):
                 yield
 
 
 def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Option]]) -> Iterator[tuple[float, ...]]:
-    """Positions of the arm that holds a thing from which the other arm can do what it is to do."""
+    """Yield positions of the arm that holds a thing from which the other arm can do its part."""
     robot = cell.robot
     grip, start = cell.in_tool(side, item), cell.sim.pose(cell.scene.bodies[item])
     base, torso = robot.base(), robot.torso()
@@ -114,34 +109,10 @@ def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Opt
         ]
         for goal in goals[:1]:
             asked += 1
-            with _as_if(cell, side, item, goal):
+            with robot.as_if(dict(zip(robot.arm_joints[side], goal, strict=True))):
                 fitting = with_room(cell, options())
                 possible = next(candidates(cell, fitting, there, None, stay=True), None)
             if possible is not None:
                 yield goal
         if asked > _MOST_ASKED:
             return
-
-
-@contextmanager
-def _as_if(cell: Cell, side: str, item: str, arm: Sequence[float]) -> Iterator[None]:
-    """As if an arm, and what it holds, were elsewhere; afterwards all is where it was, to the bit."""
-    sim, robot, body = cell.sim, cell.robot, cell.scene.bodies[item]
-    grip = cell.in_tool(side, item)
-    joints = [robot.joint_index[name] for name in robot.arm_joints[side]]
-    positions, velocities = sim.joint_states(robot.body, robot.movable)
-    motion = sim.motion(body)
-    try:
-        sim.set_joints(robot.body, joints, list(arm))
-        sim.set_pose(body, robot.tool(side) * grip)
-        yield
-    finally:
-        sim.set_joints(robot.body, robot.movable, positions, velocities)
-        sim.set_motion(body, motion)
-
-
-def _bring(cell: Cell, side: str, goal: Sequence[float]) -> bool:
-    """Move the arm that holds the thing; whether it got there."""
-    robot = cell.robot
-    path = plan_arm(robot, side, goal, rng=cell.rng, budget=200)
-    return path is not None and robot.move_arm(side, path)

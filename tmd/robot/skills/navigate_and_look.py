@@ -44,7 +44,7 @@ def look(cell: Cell, name: str) -> str:
 
 
 def _lookouts(cell: Cell, name: str, point: Vector) -> Iterator[tuple[Base, float]]:
-    """Places from which nothing hides a thing, the nearest ones first: what the robot is near to stays near."""
+    """Yield places from which nothing hides a thing, the nearest ones first: what the robot is near to stays near."""
     robot = cell.robot
     x, y, _ = here = robot.base()
     low = robot.torso()
@@ -73,14 +73,14 @@ def _lookouts(cell: Cell, name: str, point: Vector) -> Iterator[tuple[Base, floa
 
 
 def _past_robot(eye: Vector, spot: Vector) -> Vector:
-    """Where a ray begins: not at the eye, for the robot stands elsewhere now, and may stand there."""
+    """Return the start of a ray: not the eye, since the robot stands elsewhere now, and may stand there."""
     share = min(BASE_MOTION.head_radius / max(Pose(eye).distance(Pose(spot)), 1e-6), 0.9)
     x, y, z = (a + share * (b - a) for a, b in zip(eye, spot, strict=True))
     return (x, y, z)
 
 
 def _spots(cell: Cell, name: str, point: Vector) -> tuple[Vector, ...]:
-    """Points of a thing that are looked at: its middle, its top, two corners of its box."""
+    """Return the points of a thing that are looked at: its middle, its top, two corners of its box."""
     low, high = cell.sim.extents(*cell.scene.place(name))
     middle = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2)
     return point, (*middle, high[2] - 0.005), (low[0], low[1], high[2]), (high[0], high[1], high[2])
@@ -107,14 +107,7 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     last = SkillError(SkillPhase.STANCE, f"there is no place to stand before {name}")
     focus = Pose(cell.centre(name))
     options = pick_options(cell, name) if cell.scene.is_item(name) and cell.free() else []
-    found = [
-        c
-        for c, _ in zip(
-            candidates(cell, options, focus, cell.front(name), BASE_MOTION.brief_budget),
-            range(2 + attempt),
-            strict=False,
-        )
-    ]
+    found = list(islice(candidates(cell, options, focus, cell.front(name), BASE_MOTION.brief_budget), 2 + attempt))
     places: list[tuple[Base, float]] = [(c.base, c.torso) for c in found[attempt:]]
     clear = _stances_before(cell, name, focus)
     if not (places or clear) and cell.fold():  # one hand is at what the other holds
@@ -136,7 +129,7 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
 
 
 def _stances_before(cell: Cell, name: str, focus: Pose) -> list[Base]:
-    """Where there is room to stand before a thing, as the arms are now; not all of them."""
+    """Return some places with room to stand before a thing, as the arms are now."""
     clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
     return list(islice(clear, BASE_MOTION.max_stances))
 

@@ -1,4 +1,4 @@
-"""What is in the way, by name: asked only where something could not be done, and nothing moves."""
+"""Names of what is in the way: asked only where something could not be done; nothing moves."""
 
 from __future__ import annotations
 
@@ -7,21 +7,21 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from tmd.robot.pr2.collision import Ignored
+from tmd.robot.pr2.collision import Collision, Ignored
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.robot_context import Cell
 
+# Maximum number of things that a message names.
 _NAMES = 3
-"""So many things are named at most."""
+# Places on a way that are checked.
 _LOOKS = 12
-"""Places on a way that are looked at."""
+# Postures of an arm that are checked for each pose.
 _POSTURES = 2
-"""Postures of an arm that are looked at for each pose."""
 
 
 def named(counted: Counter[str], of: int = 0) -> str:
-    """For people: what is in the way most often, and of how many ways; empty for nothing."""
+    """Say what is in the way most often, and of how many ways; nothing for nothing."""
     most = sorted(counted.items(), key=lambda pair: (-pair[1], pair[0]))[:_NAMES]
     if not most:
         return ""
@@ -30,20 +30,18 @@ def named(counted: Counter[str], of: int = 0) -> str:
 
 
 def _names(cell: Cell, touched: Iterable[tuple[int, int]]) -> set[str]:
-    """The names of links: objects, parts, the floor, the robot."""
     return {
         "the robot itself" if body == cell.robot.body else cell.scene.owner(body, link) or "something"
         for body, link in touched
     }
 
 
-def of_hand(cell: Cell, ways: Sequence[tuple[str, Sequence[Pose], Ignored]]) -> str:
-    """What a hand, or what it holds, would be in, wherever the robot stood.
+def _met(cell: Cell, collisions: Iterable[Collision]) -> set[str]:
+    return _names(cell, [(body, link) for _, body, link, _ in collisions])
 
-    Args:
-        cell: Robot and scene.
-        ways: The hand, its poses, and what it may touch.
-    """
+
+def of_hand(cell: Cell, ways: Sequence[tuple[str, Sequence[Pose], Ignored]]) -> str:
+    """Name what a hand, or what it holds, would be in, wherever the robot stood; ``ways``: hand, poses, ignored."""
     counted: Counter[str] = Counter()
     for side, poses, ignore in ways:
         checker = HandChecker(cell.robot, side, ignore)
@@ -52,63 +50,59 @@ def of_hand(cell: Cell, ways: Sequence[tuple[str, Sequence[Pose], Ignored]]) -> 
 
 
 def of_arm(cell: Cell, side: str, pose: Pose, bases: Sequence[tuple[float, float, float]], ignore: Ignored) -> str:
-    """What keeps an arm from a pose, from some places to stand: out of reach, or the things that it would be in."""
+    """Name what keeps an arm from a pose, from some places to stand."""
     counted: Counter[str] = Counter()
     reached = 0
     for base in bases:
         found = cell.robot.solve(side, pose, base=base)[:_POSTURES]
         reached += bool(found)
         for arm in found:
-            touched = cell.robot.collides(side=side, arm=arm, base=base, ignore=ignore)
-            counted.update(_names(cell, [(body, link) for _, body, link, _ in touched]))
+            counted.update(_met(cell, cell.robot.collides(side=side, arm=arm, base=base, ignore=ignore)))
     if not reached:
         return "it is out of reach of the arm from every place where there is room to stand"
     return named(counted)
 
 
 def of_stances(cell: Cell, bases: Sequence[tuple[float, float, float]]) -> str:
-    """What stands where the robot would have to stand."""
+    """Name what stands where the robot would have to stand."""
     counted: Counter[str] = Counter()
     for base in bases:
-        counted.update(_names(cell, [(body, link) for _, body, link, _ in cell.robot.collides(base=base)]))
+        counted.update(_met(cell, cell.robot.collides(base=base)))
     return named(counted, len(bases))
 
 
 def of_arm_path(cell: Cell, side: str, goal: Sequence[float]) -> str:
-    """What is between where an arm is and where it should go, on the straight way of its joints."""
+    """Name what is on the straight way of an arm's joints to ``goal``."""
     start = np.array(cell.robot.arm(side))
     end = cell.robot.arm_kinematics[side].near(np.array([goal], dtype=float), start.tolist())[0]
     counted: Counter[str] = Counter()
     for share in np.linspace(0.0, 1.0, _LOOKS):
-        touched = cell.robot.collides(side=side, arm=(start + float(share) * (end - start)).tolist())
-        counted.update(_names(cell, [(body, link) for _, body, link, _ in touched]))
+        arm = (start + float(share) * (end - start)).tolist()
+        counted.update(_met(cell, cell.robot.collides(side=side, arm=arm)))
     return named(counted)
 
 
 def of_straight(cell: Cell, side: str, poses: Sequence[Pose], ignore: Ignored) -> str:
-    """What is on a straight way of a hand, or that the arm does not reach so far."""
+    """Name what is on a straight way of a hand, or say that the arm does not reach so far."""
     counted: Counter[str] = Counter()
     seed = cell.robot.arm(side)
     for pose in poses:
         found = cell.robot.solve(side, pose, seed=seed)[:_POSTURES]
         if not found:
             return "the arm does not reach so far from here"
-        touched = cell.robot.collides(side=side, arm=found[0], ignore=ignore)
-        counted.update(_names(cell, [(body, link) for _, body, link, _ in touched]))
+        counted.update(_met(cell, cell.robot.collides(side=side, arm=found[0], ignore=ignore)))
     return named(counted) or "the arm would have to turn over on its way"
 
 
 def of_base_path(cell: Cell, base: tuple[float, float, float]) -> str:
-    """What is between where the base is and where it should go, on the straight way."""
+    """Name what is on the straight way of the base."""
     start, counted = cell.robot.base(), Counter[str]()
     for share in np.linspace(0.0, 1.0, _LOOKS)[1:]:
         x, y, theta = (a + float(share) * (b - a) for a, b in zip(start, base, strict=True))
-        touched = cell.robot.collides(base=(x, y, theta), margin=0.01)
-        counted.update(_names(cell, [(body, link) for _, body, link, _ in touched]))
+        counted.update(_met(cell, cell.robot.collides(base=(x, y, theta), margin=0.01)))
     return named(counted)
 
 
 def of_posture(cell: Cell, torso: float | None = None) -> str:
-    """What the robot is in as it stands, or would be with the torso at another height."""
-    touched = [(body, link) for _, body, link, _ in cell.robot.collides(torso=torso) if body != cell.robot.body]
-    return named(Counter(_names(cell, touched)))
+    """Name what the robot is in as it stands, or would be with the torso at another height."""
+    return named(Counter(_met(cell, [c for c in cell.robot.collides(torso=torso) if c[1] != cell.robot.body])))

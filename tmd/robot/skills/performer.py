@@ -1,4 +1,4 @@
-"""Instructions to skills: what an instruction is for is in ``skills.yaml``, how it is done in the skills."""
+"""The link from instructions to skills: ``skills.yaml`` names the skill of an action."""
 
 from __future__ import annotations
 
@@ -14,12 +14,7 @@ from tmd.robot.skills.skill_file import Skills, SkillTask
 
 
 class RobotPerformer:
-    """A robot that does instructions.
-
-    Args:
-        cell: Robot and scene.
-        skills: Which skill does which action.
-    """
+    """A robot that carries out instructions, by the skills of the domain."""
 
     def __init__(self, cell: Cell, skills: Skills) -> None:
         self.cell = cell
@@ -31,7 +26,7 @@ class RobotPerformer:
         return self.cell.sim.ticks
 
     def situation(self) -> Hashable:
-        """Poses to the centimetre, joints to a tenth of their way."""
+        """Return poses to the centimetre, joints to a tenth of their way."""
         cell = self.cell
         poses = [cell.sim.pose(cell.scene.bodies[item]) for item in cell.scene.items()]
         held = tuple(sorted((side, item, _rounded(cell.in_tool(side, item))) for side, item in cell.in_hand.items()))
@@ -48,7 +43,7 @@ class RobotPerformer:
         return self.skills.task(instruction).skill in ("look", "drive", "wait")
 
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
-        """Do it; see :class:`tmd.robot.monitor.executor.Performer`."""
+        """Carry it out; see :class:`tmd.robot.monitor.executor.Performer`."""
         task = self.skills.task(instruction)
         self.cell.until = self.cell.sim.work + 1e6 * TIME.instruction
         try:
@@ -66,7 +61,7 @@ class RobotPerformer:
         return said
 
     def _remember(self, task: SkillTask) -> None:
-        """How things stood and were held when what was to be done with them could not be reached.
+        """Remember the poses and grips of things with which something could not be done.
 
         They are put down elsewhere and held in another way, if there is one, when they are taken again.
         """
@@ -111,7 +106,6 @@ class RobotPerformer:
                 return pour_and_dip.tip(cell, name, task.target, attempt, squeezed=task.skill == "squeeze")
 
     def _below(self, item: str, gains: Collection[GroundAtom]) -> str:
-        """What an item lands on when it is let go of."""
         seen = {p for p, sensor in self.skills.seen.items() if sensor == "support"}
         for atom in sorted(gains):
             if atom.predicate in seen and atom.args[0] == item:
@@ -120,6 +114,6 @@ class RobotPerformer:
 
 
 def _rounded(pose: Pose) -> tuple[int, ...]:
-    """A pose to the centimetre and a twentieth of a quaternion, whose sign says nothing."""
+    """Return a pose to the centimetre and a twentieth of a quaternion, whose sign says nothing."""
     sign = 1 if next((value for value in reversed(pose.orientation) if abs(value) > 0.025), 1) > 0 else -1
     return (*(round(100 * value) for value in pose.position), *(round(20 * sign * value) for value in pose.orientation))

@@ -18,14 +18,14 @@ from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
 
+# Metres between the fingers of a hand that is about to take something.
 _OPEN = 0.08
-"""Metres between the fingers of a hand that is about to take something."""
+# Fingers that open less than this (cosine) along the y axis of a thing with a bar are above and below the bar.
 _ALONG = 0.7
-"""Fingers that open less than this (cosine) along the y axis of a thing with a bar are above and below the bar."""
+# Angles to straight down at which what lies is taken.
 _LEANS = (0.0, 0.6, -0.6, 1.1, -1.1)
-"""Angles to straight down at which what lies is taken."""
+# Metres and radians between grips that count as one.
 _ALIKE = (0.03, 0.5)
-"""Metres and radians between grips that count as one."""
 
 
 def pick(cell: Cell, item: str, attempt: int) -> str:
@@ -35,8 +35,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
         SkillError: It cannot be reached, or the fingers close on nothing.
     """
     options = pick_options(cell, item)
-    if not cell.free():
-        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    cell.need_free_hand()
     body = cell.scene.bodies[item]
     start = cell.sim.pose(body)
     lies_by_bar = cell.tilt(item) > CONTACT.upright and any(map(_of_bar, cell.scene.grasps(item)))
@@ -47,13 +46,15 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     cell.robot.close_gripper(side)
     if not cell.robot.touches(side, body):
         cell.unfit_grips.setdefault(item, []).append(start.inverse() * chosen.poses[-1])
-        _let_off(cell, side, chosen)
+        cell.robot.open_gripper(side)
+        _leave(cell, side, None, chosen.ignore)
+        cell.fold()
         raise SkillError(SkillPhase.CONTACT, f"the {side} hand closed and does not touch {item}")
     below = cell.support(item)
     cell.robot.hold(side, body)
     cell.in_hand[side] = item
-    away = _out(cell, below)
-    _leave(cell, side, away, _links(cell, item))
+    x, y, z = cell.scene.entry(*below) if below is not None else (0.0, 0.0, -1.0)
+    _leave(cell, side, (-x, -y, -z), cell.links(item))  # the way it is taken out
     cell.moment()
     cell.fold()
     if cell.gap(side, item) > 0.03:
@@ -62,9 +63,9 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
 
 
 def pick_options(cell: Cell, item: str) -> list[Option]:
-    """Ways to take an item with a free hand, the nearest hand first."""
+    """Return ways to take an item with a free hand, the nearest hand first."""
     here = cell.sim.pose(cell.scene.bodies[item])
-    links = _links(cell, item)
+    links = cell.links(item)
     _, high = cell.scene.size(item)
     # a vessel or a bottle is taken from the side before from above, for it will be tipped; a small thing from above
     upright = 1.0 if cell.scene.holds_contents(item) or high[2] > GRASP.tall else -1.0
@@ -83,13 +84,13 @@ def pick_options(cell: Cell, item: str) -> list[Option]:
 
 
 def _held_badly(cell: Cell, item: str, grip: Pose) -> bool:
-    """Whether it was held like this when something could not be done with it."""
+    """Return whether it was held like this when something could not be done with it."""
     known = cell.unfit_grips.get(item, ())
     return any(grip.distance(other) < _ALIKE[0] and grip.angle(other) < _ALIKE[1] for other in known)
 
 
 def _above_ground(cell: Cell, item: str, tool: Pose) -> Pose:
-    """A way to take from above what lies, so high that the finger tips do not reach into what it lies on."""
+    """Return a grasp from above so high that the finger tips do not reach into the ground."""
     x, y, z = tool.position
     lowest = max(cell.sim.extents(cell.scene.bodies[item])[0][2], 0.0) + TIP + GRASP.above_ground
     down = tool.rotate((1.0, 0.0, 0.0))[2] < -GRASP.steep
@@ -97,7 +98,7 @@ def _above_ground(cell: Cell, item: str, tool: Pose) -> Pose:
 
 
 def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
-    """Tool poses for a thing that lies or leans: across its axis, and the usual ones turned about the fingers' axis.
+    """Return tool poses for a thing that lies or leans: across its axis, and the usual ones about the fingers' axis.
 
     Turned so, the fingers meet the same two sides, and the hand comes from where there is room: from above first.
     """
@@ -119,18 +120,14 @@ def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
     turns = [number * pi / 4 for number in range(8)]
     bars = [here * grasp.tool.pose() for grasp in cell.scene.grasps(item) if _of_bar(grasp)]
     length = here.rotate((1.0, 0.0, 0.0))
-    rolled = [
-        Pose(tool.position, (Pose.about(length, angle) * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation)
-        for tool in bars
-        for angle in turns
-    ]
+    rolled = [tool.spun(Pose.about(length, angle)) for tool in bars for angle in turns]
     found += [tool * Pose.about((0.0, 1.0, 0.0), angle) for tool in (*usual, *rolled) for angle in turns]
     kept = [tool for tool in found if tool.rotate((1.0, 0.0, 0.0))[2] < 0.3]
     return sorted(kept, key=lambda tool: round(tool.rotate((1.0, 0.0, 0.0))[2], 1))[: GRASP.most_lying]
 
 
 def _across(cell: Cell, item: str) -> list[Pose]:
-    """Tool poses from above across each level side of a thing that the fingers get round, its middle first."""
+    """Return tool poses from above across each level side of a thing that the fingers get round, its middle first."""
     here = cell.sim.pose(cell.scene.bodies[item])
     low, high = cell.scene.size(item)
     middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
@@ -154,12 +151,12 @@ def _across(cell: Cell, item: str) -> list[Pose]:
 
 
 def _of_bar(grasp: Grasp) -> bool:
-    """Whether it is one of a bar along x, round which the hand may be anywhere: taken from its end."""
+    """Return whether it is a grasp of a bar along x, taken from its end, round which the hand may be anywhere."""
     return grasp.opening < GRASP.bar and grasp.tool.approach == INTO
 
 
 def _width(cell: Cell, item: str, along: Vector) -> float:
-    """How wide an item is along a level direction of its own frame; what is round is as wide as it is in y."""
+    """Return the width of an item along a level direction of its own frame; round things are as wide as in y."""
     low, high = cell.scene.size(item)
     depth, width = high[0] - low[0], high[1] - low[1]
     if cell.scene.opening(item) is not None or abs(depth - width) < 0.01:
@@ -168,41 +165,33 @@ def _width(cell: Cell, item: str, along: Vector) -> float:
 
 
 def _sideways(cell: Cell, item: str) -> Vector | None:
-    """The direction in which the hand enters the niche or the cupboard that an item is in."""
+    """Return the direction in which the hand enters the niche or the cupboard that an item is in."""
     place = cell.support(item)
     entry = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
     return None if abs(entry[2]) > 0.5 else entry
 
 
 def _starts(tool: Pose, entry: Vector | None) -> list[Pose]:
-    """Where a hand begins to go straight to a thing: outside of what that is in if the fingers pass it, or close."""
+    """Return the starts of a straight way to a thing: outside of its niche if the fingers pass it, or close."""
     close = tool * Pose((-GRASP.approach, 0.0, 0.0))
     if entry is None:
         return [close]
     across = sum(a * b for a, b in zip(tool.rotate((0.0, 1.0, 0.0)), entry, strict=True))
-    outside = _moved(tool, tuple(-GRASP.approach_in_niche * value for value in entry))
+    outside = tool.moved([-GRASP.approach_in_niche * value for value in entry])
     return [close] if abs(across) > GRASP.max_opening_along else [outside, close]
 
 
 def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, filled: bool = False) -> str:
     """Put ``item`` down on, in or next to ``target``, upright.
 
-    Args:
-        cell: Robot and scene.
-        item: What is held.
-        target: Where it goes.
-        relation: How.
-        attempt: How often this was tried before.
-        filled: It is to be filled there by what runs from a spout, so it goes below that and nowhere else. A vessel
-            goes there anyway where there is room.
+    A ``filled`` item is to be filled there by a stream from a spout, so it goes below that and nowhere else; any vessel
+    goes there if there is room.
 
     Raises:
         SkillError: It is not held, there is no room, the place cannot be reached, or the item ends up elsewhere, or
             falls over.
     """
-    side = cell.side_of(item)
-    if side is None:
-        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
+    side = cell.holding(item)
     below, others = place_options(cell, side, item, target, relation)
     nothing_lost = not cell.scene.shown(item) or cell.spills_from(item) is None
     if others and nothing_lost and not filled and not with_room(cell, (*below, *others)):
@@ -222,9 +211,13 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, fi
                 raise
         else:
             break
+    return _put_down(cell, side, item, target, relation)
+
+
+def _put_down(cell: Cell, side: str, item: str, target: str, relation: str) -> str:
     _release(cell, side, item)
     cell.moment()
-    _leave(cell, side, None, _links(cell, item))
+    _leave(cell, side, None, cell.links(item))
     cell.fold()
     cell.settle()
     now = cell.support(item)
@@ -237,7 +230,7 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, fi
 
 
 def _occupied(cell: Cell, item: str, target: str) -> str:
-    """The spout of what an item is to be filled at, and what stands below it."""
+    """Return the spout that an item is to be filled at, and what stands below it."""
     whole = cell.whole(target)
     frame = cell.sim.pose(cell.scene.bodies[whole])
     for part, at in cell.scene.spouts(whole).items():
@@ -250,7 +243,6 @@ def _occupied(cell: Cell, item: str, target: str) -> str:
 
 
 def _standing_there(cell: Cell, item: str, target: str, relation: str) -> str:
-    """What stands where an item should go."""
     there = [other for other in cell.scene.items() if other != item and cell.support(other) == (target, relation)]
     return f": {', '.join(there[:4])} {'stands' if len(there) == 1 else 'stand'} there" if there else ""
 
@@ -258,14 +250,15 @@ def _standing_there(cell: Cell, item: str, target: str, relation: str) -> str:
 def _reach_best(
     cell: Cell, item: str, options: Sequence[Option], focus: Pose, target: str, relation: str, attempt: int
 ) -> None:
-    """Bring a thing to where it is let go of: best is where the empty hand gets away, and gets at it again.
-
-    Raises:
-        SkillError: As :func:`tmd.robot.skills.stance_search.reach`.
-    """
+    """Bring a thing to its place, best so that the empty hand gets away, and gets at it again."""
     if cell.side_of(cell.whole(target)) is not None:  # into what is in the other hand, which holds it out
         side = options[0].side
-        reach_for(cell, target, lambda: _into(cell, side, item, target, relation), focus, attempt, stop=2)
+
+        def options_now() -> list[Option]:
+            below, others = place_options(cell, side, item, target, relation)
+            return [*below, *others]
+
+        reach_for(cell, target, options_now, focus, attempt, stop=2)
         return
     fitting = with_room(cell, options)
     again = _to_be_taken_again(cell, item, fitting, cell.scene.entry(target, relation)) or fitting
@@ -282,17 +275,11 @@ def _reach_best(
             return
 
 
-def _into(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
-    """The ways to put an item down as things are held now."""
-    below, others = place_options(cell, side, item, target, relation)
-    return [*below, *others]
-
-
 def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> tuple[list[Option], list[Option]]:
-    """Ways to put an item down with the hand that holds it: where a stream would run into it, and elsewhere."""
+    """Return ways to put an item down with the hand that holds it: where a stream runs into it, and elsewhere."""
     grip = cell.in_tool(side, item).inverse()
     back = tuple(-value * GRASP.approach for value in cell.scene.entry(target, relation))
-    links = _links(cell, item)
+    links = cell.links(item)
     found: tuple[list[Option], list[Option]] = ([], [])
     every = cell.scene.support(target, relation, item, cell.in_hand.values())
     unfit = cell.unfit_spots.get(item, ())
@@ -302,18 +289,18 @@ def place_options(cell: Cell, side: str, item: str, target: str, relation: str) 
     for fall, (number, spot), turn in product(heights, enumerate(spots), range(GRASP.headings)):
         stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / GRASP.headings)
         tool = stood * grip
-        found[not spot.outlet].append(Option(side, (_moved(tool, back), tool), links, number))
+        found[not spot.outlet].append(Option(side, (tool.moved(back), tool), links, number))
     return found
 
 
 def laid_options(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
-    """Ways to let go of an item just above a place, as it is held, with the hand straight above it.
+    """Return ways to let go of an item just above a place, as it is held, with the hand straight above it.
 
     It lies there, or falls over, and can be taken in another way: as it is held it can be put down upright nowhere.
     """
     grip = cell.in_tool(side, item)
     low, high = cell.scene.size(item)
-    links = _links(cell, item)
+    links = cell.links(item)
     found = []
     for number, spot in enumerate(cell.scene.support(target, relation, item, cell.in_hand.values())[:6]):
         x, y, z = spot.pose.position
@@ -323,13 +310,13 @@ def laid_options(cell: Cell, side: str, item: str, target: str, relation: str) -
             held = down * grip
             lowest = min(held.apply(corner)[2] for corner in product(*zip(low, high, strict=True)))
             middle = held.apply(tuple((a + b) / 2 for a, b in zip(low, high, strict=True)))
-            tool = _moved(down, (x - middle[0], y - middle[1], z - lowest + GRASP.release_heights[-1]))
-            found.append(Option(side, (_moved(tool, (0.0, 0.0, GRASP.approach)), tool), links, number))
+            tool = down.moved((x - middle[0], y - middle[1], z - lowest + GRASP.release_heights[-1]))
+            found.append(Option(side, (tool.moved((0.0, 0.0, GRASP.approach)), tool), links, number))
     return found
 
 
 def _to_be_taken_again(cell: Cell, item: str, options: Sequence[Option], entry: Vector) -> list[Option]:
-    """Of ways to put a thing into a niche or a cupboard, those after which a grasp points the way the hand goes in."""
+    """Select ways to put a thing into a niche or a cupboard after which a grasp points the way the hand enters."""
     if abs(entry[2]) > 0.5:
         return []
     grasps = [grasp.tool.pose().rotate((1.0, 0.0, 0.0)) for grasp in cell.scene.grasps(item)]
@@ -342,30 +329,27 @@ def _to_be_taken_again(cell: Cell, item: str, options: Sequence[Option], entry: 
 
 
 def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
-    """Let go of ``item`` over ``target``: it is put down where that can be reached, and falls on the floor else.
+    """Let go of ``item`` over ``target``: it is put down if that can be reached, and otherwise falls on the floor.
 
     Raises:
         SkillError: As :func:`place`.
     """
     if target != "floor":
         return place(cell, item, target, "on", attempt)
-    side = cell.side_of(item)
-    if side is None:
-        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
+    side = cell.holding(item)
     cell.robot.raise_torso(0.0)
     _release(cell, side, item)
     cell.moment()
     cell.fold()
     now = cell.support(item)
     if now != (target, "on"):
-        raise SkillError(
-            SkillPhase.EFFECT, f"{item} was let go of, and is {now[1] + ' ' + now[0] if now else 'nowhere'}"
-        )
+        where = f"{now[1]} {now[0]}" if now else "nowhere"
+        raise SkillError(SkillPhase.EFFECT, f"{item} was let go of, and is {where}")
     return f"{item} is on the floor"
 
 
 def _gap_to_let_go(cell: Cell, side: str, item: str) -> float:
-    """How wide a hand opens that lets go: as wide as it can, or as little as it must where a finger is behind a bar."""
+    """Return the gap of a hand that lets go: as wide as possible, or small if a finger is behind a bar."""
     _, across, _ = cell.in_tool(side, item).inverse().rotate((0.0, 1.0, 0.0))
     behind = abs(across) < _ALONG and any(map(_of_bar, cell.scene.grasps(item)))
     return GRASP.bar if behind else MOTOR.gripper_gap
@@ -379,27 +363,15 @@ def _release(cell: Cell, side: str, item: str) -> None:
     cell.settle()
 
 
-def _let_off(cell: Cell, side: str, chosen: Option) -> None:
-    """Open the hand and go back to where it came from, if it can."""
-    cell.robot.open_gripper(side)
-    _leave(cell, side, None, chosen.ignore)
-    cell.fold()
-
-
 def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
-    """Draw the hand back: along ``away``, or the way it points; a little where there is no room for more.
+    """Draw the hand back: along ``away``, or the way it points; a little if there is no room for more.
 
-    What cannot be drawn back straight is left to the planner of the next motion.
+    If that is not possible either, it is left to the planner of the next motion.
     """
     here = cell.robot.tool(side)
     for share in (1.0, 0.5):
-        goal = (
-            here * Pose((-GRASP.approach * share, 0.0, 0.0))
-            if away is None
-            else _moved(
-                here, (away[0] * GRASP.lift * share, away[1] * GRASP.lift * share, away[2] * GRASP.lift * share)
-            )
-        )
+        back = here * Pose((-GRASP.approach * share, 0.0, 0.0))
+        goal = back if away is None else here.moved([value * GRASP.lift * share for value in away])
         try:
             follow(cell, side, (goal,), ignore)
         except SkillError:
@@ -407,24 +379,8 @@ def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
         return
 
 
-def _out(cell: Cell, below: tuple[str, str] | None) -> Vector:
-    """The direction in which a thing is taken from where it is."""
-    x, y, z = cell.scene.entry(*below) if below is not None else (0.0, 0.0, -1.0)
-    return (-x, -y, -z)
-
-
-def _moved(pose: Pose, by: tuple[float, ...]) -> Pose:
-    x, y, z = (a + b for a, b in zip(pose.position, by, strict=True))
-    return Pose((x, y, z), pose.orientation)
-
-
-def _links(cell: Cell, *names: str) -> Links:
-    """All links of the bodies of some things."""
-    return frozenset((cell.scene.place(name)[0], None) for name in names)
-
-
 def _nearest_first(cell: Cell, pose: Pose) -> list[str]:
-    """The free arms, the one on whose side a thing is first."""
+    """Return the free arms, first the one on whose side a thing is."""
     _, left, _ = cell.robot.base_link().inverse().apply(pose.position)
     order = ("left", "right") if left > 0 else ("right", "left")
     return [side for side in order if side in cell.free()]

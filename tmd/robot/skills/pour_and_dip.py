@@ -5,26 +5,25 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from math import acos, cos, degrees, hypot, pi, sin
+from math import acos, cos, degrees, hypot, pi
 
 from tmd.robot.assets.features import Region
-from tmd.robot.parameters import CONTACT, POURING
+from tmd.robot.parameters import CONTACT, GRASP, POURING
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import Links, Option, follow, with_room
+from tmd.robot.skills.stance_search import Option, follow, with_room
+
+# Force of fingers that squeeze a bottle, in N·m.
+_SQUEEZE = 40.0
 
 
 @dataclass(frozen=True, slots=True)
 class Mouth:
-    """Where contents leave a thing that is tipped.
+    """The place at which contents leave a thing that is tipped, in the thing's frame.
 
-    Attributes:
-        at: In the thing's frame.
-        out: The direction that must point down for contents to leave, in the thing's frame.
-        turn: The axis about which it is tipped, in the thing's frame.
-        both: It may be tipped either way.
+    ``out`` must point down for contents to leave; ``turn`` is the axis of tipping, ``both`` allows it either way.
     """
 
     at: Vector
@@ -34,7 +33,7 @@ class Mouth:
 
 
 def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
-    """The mouths of what is held, best first.
+    """Return the mouths of what is held, best first.
 
     It is the far end of a long flat thing, the underside of a packet that hangs from the hand, and else the rim: on
     either side of the wrist, towards the hand and away from it.
@@ -62,14 +61,14 @@ def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
 
 
 def _rim(low: Vector, high: Vector, top: float, axis: Vector) -> Mouth:
-    """The point of the rim that is lowest when a vessel is tipped about ``axis``."""
+    """Return the point of the rim that is lowest when a vessel is tipped about ``axis``."""
     x, y = axis[1], -axis[0]
     at = ((high if x > 0 else low)[0] * abs(x), (high if y > 0 else low)[1] * abs(y), top)
     return Mouth(at, (0.0, 0.0, 1.0), axis)
 
 
 def _axes(tool: Pose, middle: Sequence[float]) -> list[Vector]:
-    """To either side by a roll of the wrist, then away from the hand and towards it."""
+    """Return axes: to either side by a roll of the wrist, then away from the hand and towards it."""
     x, y = middle[0] - tool.position[0], middle[1] - tool.position[1]
     if hypot(x, y) < 0.01:  # the hand is above: how it is turned decides
         x, y, _ = tool.rotate((0.0, 1.0, 0.0))
@@ -84,7 +83,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     Raises:
         SkillError: It is not held, cannot be held there, or its mouth was not over the target.
     """
-    side = _side(cell, item)
+    side = cell.holding(item)
     _refuse_fallen(cell, target)
     known = mouths(cell, item, side)
 
@@ -99,7 +98,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     body = cell.scene.bodies[item]
 
     def over_rim() -> bool:
-        """Whether what runs out now gets where it should."""
+        """Return whether what runs out now gets where it should."""
         here = cell.sim.pose(body)
         return any(_beside(cell, here.apply(how.at), target) <= POURING.mouth_offset for how in known)
 
@@ -109,7 +108,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         if squeezed:
             cell.robot.close_gripper(side, _SQUEEZE)
         here = cell.sim.pose(body)
-        tilt = _tilt(here, how)
+        tilt = acos(max(-1.0, min(1.0, here.rotate(how.out)[2])))  # between the mouth and straight up
         beside = _beside(cell, here.apply(how.at), target)
         cell.load(target)
         cell.moment()
@@ -125,19 +124,19 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
 def tip_options(
     cell: Cell, item: str, target: str, known: Sequence[Mouth], height: float, near: float, *, closed: bool
 ) -> list[Option]:
-    """Ways to tip what is held over a rim, and as near to its edge; the spot of an option is the number of its mouth.
+    """Return ways to tip what is held over a rim, and as near to its edge; ``spot`` of an option: number of its mouth.
 
-    Before a niche a thing is tipped outside, as far as nothing runs out: what is ``closed`` until it is squeezed all
-    the way.
+    Before a niche a thing is tipped outside, as far as nothing runs out: a ``closed`` one all the way, since nothing
+    runs out until it is squeezed.
     """
-    side = _side(cell, item)
+    side = cell.holding(item)
     grip = cell.in_tool(side, item).inverse()
     spills = None if closed else cell.spills_from(item)
     options = []
     for angle, over, (index, how), number in product(
-        POURING.tilts, _overs(cell, target, height), enumerate(known), range(POURING.headings)
+        POURING.tilts, _overs(cell, target, height), enumerate(known), range(GRASP.headings)
     ):
-        stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / POURING.headings)
+        stood = _heading(number)
         x, y, _ = stood.rotate(how.at)
         nearer = near / max(hypot(x, y), 0.01)
         at = (over[0] - x * nearer, over[1] - y * nearer, over[2])
@@ -146,7 +145,7 @@ def tip_options(
                 _over_rim(stood, how, at, turned * k / POURING.stages) * grip for k in range(POURING.stages + 1)
             )
             outside = before(cell, target, poses[0])
-            options.append(Option(side, (*outside, *poses), _hands(cell, item), index))
+            options.append(Option(side, (*outside, *poses), cell.links(item), index))
             shares = (1.0,) if closed else POURING.outside_shares
             if outside and spills is not None:  # what is in it must not run out before it is there
                 shares = tuple(k for k in shares if abs(turned) * k < POURING.outside_margin * spills or k == 1.0)
@@ -155,27 +154,18 @@ def tip_options(
             if outside:
                 inside = [_over_rim(stood, how, at, turned * k) * grip for k in shares]
                 (end,) = before(cell, target, inside[0])
-                start = _moved_up(outside[0], end.position[2] - outside[0].position[2])
-                options.append(Option(side, (start, end, *inside), _hands(cell, item), index))
+                start = outside[0].moved((0.0, 0.0, end.position[2] - outside[0].position[2]))
+                options.append(Option(side, (start, end, *inside), cell.links(item), index))
     return options
 
 
-def _moved_up(pose: Pose, by: float) -> Pose:
-    x, y, z = pose.position
-    return Pose((x, y, z + by), pose.orientation)
-
-
 def before(cell: Cell, target: str, first: Pose) -> tuple[Pose, ...]:
-    """Where the hand begins to go straight to ``first``: outside of the niche or the cupboard that a thing is in."""
+    """Return the start of a straight way to ``first``, outside of the niche or cupboard of ``target``; else nothing."""
     place = cell.support(target)
     x, y, z = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
     if abs(z) > 0.5:
         return ()
-    a, b, c = first.position
-    return (Pose((a - x * POURING.approach_in_niche, b - y * POURING.approach_in_niche, c), first.orientation),)
-
-
-_SQUEEZE = 40.0
+    return (first.moved((-x * GRASP.approach_in_niche, -y * GRASP.approach_in_niche, 0.0)),)
 
 
 def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
@@ -185,7 +175,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
         SkillError: It is not held, cannot be brought there, or did not get in.
     """
     _refuse_fallen(cell, target)
-    how = _head(cell, item, _side(cell, item))
+    how = _head(cell, item, cell.holding(item))
     body = cell.scene.bodies[item]
     focus = Pose(_overs(cell, target, POURING.dip_heights[0])[0])
     with cell.leaning(item, lambda: _beside(cell, cell.sim.pose(body).apply(how.at), target) <= 0.0):
@@ -205,7 +195,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
 
 
 def _head(cell: Cell, item: str, side: str) -> Mouth:
-    """What is dipped of a thing that is held: the underside of its far end."""
+    """Return the part of a held thing that is dipped: the underside of its far end."""
     mouth = mouths(cell, item, side)[0]
     low, _ = cell.scene.size(item)
     x, y, _ = mouth.at
@@ -214,12 +204,12 @@ def _head(cell: Cell, item: str, side: str) -> Mouth:
 
 
 def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
-    """Ways to bring the end of what is held below a rim and not through it."""
-    side = _side(cell, item)
+    """Return ways to bring the end of what is held below a rim and not through it."""
+    side = cell.holding(item)
     how, grip = _head(cell, item, side), cell.in_tool(side, item).inverse()
-    ignore = _hands(cell, item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
+    ignore = cell.links(item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
     (over,) = _overs(cell, target, -POURING.dip_depth)
-    ways = list(product(POURING.dip_leans, range(POURING.headings)))
+    ways = list(product(POURING.dip_leans, range(GRASP.headings)))
     inside = [_held_at(_leaning(_heading(number), how, lean), how, over, 0.0) for lean, number in ways]
     touched = _depths(cell, item, target, inside)
     options = []
@@ -239,11 +229,11 @@ def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
 
 
 def _heading(number: int) -> Pose:
-    return Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / POURING.headings)
+    return Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / GRASP.headings)
 
 
 def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[float]:
-    """How deep a thing would be in another one at some poses, in metres; it stays where it is, to the bit."""
+    """Return how deep a thing would be in another one at some poses, in metres; it stays in place, to the bit."""
     body, other = cell.scene.bodies[item], cell.scene.place(target)[0]
     motion = cell.sim.motion(body)
     found = []
@@ -257,11 +247,7 @@ def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[f
 
 
 def _go_back(cell: Cell, chosen: Option) -> None:
-    """Bring what was tipped or dipped back the way it came, or any way that there is, and tuck the arms.
-
-    Raises:
-        SkillError: There is none.
-    """
+    """Bring what was tipped or dipped back the way it came, or any way that there is, and tuck the arms."""
     try:
         follow(cell, chosen.side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
     except SkillError:
@@ -271,26 +257,15 @@ def _go_back(cell: Cell, chosen: Option) -> None:
         cell.fold()
 
 
-def _side(cell: Cell, item: str) -> str:
-    side = cell.side_of(item)
-    if side is None:
-        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
-    return side
-
-
 def _refuse_fallen(cell: Cell, target: str) -> None:
-    """What lies on its side takes nothing.
-
-    Raises:
-        SkillError: It does.
-    """
+    """Refuse to put something into a thing that lies on its side."""
     if cell.scene.is_item(target) and cell.scene.stands(target) and cell.tilt(target) > CONTACT.upright:
         told = f"{target} leans by {degrees(cell.tilt(target)):.0f} degrees"
         raise SkillError(SkillPhase.PRECONDITION, f"{told}: nothing can be put into it")
 
 
 def _overs(cell: Cell, target: str, height: float) -> list[Vector]:
-    """Points over a rim, or over different places of a basin, at a height above it; best first."""
+    """Return points over a rim, or over different places of a basin, at a height above it; best first."""
     if cell.scene.is_item(target):
         opening = cell.scene.opening(target)
         x, y, _ = cell.centre(target)
@@ -308,7 +283,7 @@ def _overs(cell: Cell, target: str, height: float) -> list[Vector]:
 
 
 def _basin(cell: Cell, target: str) -> tuple[Pose, Region] | None:
-    """What things are put into from above, and its frame."""
+    """Return the region that is filled from above, and its frame."""
     for whole, region in cell.scene.regions(target, "in"):
         if region.entry[2] < -0.5:
             return cell.scene.frame(whole, region.link), region
@@ -316,7 +291,7 @@ def _basin(cell: Cell, target: str) -> tuple[Pose, Region] | None:
 
 
 def _rim_height(cell: Cell, target: str) -> float:
-    """The height of the rim of a vessel, or of its top."""
+    """Return the height of the rim of a vessel, or of its top."""
     opening = cell.scene.opening(target) if cell.scene.is_item(target) else None
     if opening is None:
         return cell.top(target)
@@ -324,37 +299,28 @@ def _rim_height(cell: Cell, target: str) -> float:
 
 
 def _held_at(stood: Pose, how: Mouth, at: Vector, angle: float) -> Pose:
-    """The thing's frame when it is turned by ``angle`` about its tipping axis, with its mouth at a point."""
-    half = angle / 2
-    x, y, z = how.turn
-    turned = stood * Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
+    """Return the thing's frame when it is turned by ``angle`` about its tipping axis, with its mouth at a point."""
+    turned = stood * Pose.about(how.turn, angle)
     offset = turned.rotate(how.at)
     return Pose((at[0] - offset[0], at[1] - offset[1], at[2] - offset[2]), turned.orientation)
 
 
 def _over_rim(stood: Pose, how: Mouth, over: Vector, angle: float) -> Pose:
-    """As :func:`_held_at`, but as much higher as the thing reaches below its mouth: it comes down as it is tipped."""
+    """Return :func:`_held_at` raised by as much as the thing reaches below its mouth: it comes down as it is tipped."""
     below = max(0.0, how.at[2] * cos(angle))
     return _held_at(stood, how, (over[0], over[1], over[2] + below), angle)
 
 
 def _leaning(stood: Pose, how: Mouth, angle: float) -> Pose:
-    """The frame with the mouth's end lower than the rest, by ``angle``."""
+    """Return the frame with the mouth's end lower than the rest, by ``angle``."""
     x, y, _ = how.turn
     # across the long side; towards the mouth
     towards = 1.0 if x * how.at[0] + y * how.at[1] > 0 else -1.0
-    axis = (-y * towards, x * towards, 0.0)
-    half = angle / 2
-    return stood * Pose((0.0, 0.0, 0.0), (axis[0] * sin(half), axis[1] * sin(half), 0.0, cos(half)))
-
-
-def _tilt(here: Pose, how: Mouth) -> float:
-    """Radians between the mouth's direction and straight up."""
-    return acos(max(-1.0, min(1.0, here.rotate(how.out)[2])))
+    return stood * Pose.about((-y * towards, x * towards, 0.0), angle)
 
 
 def _beside(cell: Cell, point: Vector, target: str) -> float:
-    """How far a point is outside of the opening of ``target``, its basin or the box round it, on the floor plan."""
+    """Return the distance of a point from the opening of ``target``, its basin or its box, on the floor plan."""
     opening = cell.scene.opening(target) if cell.scene.is_item(target) else None
     if opening is not None:
         x, y, _ = cell.sim.pose(cell.scene.bodies[target]).apply(opening.centre)
@@ -365,7 +331,3 @@ def _beside(cell: Cell, point: Vector, target: str) -> float:
         frame, region = basin
         point, low, high = frame.inverse().apply(point), region.low, region.high
     return max(low[0] - point[0], point[0] - high[0], low[1] - point[1], point[1] - high[1], 0.0)
-
-
-def _hands(cell: Cell, *names: str) -> Links:
-    return frozenset((cell.scene.place(name)[0], None) for name in names)

@@ -1,4 +1,4 @@
-"""What stands where in a scene, and from where the robot would take it."""
+"""Survey of a scene: the place of each object, and the stances from which the robot takes it."""
 
 from __future__ import annotations
 
@@ -12,30 +12,24 @@ import numpy as np
 
 from tmd.files import write_bytes
 from tmd.robot.scene.scene import Scene
-from tmd.robot.setup import make_cell
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.pick_and_place import pick_options
-from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.robot_context import Cell, make_cell
 from tmd.robot.skills.stance_search import Base, candidates, stances, with_room
 from tmd.robot.video.captions import Pixels, pillow
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
+# Width and height of a picture of the room, in pixels.
 PICTURE = (960, 640)
-"""Width and height of a picture of the room, in pixels."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReachabilityEntry:
-    """One object.
+    """One object: kind of its shape, whether it can be carried, the middle of its underside in metres, and its support.
 
-    Attributes:
-        name: Its name.
-        kind: The kind of its shape.
-        item: Whether it can be carried.
-        position: Of the middle of its underside, in metres.
-        place: What it is on, in or next to, and how; ``None`` for furniture and for what hangs in the air.
+    ``place`` is the support and the relation; ``None`` for furniture and for what hangs in the air.
     """
 
     name: str
@@ -47,12 +41,7 @@ class ReachabilityEntry:
 
 @dataclass(frozen=True, slots=True)
 class Stance:
-    """Where the robot stands to take an item, or before furniture.
-
-    Attributes:
-        base: x and y in metres, heading in radians.
-        side: The hand, ``left`` or ``right``; empty before furniture.
-    """
+    """A stance to take an item, or before furniture: x and y in metres, heading in radians; the hand, or no side."""
 
     base: Base
     side: str = ""
@@ -68,9 +57,8 @@ class SceneSurvey:
     """An environment as the robot's room.
 
     Attributes:
-        name: The environment's name.
         entries: All objects, in file order.
-        stances: From where the robot takes or reaches each, ``None`` where it cannot; without entries if not asked for.
+        stances: Of each object, ``None`` if the robot cannot reach it; empty if not asked for.
     """
 
     name: str
@@ -87,18 +75,13 @@ def survey_scene(
     urdf: Path | None = None,
     picture: Path | None = None,
 ) -> SceneSurvey:
-    """Build the room of an environment, put a PR2 into it, and say what stands where.
+    """Build the room of an environment, put a PR2 into it, and return what stands where.
 
-    Args:
-        environment: What there is and where.
-        folder: Its domain, with shapes.
-        reach: Look for a base pose for every object, which takes seconds.
-        seed: Seed for placement jitter; 0 disables it.
-        urdf: Another PR2 than the packaged one.
-        picture: Where a picture of the room goes, a PNG file.
+    ``reach`` also looks for a base pose for every object, in seconds. ``seed`` is that of the placement jitter; 0
+    disables it. ``picture`` is the destination of a picture of the room, a PNG file.
 
     Raises:
-        MissingToolError: What simulates or draws is not installed.
+        MissingToolError: A package that simulates or draws is not installed.
         OutputError: The picture cannot be written.
         TmdError: The domain has no shapes, the scene cannot be built, or ``urdf`` is not a PR2.
     """
@@ -123,7 +106,7 @@ def _draw(path: Path, pixels: Pixels) -> None:
 
 
 def survey(cell: Cell) -> list[ReachabilityEntry]:
-    """All objects, in file order."""
+    """Return all objects, in file order."""
     scene = cell.scene
     return [
         ReachabilityEntry(
@@ -138,7 +121,7 @@ def survey(cell: Cell) -> list[ReachabilityEntry]:
 
 
 def stance(cell: Cell, name: str) -> Stance | None:
-    """From where the robot can take an item as everything stands now, or be before furniture; ``None`` if nowhere."""
+    """Return a stance to take an item as everything stands now, or before furniture; ``None`` if there is none."""
     focus = Pose(cell.centre(name))
     if not cell.scene.is_item(name):
         return next(

@@ -1,41 +1,34 @@
-"""What came of a skill, and of a whole plan."""
+"""Results of skills and of whole plans."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tmd.pddl.model import Instruction, State
-from tmd.robot.monitor.inference import KnownEffect
-from tmd.robot.monitor.observation import Mismatch
+from tmd.pddl.model import GroundAtom, Instruction, State
 
 
 class SkillPhase(StrEnum):
-    """Where in a skill something failed."""
+    """The phase of a skill in which something failed."""
 
+    # The start of the skill is not as required.
     PRECONDITION = "precondition"
-    """What the skill starts from is not there."""
+    # No place to stand, and no posture of the arm, reaches what is wanted.
     STANCE = "stance"
-    """No place to stand, and no posture of the arm, reaches what is wanted."""
+    # There is no way there without touching something.
     PATH = "path"
-    """There is no way there without touching something."""
+    # The robot did not get to where it should, within its steps.
     EXECUTION = "execution"
-    """The robot did not get to where it should, within its steps."""
+    # The gripper is where it should be and touches nothing.
     CONTACT = "contact"
-    """The gripper is where it should be and touches nothing."""
+    # Everything was done, and the thing did not move as it should.
     EFFECT = "effect"
-    """Everything was done, and the thing did not move as it should."""
+    # It would have taken longer than an instruction may.
     TIME = "time"
-    """It would have taken longer than an instruction may."""
 
 
 class SkillError(Exception):
-    """A skill could not be done.
-
-    Args:
-        stage: Where it failed.
-        reason: Why, with the numbers.
-    """
+    """Failure of a skill at a stage, with the reason and its numbers."""
 
     def __init__(self, stage: SkillPhase, reason: str) -> None:
         super().__init__(f"{stage}: {reason}")
@@ -43,20 +36,55 @@ class SkillError(Exception):
         self.reason = reason
 
 
+class Basis(StrEnum):
+    """The basis of an effect."""
+
+    # A sensor of the simulation shows it.
+    MEASURED = "measured"
+    # It follows from measurements, by a rule that is given with it.
+    INFERRED = "inferred"
+    # PDDL says so, and nothing speaks against it.
+    ASSUMED = "assumed"
+
+
+@dataclass(frozen=True, slots=True)
+class KnownEffect:
+    """A fact that an instruction changed as PDDL predicts; ``how`` gives the numbers, or the rule."""
+
+    atom: GroundAtom
+    holds: bool
+    basis: Basis
+    how: str
+
+    def __str__(self) -> str:
+        return f"{'' if self.holds else 'not '}{self.atom}"
+
+
+@dataclass(frozen=True, slots=True)
+class Mismatch:
+    """A fact that is not as PDDL predicted: whether it should hold, and what the simulation shows."""
+
+    atom: GroundAtom
+    expected: bool
+    measured: str
+
+    def __str__(self) -> str:
+        return f"{'' if self.expected else 'not '}{self.atom} was expected, but {self.measured}"
+
+
 @dataclass(frozen=True, slots=True)
 class ExecutedStep:
     """One instruction, as it went.
 
     Attributes:
-        instruction: What was done.
         repair: Whether the monitor put it in.
-        failure: Why the skill failed, with its stage; empty where it did not.
-        evidence: What showed that the skill's event happened.
-        effects: What changed as predicted, each with what it is known by.
+        failure: The reason of the skill's failure, with its stage; empty without one.
+        evidence: Shows that the skill's event happened.
+        effects: The changes as predicted, each with its basis.
         mismatches: The facts that are not as predicted.
         begin: The simulation's step at the start.
         end: And at the end.
-        state: What was observed then.
+        state: As observed then.
     """
 
     instruction: Instruction
@@ -71,14 +99,14 @@ class ExecutedStep:
 
 
 class SkillStatus(StrEnum):
-    """How an execution ended."""
+    """The end of an execution."""
 
+    # Every instruction was done, and every effect is as predicted.
     DONE = "done"
-    """Every instruction was done, and every effect is as predicted."""
+    # Something was not as predicted, the executor replanned if needed, and all that the plan is for holds.
     RECOVERED = "recovered"
-    """Something was not as predicted, the executor replanned if needed, and all that the plan is for holds."""
+    # It could not be done; the reason says why.
     STOPPED = "stopped"
-    """It could not be done; the reason says why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,12 +114,11 @@ class Execution:
     """A plan, as it went.
 
     Attributes:
-        status: How it ended.
-        reason: Why it stopped; empty where it did not.
+        reason: Of a stop; else empty.
         steps: One for each instruction that was tried, in order.
-        repairs: How often the executor replanned.
-        state: The last state that was observed.
-        lasting: What is otherwise at the end than the plan would have left it, and no aim of the plan.
+        repairs: Number of replannings.
+        state: The last observed state.
+        lasting: Differences at the end from the plan's final state that are no aim of the plan.
     """
 
     status: SkillStatus

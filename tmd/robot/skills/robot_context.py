@@ -1,12 +1,13 @@
-"""Robot and scene together: what skills act in, and what the monitor measures."""
+"""Robot and scene together: the context of skills, and the measurements of the monitor."""
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from math import acos, cos, degrees, hypot, inf, sin
+from pathlib import Path
 
 import numpy as np
 
@@ -15,25 +16,25 @@ from tmd.robot.parameters import ARTICULATION, BASE_MOTION, CONTACT, GRASP, TIME
 from tmd.robot.pr2.arm_motion import plan_line
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.collision import Ignored
+from tmd.robot.pr2.posture import tuck
 from tmd.robot.pr2.pr2 import ARMS, Pr2
 from tmd.robot.scene.scene import FLOOR, Handle, Scene
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, WELD_FORCE, Simulator
 from tmd.robot.skills.results import SkillError, SkillPhase
 
+# Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid.
 _PAST = tuple((0.0, 0.0, away) for away in (0.1, -0.1, 0.05, -0.05))
-"""Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid."""
+# Samples for a way of the arm where there is no other place to tuck it.
 _LONG = 2000
-"""Samples for a way of the arm where there is no other place to tuck it."""
 _NEARBY = 300
+# Steps between two looks at what leans.
 _LEANING_EVERY = 8
-"""Steps between two looks at what leans."""
+# Radians below which nothing leans.
 _LEVEL = 0.05
-"""Radians below which nothing leans."""
 
 
-def _nothing(*_: str) -> None:
-    """Nobody is told."""
+def _nothing(*_: str) -> None: ...
 
 
 @dataclass(eq=False)
@@ -41,17 +42,13 @@ class Cell:
     """One robot in one scene.
 
     Attributes:
-        sim: The simulation.
-        robot: The PR2.
-        scene: The furniture and the things.
-        rng: Random seed.
-        in_hand: For each arm the item in it.
-        over_rim: For what may lean now, whether its mouth is where nothing is lost.
-        unfit_spots: Where items stood when what was to be done with them could not be reached.
-        unfit_grips: How items were held then, or when what was in them was lost: the tool in the item's frame.
+        in_hand: The item in each arm.
+        over_rim: For things that may lean now, whether nothing is lost where the mouth is.
+        unfit_spots: Poses of items when something could not be done with them.
+        unfit_grips: Tool poses in the item's frame then, or when its contents were lost.
         until: The simulation's count of work at which an instruction is given up.
-        doing: Is told what is being looked for, while that takes long.
-        moment: Is called when what an instruction is about happens: a press, a pour, a turn.
+        doing: Called with what is being looked for, while that takes long.
+        moment: Called at the event of an instruction: a press, a pour, a turn.
     """
 
     sim: Simulator
@@ -73,7 +70,7 @@ class Cell:
         self.robot.keeps_level = self._keeps_level
 
     def _keeps_level(self, side: str) -> bool | None:
-        """What is full must be carried upright, what can hold something should; what lies in the hand need not."""
+        """Return True for a full thing, False for one that can hold something, None for what lies in the hand."""
         item = self.in_hand.get(side)
         if item is None or not (self.scene.stands(item) or self.scene.shown(item)):
             return None
@@ -82,10 +79,10 @@ class Cell:
         return bool(self.scene.shown(item)) and self.spills_from(item) is not None
 
     def look_on(self, doing: str) -> None:
-        """Say what is being looked for, and see that it does not take too long.
+        """Report what is being looked for, and limit its cost.
 
         Raises:
-            SkillError: The instruction has taken all that it may.
+            SkillError: The instruction has used up its budget.
         """
         self.doing(doing)
         if self.sim.work > self.until:
@@ -94,15 +91,15 @@ class Cell:
     # what the monitor measures
 
     def seconds(self) -> float:
-        """Simulated seconds since the scene was made."""
+        """Return the simulated seconds since the scene was made."""
         return self.sim.steps / STEPS_PER_SECOND
 
     def tilt(self, item: str) -> float:
-        """Radians between an item's upright axis and the vertical."""
+        """Return the radians between an item's upright axis and the vertical."""
         return acos(max(-1.0, min(1.0, self.sim.pose(self.scene.bodies[item]).rotate((0.0, 0.0, 1.0))[2])))
 
     def fallen(self, item: str) -> bool:
-        """Whether an item that should stand leans or lies; not on the floor, in a heap, or behind a shut door."""
+        """Return whether an item that should stand leans or lies; not on the floor, in a heap, or behind a door."""
         if not self.scene.is_item(item) or not self.scene.stands(item) or self.tilt(item) <= CONTACT.upright:
             return False
         place = None if item in self.in_hand.values() else self.support(item)
@@ -117,7 +114,7 @@ class Cell:
         return relation == "in" and any(self.is_open(part) is False for part in parts)
 
     def _watch_leaning(self, sim: Simulator) -> None:
-        """Remember how far what has something in it leaned."""
+        """Remember how far vessels with contents leaned."""
         if sim.ticks % _LEANING_EVERY and not self.robot.kinematic:
             return
         for item in dict.fromkeys((*self.scene.filled(), *sorted(self._loaded & set(self.scene.items())))):
@@ -129,7 +126,7 @@ class Cell:
 
     @contextmanager
     def leaning(self, item: str, over_rim: Callable[[], bool]) -> Iterator[None]:
-        """While an item may lean where nothing is lost by it."""
+        """Let an item lean where nothing is lost by it, as long as the context is open."""
         self.over_rim[item] = over_rim
         try:
             yield
@@ -137,12 +134,15 @@ class Cell:
             del self.over_rim[item]
 
     def load(self, item: str) -> None:
-        """Something is in an item from now on: it is remembered how far it leans."""
+        """Watch how far an item leans from now on, since something is in it."""
         self._loaded.add(item)
         self._leant.pop(item, None)
 
     def leant(self, item: str) -> tuple[float, float] | None:
-        """See :class:`tmd.robot.monitor.inference.ContentSenses`."""
+        """Return the maximum lean of a vessel since :meth:`reset_leant`, and its angle of spilling, in radians.
+
+        None for a thing that cannot spill: it is closed, or holds nothing.
+        """
         limit = self.spills_from(item)
         return None if limit is None else (self._leant.get(item, 0.0), limit)
 
@@ -152,7 +152,7 @@ class Cell:
         self._loaded.clear()
 
     def spills_from(self, item: str) -> float | None:
-        """Radians from which what is in an item gets out; None where it is closed, or cannot hold anything."""
+        """Return the lean from which an item spills, in radians; None if it is closed, or cannot hold anything."""
         if not self.scene.is_item(item):
             return None
         handle = self.scene.handle(item)
@@ -161,14 +161,14 @@ class Cell:
         return self.spills_when_open_from(item)
 
     def spills_when_open_from(self, item: str) -> float | None:
-        """The same, once an item is open; None where it cannot hold anything."""
+        """Return the same, once an item is open; None if it cannot hold anything."""
         opening = self.scene.opening(item)
         if opening is not None:
             return max(opening.spills_from, CONTACT.repose)
         return CONTACT.repose if self.scene.holds_contents(item) else None
 
     def stream(self, item: str) -> tuple[bool, str] | None:
-        """See :class:`tmd.robot.monitor.inference.ContentSenses`."""
+        """Return whether the stream of an outlet runs into a vessel, with the numbers; None without an outlet."""
         opening, place = self.scene.opening(item) if self.scene.is_item(item) else None, self.support(item)
         spouts = self.scene.spouts(self.whole(place[0])) if place is not None else {}
         if opening is None or place is None or not spouts:
@@ -190,7 +190,7 @@ class Cell:
         return away[part] <= opening.radius - CONTACT.stream, told
 
     def held(self) -> Sequence[str]:
-        """The items in the hands that are really there: each is still where the gripper is."""
+        """Return the items that are really in the hands: each is still at the gripper."""
         return [self.in_hand[side] for side in ARMS if side in self.in_hand and self._still_held(side)]
 
     def _still_held(self, side: str) -> bool:
@@ -198,21 +198,21 @@ class Cell:
         return self.robot.held(side) == body and self.gap(side, self.in_hand[side]) < 0.03
 
     def gap(self, side: str, item: str) -> float:
-        """How far the item is from the gripper's surface, in metres; at most 1."""
+        """Return the distance of the item from the gripper's surface, in metres; at most 1."""
         found = self.sim.closest(self.robot.body, self.scene.place(item)[0], 1.0)
         hand = {self.robot.index[name] for name in self.robot.tree.below(f"{side[0]}_gripper_palm_link")}
         return min((c.distance for c in found if c.link in hand), default=1.0)
 
     def support(self, item: str) -> tuple[str, str] | None:
-        """What an item stands on, in or next to; ``None`` for what is not an item."""
+        """Return the support of an item and the relation (on, in, next to); ``None`` for other things."""
         return self.scene.supported(item) if self.scene.is_item(item) else None
 
     def loose(self, handle: Handle) -> bool:
-        """Whether it is the lid of a thing that nothing holds: a hand that presses would move the thing."""
+        """Return whether it is the lid of a thing that nothing holds: a hand that presses would move the thing."""
         return handle.kind == "lid" and self.scene.is_item(self.scene.owner(handle.body) or "")
 
     def is_open(self, name: str) -> bool | None:
-        """Whether a door, a drawer or a lid is open; ``None`` where it has none, or is neither open nor shut."""
+        """Return whether a door, drawer or lid is open; ``None`` without one, or if it is neither open nor shut."""
         handle = self.scene.handle(name)
         if handle is None or handle.kind in ("knob", "button"):
             return None
@@ -220,24 +220,24 @@ class Cell:
         return True if way >= ARTICULATION.open_from else False if way <= ARTICULATION.shut_to else None
 
     def ajar(self, name: str) -> bool:
-        """Whether a door, a drawer or a lid is neither open nor shut."""
+        """Return whether a door, a drawer or a lid is neither open nor shut."""
         handle = self.scene.handle(name)
         return handle is not None and handle.kind not in ("knob", "button") and self.is_open(name) is None
 
     def has_joint(self, name: str) -> bool:
-        """Whether there is a joint that it is opened, shut or set by."""
+        """Return whether it has a joint by which it is opened, shut or set."""
         handle = self.scene.handle(name)
         return handle is not None and handle.kind != "button"
 
     def way(self, name: str) -> float:
-        """How far a joint is on its way from closed (0) to open (1)."""
+        """Return the position of a joint on its way from closed (0) to open (1)."""
         handle = self.scene.handle(name)
         assert handle is not None
         at = self.sim.joint_position(handle.body, handle.joint)
         return (at - handle.closed) / (handle.open - handle.closed)
 
     def setting(self, name: str) -> str | None:
-        """The setting that a knob is at."""
+        """Return the setting of a knob; ``None`` without one, or between two."""
         handle = self.scene.handle(name)
         if handle is None or not handle.settings:
             return None
@@ -248,9 +248,9 @@ class Cell:
         return name_ if abs(angle - at) <= ARTICULATION.setting_share * step else None
 
     def reach(self, name: str) -> float:
-        """The distance on the floor from the robot's base to the nearest point of a thing or its whole, in metres.
+        """Return the distance on the floor from the robot's base to a thing or its whole, in metres.
 
-        Doors and drawers of it, which may stand open, do not count. What is in something is as near as that.
+        Its doors and drawers, which may stand open, do not count. A thing in something is as near as that.
         """
         x, y, _ = self.robot.base()
         body, _ = self.scene.place(name)
@@ -260,7 +260,7 @@ class Cell:
         return own if place is None or place[1] != "in" else min(own, self.reach(place[0]))
 
     def measured(self, atom: GroundAtom, sensor: str) -> str:
-        """The numbers behind a fact."""
+        """Return the numbers behind a fact."""
         name = atom.args[-1] if sensor in ("held", "reach") else atom.args[0]
         match sensor:
             case "held":
@@ -290,7 +290,7 @@ class Cell:
     def settle(self) -> None:
         """Let time pass until nothing that may fall moves for a quarter of a second, for at most four seconds.
 
-        What topples passes a point at which it hardly moves: so it must neither move nor turn, several times.
+        A thing that topples passes a point at which it hardly moves: it must neither move nor turn, several times.
         """
         loose = [self.scene.bodies[item] for item in self.scene.items() if item not in self.in_hand.values()]
         before, still = [self.sim.pose(body) for body in loose], 0
@@ -307,22 +307,22 @@ class Cell:
             before = now
 
     def fold(self) -> bool:
-        """Tuck the arms; where there is no room for that, step back as far as is needed. Whether they are tucked."""
-        if self.robot.tuck():
+        """Tuck the arms, stepping back as far as is needed for that; return whether they are tucked."""
+        if tuck(self.robot):
             return True
         x, y, theta = self.robot.base()
         pressed = {(body, link) for _, body, link, _ in self.robot.collides() if body != self.robot.body}
         for away in BASE_MOTION.tuck_steps_back:
             back = (x - away * cos(theta), y - away * sin(theta), theta)
             path = plan_base(self.robot, back, ignore=pressed, rng=self.rng, budget=_NEARBY)
-            if path is not None and self.robot.drive(path) and self.robot.tuck():
+            if path is not None and self.robot.drive(path) and tuck(self.robot):
                 return True
-        return self.robot.tuck(_LONG)
+        return tuck(self.robot, _LONG)
 
     def retire(self, side: str, ignore: Ignored, *, lid: bool = False) -> None:
         """Draw a hand back the way it points, and tuck the arms.
 
-        A hand that let go of a ``lid`` may as well leave it across: any other way would take along what it stands on.
+        A hand that let go of a ``lid`` may leave it across: any other way would take along the thing below.
         """
         here = self.robot.tool(side)
         back: list[tuple[Vector, Ignored]] = [((-away, 0.0, 0.0), ignore) for away in ARTICULATION.retreats]
@@ -336,7 +336,7 @@ class Cell:
 
     @contextmanager
     def gripped(self, side: str, handle: Handle) -> Iterator[None]:
-        """While a hand holds a handle: two pins under physics; in the kinematic mode the joint follows the hand."""
+        """Hold a handle: by two pins under physics; in the kinematic mode the joint follows the hand."""
         if self.robot.kinematic:
             with self._following(handle, lambda: self.robot.tool(side)):
                 yield
@@ -352,17 +352,14 @@ class Cell:
             for pin in pins:
                 self.sim.unweld(pin)
 
-    @contextmanager
-    def pushed(self, side: str, handle: Handle) -> Iterator[None]:
-        """While a finger pushes: contact under physics; in the kinematic mode the joint goes with the finger."""
+    def pushed(self, side: str, handle: Handle) -> AbstractContextManager[None]:
+        """Push with a finger: by contact under physics; in the kinematic mode the joint goes with the finger."""
         if not self.robot.kinematic:
-            yield
-            return
-        with self._following(handle, lambda: self.robot.tool(side)):
-            yield
+            return nullcontext()
+        return self._following(handle, lambda: self.robot.tool(side))
 
     def come_back(self, handle: Handle) -> None:
-        """In the kinematic mode, let a button that is pushed no longer come back, as its spring does it else."""
+        """Let a button come back in the kinematic mode, as its spring does under physics."""
         if self.robot.kinematic:
             self.sim.set_joint(handle.body, handle.index, handle.closed)
 
@@ -386,7 +383,7 @@ class Cell:
             self.sim.remove_watcher(follow)
 
     def in_drawer(self, handle: Handle) -> list[int]:
-        """The bodies that move with a drawer because they are in it."""
+        """Return the bodies that move with a drawer because they are in it."""
         if handle.kind != "drawer":
             return []
         places = {item: self.scene.supported(item) for item in self.scene.items()}
@@ -410,13 +407,9 @@ class Cell:
     def sweeps(
         self, name: str, base: tuple[float, float, float], *, goal: float | None = None, side: str | None = None
     ) -> bool:
-        """Whether a door would touch the robot, if that stood at ``base``, on its way from where it is.
+        """Return whether a door would touch the robot at ``base`` on its way.
 
-        Args:
-            name: The door.
-            base: x, y, theta.
-            goal: The position of its joint at the end of its way; None: open.
-            side: An arm that is not looked at, because it moves the door.
+        ``goal`` is the final position of its joint; None: open. The arm of ``side`` is not checked: it moves the door.
         """
         handle = self.scene.handle(name)
         if handle is None:
@@ -426,7 +419,7 @@ class Cell:
         arm = self.robot.tree.below(f"{side[0]}_shoulder_pan_link") if side else ()
         own = {self.robot.index[link] for link in arm}
         helds = [held for held in self.robot.helds() if held.side != side]
-        with self.robot.as_if(base):
+        with self.robot.as_if(self.robot.elsewhere(base)):
             try:
                 for share in np.linspace(0.0, 1.0, 2 + int(abs(end - start) / ARTICULATION.sweep_step)):
                     self.sim.set_joint(handle.body, handle.index, start + float(share) * (end - start))
@@ -439,7 +432,7 @@ class Cell:
         return False
 
     def how_open(self, name: str) -> str:
-        """For people."""
+        """Say how far a joint is open."""
         way = min(max(self.way(name), 0.0), 1.0)
         neither = ", which is neither open nor shut" if self.ajar(name) else ""
         return f"{name} is {100 * way:.0f} % open{neither}"
@@ -447,38 +440,62 @@ class Cell:
     # what skills ask
 
     def side_of(self, item: str) -> str | None:
-        """The arm that holds an item."""
+        """Return the arm that holds an item."""
         self._forget_lost()
         return next((side for side in ARMS if self.in_hand.get(side) == item), None)
 
     def free(self) -> list[str]:
-        """The arms that hold nothing."""
+        """Return the arms that hold nothing."""
         self._forget_lost()
         return [side for side in ARMS if side not in self.in_hand]
 
+    def need_free_hand(self) -> list[str]:
+        """Return the arms that hold nothing.
+
+        Raises:
+            SkillError: There are none.
+        """
+        if not (hands := self.free()):
+            raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+        return hands
+
+    def holding(self, item: str) -> str:
+        """Return the arm that holds an item.
+
+        Raises:
+            SkillError: None does.
+        """
+        side = self.side_of(item)
+        if side is None:
+            raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
+        return side
+
+    def links(self, *names: str) -> frozenset[tuple[int, int | None]]:
+        """Return all links of the bodies of some things, as ``ignore`` of motion planners."""
+        return frozenset((self.scene.place(name)[0], None) for name in names)
+
     def _forget_lost(self) -> None:
-        """What slipped out of a hand is no longer in it."""
         for side in [side for side in self.in_hand if not self._still_held(side)]:
             self.robot.let_go(side)
             del self.in_hand[side]
 
     def whole(self, name: str) -> str:
-        """The object that a part belongs to; an object itself."""
+        """Return the object that a part belongs to; an object itself."""
         body, _ = self.scene.place(name)
         return self.scene.owner(body) or name
 
     def centre(self, name: str) -> Vector:
-        """The middle of the box round a thing."""
+        """Return the middle of the box round a thing."""
         low, high = self.sim.extents(*self.scene.place(name))
         return ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
 
     def top(self, name: str) -> float:
-        """The height of the highest point of a thing."""
+        """Return the height of the highest point of a thing."""
         _, high = self.sim.extents(*self.scene.place(name))
         return high[2]
 
     def front(self, name: str) -> float | None:
-        """The heading of the side from which a thing is reached, in the world; ``None`` for what is held or free."""
+        """Return the heading of the side from which a thing is reached, in the world; ``None`` for a free thing."""
         item = self.whole(name)
         seen = set()
         while self.scene.is_item(item) and item not in seen:
@@ -492,12 +509,24 @@ class Cell:
         return self.sim.pose(self.scene.bodies[item]).yaw()
 
     def in_tool(self, side: str, item: str) -> Pose:
-        """The item's frame in the tool's."""
+        """Return the item's frame in the tool's."""
         return self.robot.tool(side).inverse() * self.sim.pose(self.scene.bodies[item])
 
 
+def make_cell(sim: Simulator, scene: Scene, *, seed: int, kinematic: bool, urdf: Path | None = None) -> Cell:
+    """Put a robot, the packaged PR2 or that of ``urdf``, in the middle of a scene.
+
+    Raises:
+        MissingToolError: The robot's model is not installed.
+        TmdError: ``urdf`` is not a PR2.
+    """
+    rng = np.random.default_rng(seed)
+    robot = Pr2(sim, urdf=urdf, kinematic=kinematic, rng=rng)
+    return Cell(sim, robot, scene, rng)
+
+
 def _along(handle: Handle, start: Pose, now: Pose) -> float:
-    """How far a joint moves when the hand at its handle moves from ``start`` to ``now``."""
+    """Return the motion of a joint when the hand at its handle moves from ``start`` to ``now``."""
     axis = np.array(handle.axis)
     shift = np.array(now.position) - np.array(start.position)
     if not handle.turns:

@@ -20,8 +20,9 @@ SkillName: TypeAlias = Literal[
 Sensor: TypeAlias = Literal["held", "one_hand", "two_hands", "support", "joint", "setting"]
 Confirmation: TypeAlias = Literal["reach"]
 
+# Number of arguments of a predicate for each sensor.
 _ARITY = {"held": 2, "one_hand": 1, "two_hands": 1, "support": 3, "joint": 1, "setting": 2, "reach": 2}
-"""How many arguments a predicate has that the sensor can see."""
+# Roles that a skill needs; other skills need an object.
 _NEEDS: dict[str, tuple[str, ...]] = {
     "place": ("object", "target", "relation"),
     "rotate": ("object", "setting"),
@@ -30,7 +31,6 @@ _NEEDS: dict[str, tuple[str, ...]] = {
     "squeeze": ("object", "target"),
     "wait": (),
 }
-"""What a skill must be told; the others need an object."""
 _ROLES = ("object", "target", "relation", "setting")
 
 
@@ -47,12 +47,7 @@ class SkillEntry(BaseModel):
 
 
 class Exposure(BaseModel):
-    """A fact that comes of another one about the same thing that holds for a time.
-
-    Attributes:
-        to: The predicate of the other one.
-        seconds: How long, in simulated seconds.
-    """
+    """A fact that follows from another one (predicate ``to``) about the same thing, after some seconds."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True)
     to: str
@@ -77,16 +72,7 @@ class SkillsFile(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class SkillTask:
-    """What a skill is asked to do.
-
-    Attributes:
-        skill: Which.
-        object: What it is done with or to; empty where there is nothing.
-        target: Where it goes, or what it goes into.
-        relation: How it shall be there: ``on``, ``in``, ``next_to``.
-        setting: Of a knob.
-        seconds: How long.
-    """
+    """The task of a skill: the thing, its target and relation (``on``, ``in``, ``next_to``), a knob's setting, time."""
 
     skill: SkillName
     object: str = ""
@@ -110,7 +96,7 @@ class Skills:
     domain: Domain
 
     def task(self, instruction: Instruction) -> SkillTask:
-        """What ``instruction`` asks of the robot.
+        """Return the task of an instruction.
 
         Raises:
             TmdError: ``skills.yaml`` has no skill for it.
@@ -124,6 +110,7 @@ class Skills:
         return SkillTask(entry.skill, **roles, seconds=entry.seconds)
 
 
+# Sensors of predicates with usual names, in a domain without ``skills.yaml``.
 _USUAL: Mapping[str, Sensor | Confirmation] = {
     "holding": "held",
     "at": "support",
@@ -131,11 +118,10 @@ _USUAL: Mapping[str, Sensor | Confirmation] = {
     "set_to": "setting",
     "near": "reach",
 }
-"""What the predicates of these names are about, in a domain that has no ``skills.yaml``."""
 
 
 def visible(folder: DomainFolder) -> Skills:
-    """What can be seen of a domain's states: as ``skills.yaml`` says or, without one, by the usual names.
+    """Return the visible predicates of a domain: by ``skills.yaml`` or, without one, by the usual names.
 
     Raises:
         TmdError: There is a file, and it is wrong.
@@ -152,7 +138,7 @@ def visible(folder: DomainFolder) -> Skills:
 
 
 def load_skills(folder: DomainFolder, report: Report | None = None) -> Skills:
-    """The skills of a domain; ``report`` takes the faults of the file.
+    """Load the skills of a domain; ``report`` takes the faults of the file.
 
     Raises:
         TmdError: The file is missing, or does not fit the domain; with the place.
@@ -190,42 +176,25 @@ def load_skills(folder: DomainFolder, report: Report | None = None) -> Skills:
             source.recover(None, _check_predicate, source, ("inferred", predicate, "to"), rule.to, arities)
     if said.contents is not None:
         _check_predicate(source, ("contents",), said.contents, arities)
-    return Skills(
-        said.skills,
-        said.seen,
-        said.confirmed,
-        frozenset(said.derived),
-        said.inferred,
-        tuple(said.signs),
-        said.contents,
-        domain,
-    )
+    derived, signs = frozenset(said.derived), tuple(said.signs)
+    return Skills(said.skills, said.seen, said.confirmed, derived, said.inferred, signs, said.contents, domain)
 
 
 def _check_entry(source: YamlSource, domain: Domain, name: str, entry: SkillEntry) -> None:
     action = next((a for a in domain.actions if a.name == name), None)
     if action is None:
-        raise source.error(
-            ("skills", name),
-            f"the domain has no action '{name}'",
-            nearest(name, [a.name for a in domain.actions]),
-            "unknown-action",
-        )
+        hint = nearest(name, [a.name for a in domain.actions])
+        raise source.error(("skills", name), f"the domain has no action '{name}'", hint, "unknown-action")
     for role in _NEEDS.get(entry.skill, ("object",)):
         if getattr(entry, role) is None:
-            raise source.error(
-                ("skills", name), f"the skill '{entry.skill}' must be told its {role}", None, "missing-role"
-            )
+            message = f"the skill '{entry.skill}' must be told its {role}"
+            raise source.error(("skills", name), message, None, "missing-role")
     known = [p.name.removeprefix("?") for p in action.parameters] + [c.name for c in domain.constants]
     for role in _ROLES:
         said = getattr(entry, role)
         if said is not None and said not in known:
-            raise source.error(
-                ("skills", name, role),
-                f"'{said}' is neither a parameter of '{name}' nor a constant of the domain",
-                nearest(said, known),
-                "unknown-object",
-            )
+            message = f"'{said}' is neither a parameter of '{name}' nor a constant of the domain"
+            raise source.error(("skills", name, role), message, nearest(said, known), "unknown-object")
 
 
 def _check_predicate(

@@ -1,4 +1,4 @@
-"""Getting a hand somewhere: where to stand, how high, with which arm, and the way there.
+"""Search for a stance: the place, the torso height, the arm, and the way there, to bring a hand somewhere.
 
 A skill offers *options*: sequences of tool poses any of which would do. Each is tried from where the robot stands,
 then from places round what is to be reached, nearest to its front first; the first one that has postures for all
@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain, islice, pairwise, product
+from itertools import chain, islice, product
 from math import atan2, ceil, cos, hypot, pi, sin
 
 from tmd.robot.parameters import ARM_MOTION, STANCE
-from tmd.robot.pr2.arm_motion import between, plan_arm, plan_level, plan_poses
+from tmd.robot.pr2.arm_motion import dense, plan_arm, plan_level, plan_poses
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.pr2.reach_bounds import Wrists
@@ -29,10 +29,10 @@ Accept = Callable[["Option", Base], bool]
 _FINE_SWINGS = tuple(sign * 0.15 * step for step in range(10) for sign in ((1, -1) if step else (1,)))
 _FAR_SWINGS = tuple(sign * 0.3 * step for step in range(5, 11) for sign in (1, -1))
 _COARSE = 4.0
+# Ways or places that are looked at to say what is in the way.
 _EXPLAINED = 8
-"""Ways or places that are looked at to say what is in the way."""
+# Samples for a way of the arm: where there are other stances to try, and where there is none.
 _SHORT, _LONG = 300, 2000
-"""Samples for a way of the arm: where there are other stances to try, and where there is none."""
 _SHOULDER_HEIGHT = 0.790675
 
 
@@ -44,8 +44,8 @@ class Option:
         side: The arm.
         poses: Of the tool in the world: the first is reached freely, the others one after the other in straight lines.
         ignore: (body, link) that the hand may touch at the first pose and on the way along the others.
-        spot: What was chosen with it, for the skill.
-        part: How far open something is at the end.
+        spot: A number for the skill.
+        part: Share of a door's whole way at the end.
     """
 
     side: str
@@ -80,14 +80,14 @@ def reach(
 
     Args:
         cell: Robot and scene.
-        what: What is to be reached, for people.
-        options: What would do, best first.
-        focus: Where that is.
-        front: The heading of the side it is reached from, where it has one.
-        attempt: How often this was tried before; later tries begin farther down the list.
+        what: Name of the goal for messages.
+        options: Alternatives, best first.
+        focus: Pose of the goal.
+        front: The heading of the side it is reached from, if it has one.
+        attempt: Number of earlier tries; later tries begin farther down the list.
         stop: Number of poses to go to; the others must be possible from there.
         stay: Neither the base nor the torso may move.
-        accept: Says of an option from a base whether it will do.
+        accept: Returns whether an option from a base will do.
 
     Raises:
         SkillError: None can be reached (stance), there is no way (path), the robot did not get there (execution), or
@@ -107,7 +107,9 @@ def reach(
     tried_before = list(islice(found, 2 * attempt))
     for candidate in _timely(chain(found, tried_before), said):
         cell.look_on(f"the way to {what}")
-        if any(_alike(candidate, other) for other in failed) or any(_close(candidate.base, base) for base in closed):
+        # the same arm in nearly the same place fails again
+        alike = (each.base for each in failed if each.option is candidate.option)
+        if any(_close(candidate.base, base) for base in (*alike, *closed)):
             continue
         try:
             get_to(cell, candidate.base, candidate.torso)
@@ -126,17 +128,16 @@ def reach(
             break
     if not said:
         raise SkillError(SkillPhase.STANCE, _unreached(cell, what, fitting, focus, front, stay=stay))
-    if said[-1].stage is SkillPhase.PATH and failed:
-        return _insist(cell, what, failed[0], stop)
-    raise said[-1]
+    if said[-1].stage is not SkillPhase.PATH or not failed:
+        raise said[-1]
+    # nothing else is left: look longer for a way from the best stance
+    get_to(cell, failed[0].base, failed[0].torso)
+    _take(cell, what, failed[0].option, stop, budget=_LONG)
+    return failed[0].option
 
 
 def _timely(found: Iterator[StanceCandidate], said: Sequence[SkillError]) -> Iterator[StanceCandidate]:
-    """The same; where they take too long, what was said last is told with that.
-
-    Raises:
-        SkillError: They take too long.
-    """
+    """Pass candidates on; if they take too long, the error names the last failure as well."""
     try:
         yield from found
     except SkillError as error:
@@ -145,15 +146,7 @@ def _timely(found: Iterator[StanceCandidate], said: Sequence[SkillError]) -> Ite
         raise SkillError(SkillPhase.TIME, f"{error.reason}; before that, {said[-1].reason}") from error
 
 
-def _insist(cell: Cell, what: str, candidate: StanceCandidate, stop: int | None) -> Option:
-    """Look longer for a way from the best stance, once nothing else is left."""
-    get_to(cell, candidate.base, candidate.torso)
-    _take(cell, what, candidate.option, stop, budget=_LONG)
-    return candidate.option
-
-
 def _in_the_way(cell: Cell, options: Sequence[Option]) -> str:
-    """What a hand would be in there."""
     ways = [(option.side, option.poses[-1:], option.ignore) for option in options]
     told = obstruction.of_hand(cell, ways[:: max(1, len(ways) // _EXPLAINED)])
     return f": {told}" if told else ""
@@ -162,7 +155,6 @@ def _in_the_way(cell: Cell, options: Sequence[Option]) -> str:
 def _unreached(
     cell: Cell, what: str, options: Sequence[Option], focus: Pose, front: float | None, *, stay: bool
 ) -> str:
-    """Why no place to stand does, with what is in the way."""
     said = f"no place to stand reaches {what}, {len(options)} ways were tried"
     here = cell.robot.base()
     usual = [here] if stay else list(stances(cell, focus, front, STANCE.distances[:2]))
@@ -177,7 +169,7 @@ def _unreached(
 
 
 def with_room(cell: Cell, options: Sequence[Option]) -> list[Option]:
-    """The options whose poses have room for the hand and for what it holds, wherever the robot stands."""
+    """Return the options whose poses have room for the hand and for what it holds, wherever the robot stands."""
     checkers: dict[tuple[str, Links], HandChecker] = {}
     found = []
     for option in options:
@@ -201,9 +193,9 @@ def candidates(
     stay: bool = False,
     accept: Accept | None = None,
 ) -> Iterator[StanceCandidate]:
-    """Options from places to stand for which all poses have postures without collisions.
+    """Yield options from places to stand for which all poses have postures without collisions.
 
-    The search ends when its questions have cost more than ``patience``.
+    The search ends when its checks have cost more than ``patience``.
     """
     if not options:
         return
@@ -229,7 +221,7 @@ def candidates(
 
 
 def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
-    """Places to stand where the robot touches nothing: the usual ones, then many more between them."""
+    """Yield places to stand where the robot touches nothing: the usual ones, then many more between them."""
     here = cell.robot.base()
     usual = list(stances(cell, focus, front))
     yield from (base for base, free in zip(usual, cell.robot.free_bases(usual), strict=True) if free or base == here)
@@ -241,11 +233,6 @@ def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
     yield from (base for base, free in zip(closer, cell.robot.free_bases(closer), strict=True) if free)
 
 
-def _alike(one: StanceCandidate, other: StanceCandidate) -> bool:
-    """Whether what failed there will fail here: the same arm in nearly the same place."""
-    return one.option is other.option and _close(one.base, other.base)
-
-
 def _close(one: Base, other: Base) -> bool:
     return hypot(one[0] - other[0], one[1] - other[1]) < STANCE.alike
 
@@ -253,7 +240,7 @@ def _close(one: Base, other: Base) -> bool:
 def stances(
     cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = STANCE.distances
 ) -> Iterator[Base]:
-    """Where to stand: here, then round the focus."""
+    """Yield places to stand: here, then round the focus."""
     x, y, z = focus.position
     if z < STANCE.low:
         distances = (*STANCE.low_distances, *(d for d in distances if d > STANCE.low_distances[-1]))
@@ -272,7 +259,7 @@ def _round(
     swings: Sequence[float],
     turns: Sequence[float],
 ) -> Iterator[Base]:
-    """Places round the focus; without a front, the robot's own side is the front."""
+    """Yield places round the focus; without a front, the robot's own side is the front."""
     x, y, _ = focus.position
     here = cell.robot.base()
     middle = front if front is not None else atan2(here[1] - y, here[0] - x)
@@ -298,11 +285,7 @@ def get_to(cell: Cell, base: Base, torso: float) -> None:
 
 
 def _drive(cell: Cell, base: Base) -> None:
-    """Drive; slowly where there is little room, for there the robot must be exact.
-
-    Raises:
-        SkillError: There is no way, or the robot did not get there.
-    """
+    """Drive; slowly in little room, where the robot must be exact."""
     for away, pace in STANCE.clearances:
         path = plan_base(cell.robot, base, rng=cell.rng, clearance=away)
         if path is None:
@@ -315,7 +298,6 @@ def _drive(cell: Cell, base: Base) -> None:
 
 
 def _lift(cell: Cell, torso: float) -> None:
-    """Move the torso, with tucked arms if they would be in something there."""
     if _sticks(cell, torso) and not (cell.fold() and not _sticks(cell, torso)):
         told = obstruction.of_posture(cell, torso) or "something is in the way"
         raise SkillError(SkillPhase.PATH, f"{told} of the arms with the torso at {torso:.2f} m")
@@ -324,7 +306,7 @@ def _lift(cell: Cell, torso: float) -> None:
 
 
 def _sticks(cell: Cell, torso: float) -> bool:
-    """Whether the arms, or what they hold, would be in something on the way of the torso."""
+    """Return whether the arms, or what they hold, would be in something on the way of the torso."""
     here = cell.robot.torso()
     steps = ceil(abs(torso - here) / STANCE.torso_step)
     heights = [here + (torso - here) * step / steps for step in range(1, steps + 1)]
@@ -345,16 +327,8 @@ def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
         told = obstruction.of_straight(cell, side, whole, ignore)
         raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight on: {told}")
     if not cell.robot.move_arm(side, path):
-        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}{_held_up(cell)}")
-
-
-def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
-    """``poses`` with others in between, ``pitch`` cm and 0.05 ``pitch`` rad apart at most."""
-    found = [poses[0]]
-    for start, end in pairwise(poses):
-        pieces = max(1, ceil(max(start.distance(end) / (0.01 * pitch), start.angle(end) / (0.05 * pitch)) - 1e-9))
-        found += [between(start, end, k / pieces) for k in range(1, pieces + 1)]
-    return found
+        place = " ".join(f"{value:.2f}" for value in poses[-1].position)
+        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {place}{_held_up(cell)}")
 
 
 def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int = _SHORT) -> None:
@@ -377,7 +351,7 @@ def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int =
 
 
 def _level(cell: Cell, option: Option, whole: Sequence[Pose]) -> list[tuple[float, ...]] | None:
-    """A straight way to the first pose for what is carried upright, from whose end the others can be reached."""
+    """Return a straight way to the first pose for what is carried upright, from whose end the others can be reached."""
     if cell.robot.keeps_level(option.side) is None:
         return None
     path = plan_level(cell.robot, option.side, option.poses[0], ignore=option.ignore)
@@ -387,13 +361,12 @@ def _level(cell: Cell, option: Option, whole: Sequence[Pose]) -> list[tuple[floa
 
 
 def _held_up(cell: Cell) -> str:
-    """What the robot presses against."""
     told = obstruction.of_posture(cell)
     return f": {told}" if told else ""
 
 
 def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[bool, int]:
-    """Whether there is a posture for the last pose, and a motion through all of them; and what it cost to ask."""
+    """Return whether there are a posture for the last pose and a motion through all, and the cost of this check."""
     robot, side = cell.robot, option.side
     found = robot.solve(side, option.poses[-1], base=base, torso=torso)[: STANCE.max_postures]
     if not found:
@@ -406,7 +379,7 @@ def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[boo
 
 
 def _heights(cell: Cell, hand: float) -> list[float]:
-    """Torso heights: as it is, then those that suit a hand at a height."""
+    """Return torso heights: the present one, then those that suit a hand at a height."""
     here = cell.robot.torso()
     found = [here]
     for above in STANCE.shoulder_above_hand:
@@ -418,7 +391,3 @@ def _heights(cell: Cell, hand: float) -> list[float]:
 
 def _wrapped(angle: float) -> float:
     return (angle + pi) % (2 * pi) - pi
-
-
-def _place(pose: Pose) -> str:
-    return " ".join(f"{value:.2f}" for value in pose.position)

@@ -1,4 +1,4 @@
-"""The place of a film's camera: for each instruction the angle that best shows the hands and the thing.
+"""The camera of a film: for each instruction the angle that best shows the hands and the thing.
 
 Angles round the subject are compared by what rays from there meet: a point that something hides counts nothing.
 Rays move nothing, so a run is the same with and without a film.
@@ -15,18 +15,18 @@ from tmd.robot.pr2.pr2 import ARMS
 from tmd.robot.sim.pose import Vector
 from tmd.robot.skills.robot_context import Cell
 
+# Vertical angle of view in degrees.
 FOV = 50.0
-"""Vertical angle of view in degrees."""
 _TURNS = tuple(math.radians(15.0 * step) for step in range(24))
 _HEIGHTS = tuple(map(math.radians, (28.0, 40.0, 54.0)))
+# Metres round the subject that are in the picture, at least.
 _CLOSE, _WIDE = 0.5, 1.0
-"""Metres round the subject that are in the picture, at least."""
+# A hand that is farther from the thing than this has nothing to do with it.
 _NEAR_HAND = 0.9
-"""A hand that is farther from the thing than this has nothing to do with it."""
+# A ray that gets this near to its goal has met it.
 _SEEN = 0.1
-"""A ray that gets this near to its goal has met it."""
+# The robot's own body counts as seen where it is this near to the point.
 _OWN = 0.35
-"""The robot's own body counts as seen where it is this near to the point."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class View:
 
     @property
     def eye(self) -> Vector:
-        """Where the camera is."""
+        """The position of the camera."""
         x, y, z = self.target
         flat = self.distance * math.cos(self.height)
         return (
@@ -52,7 +52,7 @@ class View:
 
 @dataclass(frozen=True, slots=True)
 class _Point:
-    """Something that should be seen: the bodies whose surface it is on, and how much it matters."""
+    """A point to show: the bodies whose surface it is on, and its weight."""
 
     place: Vector
     bodies: tuple[int, ...]
@@ -62,44 +62,33 @@ class _Point:
 class Camera:
     """The camera of one film.
 
-    Args:
-        cell: Robot and scene.
+    Attributes:
+        view: The chosen view.
+        wide: Whether that shows the whole robot.
     """
 
     def __init__(self, cell: Cell) -> None:
         self._cell = cell
         self._names: tuple[str, ...] = ()
-        self._wide = True
-        self._view = _overview(cell)
+        self.wide = True
+        self.view = _overview(cell)
 
     def follow(self, names: Sequence[str], *, wide: bool) -> None:
-        """Choose the view from now on.
+        """Choose the view of some objects and parts (none: the former ones) from now on.
 
-        Args:
-            names: Objects and parts; none: what it was before.
-            wide: Show the whole robot on its way there, not its hands.
+        A ``wide`` view shows the whole robot on its way there, not its hands.
         """
         self._names = tuple(dict.fromkeys(names)) or self._names
-        self._wide = wide
-        self._view = self.best()
-
-    @property
-    def wide(self) -> bool:
-        """Whether the whole robot is shown."""
-        return self._wide
-
-    @property
-    def view(self) -> View:
-        """The chosen view."""
-        return self._view
+        self.wide = wide
+        self.view = self.best()
 
     def best(self) -> View:
-        """The angle that shows most now."""
+        """Return the angle that shows most now."""
         if not self._names:
             return _overview(self._cell)
         points = self._points()
         target, around = _ball([p.place for p in points if p.weight >= 1.0])
-        around = max(around + 0.3, _WIDE) if self._wide else max(around + 0.2, _CLOSE)
+        around = max(around + 0.3, _WIDE) if self.wide else max(around + 0.2, _CLOSE)
         distance = around / math.sin(math.radians(FOV / 2))
         views = [View(target, turn, height, distance) for turn, height in product(_TURNS, _HEIGHTS)]
         return max(views, key=lambda view: self._worth(view, points))
@@ -115,7 +104,7 @@ class Camera:
             points += [_Point((a, b, high[2]), (body,), 0.25) for a, b in product((low[0], high[0]), (low[1], high[1]))]
         own = (cell.robot.body, *(cell.scene.bodies[item] for item in cell.in_hand.values()))
         x, y, _ = cell.robot.base()
-        if self._wide:
+        if self.wide:
             return [*points, _Point((x, y, 1.2), own, 1.5), _Point((x, y, 0.5), own, 1.0)]
         things = [p.place for p in points]
         for side in ARMS:
@@ -128,7 +117,7 @@ class Camera:
         if self._inside(view.eye):
             return -math.inf
         seen = sum(point.weight for point in points if self._sees(view.eye, point))
-        turned = abs(math.remainder(view.turn - self._view.turn, math.tau)) / math.pi
+        turned = abs(math.remainder(view.turn - self.view.turn, math.tau)) / math.pi
         return seen - 1.2 * turned - 0.8 * abs(view.height - _HEIGHTS[1])
 
     def _sees(self, eye: Vector, point: _Point) -> bool:
@@ -140,7 +129,7 @@ class Camera:
         return hit.body in point.bodies and (near or hit.body != self._cell.robot.body)
 
     def _inside(self, eye: Vector) -> bool:
-        """Whether the camera would stand in something, or so near that it fills the picture."""
+        """Return whether the camera would be in something, or so near that it fills the picture."""
         for name, body in self._cell.scene.bodies.items():
             if name in self._cell.scene.blueprints and not self._cell.scene.is_item(name):
                 low, high = self._cell.sim.extents(body)
@@ -150,7 +139,6 @@ class Camera:
 
 
 def _overview(cell: Cell) -> View:
-    """The whole room, from its open side."""
     eye, target = cell.scene.viewpoint()
     x, y, z = (e - t for e, t in zip(eye, target, strict=True))
     distance = math.hypot(x, y, z)
@@ -158,6 +146,6 @@ def _overview(cell: Cell) -> View:
 
 
 def _ball(places: Sequence[Vector]) -> tuple[Vector, float]:
-    """The middle of some points, and how far the farthest is from it."""
+    """Return the middle of some points, and the distance of the farthest."""
     x, y, z = ((min(values) + max(values)) / 2 for values in zip(*places, strict=True))
     return (x, y, z), max(math.dist((x, y, z), place) for place in places)

@@ -1,10 +1,10 @@
-"""What stands under the pictures: the instruction, what was said, and the facts that were checked."""
+"""Captions under pictures: the instruction, the words of the request, and the checked facts."""
 
 from __future__ import annotations
 
 import importlib.util
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -25,14 +25,13 @@ if TYPE_CHECKING:
 Pixels: TypeAlias = NDArray[np.uint8]
 Mark: TypeAlias = Literal["expected", "measured", "inferred", "assumed", "missing"]
 
+# Of the caption under a picture 640 pixels wide; others have it in proportion.
 HEIGHT = 128
-"""Of the caption under a picture 640 pixels wide; others have it in proportion."""
 _USUAL = 640
 _PAPER, _INK, _PALE = "#1d2127", "#f3f1ec", "#a3a9b3"
 _COLOURS = {
     "expected": "#a3a9b3", "measured": "#6fcf7c", "inferred": "#6db3f2", "assumed": "#e6b450", "missing": "#ff7b6b",
 }  # fmt: skip
-LEGEND = "✓ measured   ∴ inferred from what was measured   ? assumed   ✗ not as predicted"
 _BADGES = {"ok": "#6fcf7c", "failed": "#ff7b6b", "mismatch": "#ff7b6b", "stopped": "#ff7b6b"}
 _COLUMNS = 4
 _GAP = 10
@@ -45,9 +44,9 @@ class Caption:
     Attributes:
         title: The instruction.
         number: Its place in the plan.
-        said: What it is for.
+        said: Its purpose.
         facts: Each fact with its mark.
-        note: What was measured, or why it failed.
+        note: Measurements, or the reason of a failure.
         badge: One word at the right: ``ok``, ``failed``; empty while it is being done.
     """
 
@@ -72,20 +71,12 @@ def pillow() -> None:
 
 
 def caption_height(width: int) -> int:
-    """Pixels under a picture of this width; even, as films need it."""
+    """Return the pixels under a picture of this width; even, as films need it."""
     return 2 * round(HEIGHT * width / _USUAL / 2)
 
 
 def under(picture: Pixels, caption: Caption) -> Pixels:
-    """The picture with its caption under it.
-
-    Args:
-        picture: (height, width, 3), RGB.
-        caption: What to write.
-
-    Returns:
-        (height + caption_height(width), width, 3), RGB.
-    """
+    """Return the picture (height, width, 3) with its caption under it: ``caption_height(width)`` pixels higher."""
     from PIL import Image
 
     height, width, _ = picture.shape
@@ -96,7 +87,7 @@ def under(picture: Pixels, caption: Caption) -> Pixels:
 
 
 def filmstrip(pictures: Sequence[Pixels]) -> Image:
-    """Pictures of one size, in reading order, on one sheet of at most four columns."""
+    """Arrange pictures of one size, in reading order, on one sheet of at most four columns."""
     from PIL import Image
 
     columns = min(_COLUMNS, max(1, math.ceil(math.sqrt(len(pictures)))))
@@ -141,13 +132,9 @@ def _write(whole: Image, top: int, caption: Caption) -> None:
 
 
 def _facts(
-    draw: ImageDraw,
-    facts: Sequence[tuple[str, Mark]],
-    font: Font,
-    unit: float,
-    place: tuple[float, float, float],
+    draw: ImageDraw, facts: Sequence[tuple[str, Mark]], font: Font, unit: float, place: tuple[float, float, float]
 ) -> int:
-    """Draw facts beside each other on at most two rows; returns the rows that were used."""
+    """Draw facts beside each other on at most two rows; return the rows that were used."""
     left, right, top = place
     x, row, step, gap = left, 0, 20 * unit, 18 * unit
     for index, (fact, mark) in enumerate(facts):
@@ -168,7 +155,7 @@ def _facts(
 
 
 def _mark(draw: ImageDraw, place: tuple[float, float], mark: Mark, size: float) -> None:
-    """A ring, a tick, three dots, a question mark or a cross: drawn, because not every font has them."""
+    """Draw a ring, a tick, three dots, a question mark or a cross, since not every font has them."""
     x, y = place
     colour, width = _COLOURS[mark], max(1, round(size / 5))
 
@@ -194,7 +181,7 @@ def _mark(draw: ImageDraw, place: tuple[float, float], mark: Mark, size: float) 
 
 
 def _fitted(draw: ImageDraw, text: str, font: Font, width: float) -> str:
-    """The text, cut with dots where it is too wide."""
+    """Cut the text with dots if it is too wide."""
     if draw.textlength(text, font) <= width:
         return text
     while text and draw.textlength(text + "…", font) > width:
@@ -203,29 +190,21 @@ def _fitted(draw: ImageDraw, text: str, font: Font, width: float) -> str:
 
 
 def _wrapped(draw: ImageDraw, text: str, font: Font, width: float, most: int) -> list[str]:
-    """The text on at most ``most`` lines; what is left over is cut."""
+    """Wrap the text to at most ``most`` lines; the rest is cut."""
     lines: list[str] = []
     words = text.split()
     while words and len(lines) < most:
-        if len(lines) == most - 1:
-            return [*lines, _fitted(draw, " ".join(words), font, width)]
-        count = max(_fitting(draw, words, font, width), default=1)
+        count = len(words) if len(lines) == most - 1 else 1
+        while count < len(words) and draw.textlength(" ".join(words[: count + 1]), font) <= width:
+            count += 1
         lines.append(_fitted(draw, " ".join(words[:count]), font, width))
         words = words[count:]
     return lines
 
 
-def _fitting(draw: ImageDraw, words: Sequence[str], font: Font, width: float) -> Iterator[int]:
-    """How many leading words fit on a line, from one up."""
-    for count in range(1, len(words) + 1):
-        if draw.textlength(" ".join(words[:count]), font) > width:
-            return
-        yield count
-
-
 @cache
 def _font(size: int, bold: bool) -> Font:
-    """The font that comes with matplotlib; Pillow's own where that is not as expected."""
+    """Return the font that comes with matplotlib, or else Pillow's own."""
     from PIL import ImageFont
 
     found = importlib.util.find_spec("matplotlib")

@@ -28,52 +28,43 @@ from tmd.robot.video.movie_file import MovieFile
 PICTURE = (640, 480)
 GIF_PICTURE = (480, 360)
 FPS = {".mp4": 15, ".gif": 10}
+# Seconds for which the checked facts of an instruction are shown.
 _SHOWN = 0.8
-"""Seconds for which the checked facts of an instruction are shown."""
 _FAILURE_SHOWN = 2.0
 _OPENING, _ENDING = 1.5, 2.5
 TILE = (400, 300)
+# Radians beside the middle of a close picture within which the robot's own head, nearer than that, is left out.
 _HEAD = 0.35
-"""Radians beside the middle of a close picture within which the robot's own head, nearer than that, is left out."""
+# Skills that are seen from afar.
 _FAR = ("look", "drive")
-"""Skills that are seen from afar."""
 
 
 def open_movie(
     path: Path, picture: tuple[int, int] | None = None, fps: int | None = None, *, small: bool = False
 ) -> MovieFile:
-    """A file for a film with captions.
+    """Open a file for a film with captions, of a kind that the suffix gives.
 
-    Args:
-        path: Where it goes; its suffix says what kind of film it is.
-        picture: Width and height of the pictures without their captions, even numbers; the kind's usual ones if not.
-        fps: Pictures a second; the kind's usual ones if not. The pauses of a GIF are hundredths of seconds.
-        small: Spare bytes, as :class:`MovieFile` does.
+    ``picture`` is the size of the pictures without their captions, even numbers; the kind's usual size and ``fps`` are
+    taken without them. The pauses of a GIF are hundredths of seconds.
 
     Raises:
-        MissingToolError: What writes films of this kind is not installed.
+        MissingToolError: A package that writes films of this kind is not installed.
         OutputError: It cannot be written there.
-        TmdError: The suffix says no kind of film that is known.
+        TmdError: The suffix is not that of a known kind of film.
     """
     width, height = picture or (GIF_PICTURE if path.suffix == ".gif" else PICTURE)
     return MovieFile(path, (width, height + caption_height(width)), fps or FPS.get(path.suffix, 1), small=small)
 
 
 class Film:
-    """Takes the pictures of a run.
-
-    It listens to a :class:`tmd.robot.monitor.listeners.Recorder`. Between :meth:`begin` and :meth:`end` it takes
-    pictures as simulated time goes by.
+    """Takes the pictures of a run as simulated time goes by, and listens to its events.
 
     Args:
         cell: Robot and scene.
-        skills: What instructions are about.
-        movie: Where the film goes, from :func:`open_movie`; None: no film, only the filmstrip.
-        strip: Whether there shall be a filmstrip.
+        skills: Of the domain.
+        movie: The film, from :func:`open_movie`; None: no film, only the filmstrip.
+        strip: Whether to make a filmstrip.
         tile: Width and height of its pictures without their captions.
-
-    Raises:
-        MissingToolError: Pillow is not installed.
     """
 
     def __init__(
@@ -111,12 +102,12 @@ class Film:
             cell.sim.add_watcher(self._watch)
 
     def open(self, title: str, said: str) -> None:
-        """Begin with the room and what was said."""
+        """Begin with the room and the request."""
         self._caption = Caption(title, note=said)
         self._hold(_OPENING)
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """An instruction begins."""
+        """Turn the camera to an instruction."""
         self._of = title.of
         self._event = None
         if not title.repair:
@@ -132,7 +123,7 @@ class Film:
         )
 
     def end(self, title: Title, step: ExecutedStep) -> None:
-        """It is over: the facts are marked, and the picture stays for a moment."""
+        """Mark the facts, and hold the picture for a moment."""
         told = sorted(step.effects, key=lambda effect: not effect.holds)
         facts: list[tuple[str, Mark]] = [(str(effect), effect.basis.value) for effect in told]
         facts += [(f"{'' if m.expected else 'not '}{m.atom}", "missing") for m in step.mismatches]
@@ -154,7 +145,7 @@ class Film:
             self._tiles.append(under(picture, self._caption))
 
     def close(self, execution: Execution) -> None:
-        """End with how it ended."""
+        """Finish with the result."""
         repairs = f"; repairs of the plan: {execution.repairs}" if execution.repairs else ""
         badge = "stopped" if execution.status is SkillStatus.STOPPED else ""
         lasting = "; ".join(f"left otherwise than planned: {each}" for each in execution.lasting)
@@ -171,18 +162,17 @@ class Film:
         self._hold(_ENDING)
 
     def _take_event(self) -> None:
-        """What an instruction is about happens now: the strip shows that."""
         self._event = self._picture(self._camera.best(), self._tile)
 
     def _number(self, title: Title) -> str:
-        """Its place in the plan, and which try it is, if it is not the first."""
+        """Return its place in the plan, and the number of the try after the first."""
         if title.repair:
             return "repair"
         tries = self._tries[title.number]
         return f"{title.number}/{title.of}{f', try {tries}' if tries > 1 else ''}"
 
     def write_strip(self, path: Path) -> None:
-        """Write the filmstrip of what was done so far; nothing where nothing was done.
+        """Write the filmstrip of the steps so far, if there are any.
 
         Raises:
             OutputError: It cannot be written.
@@ -212,7 +202,6 @@ class Film:
         self._movie.add(under(self._last, self._caption))
 
     def _hold(self, seconds: float) -> None:
-        """Let the last picture stay, with the caption as it is now."""
         if self._movie is None:
             return
         if self._last is None:
@@ -226,7 +215,7 @@ class Film:
 
     @contextmanager
     def _without_head(self, view: View) -> Iterator[None]:
-        """Without the robot's head, where it would be between the camera and what that looks at."""
+        """Hide the robot's head if it is between the camera and its target."""
         robot, sim = self._cell.robot, self._cell.sim
         hidden: list[str] = []
         if not self._camera.wide and _before(view, robot.eye().position):
@@ -241,7 +230,7 @@ class Film:
 
 
 def _before(view: View, point: Sequence[float]) -> bool:
-    """Whether a point is near the line of sight, and nearer than the target."""
+    """Return whether a point is near the line of sight, and nearer than the target."""
     eye = np.array(view.eye)
     ahead, there = np.array(view.target) - eye, np.array(point) - eye
     far, near = float(np.linalg.norm(ahead)), float(np.linalg.norm(there))

@@ -7,42 +7,36 @@ error. If the whole process is killed, the neighbour is of no use; the next film
 from __future__ import annotations
 
 import importlib.util
-from collections.abc import Callable, Generator
-from functools import partial
+from collections.abc import Generator
 from io import BytesIO
 from pathlib import Path
-from types import TracebackType
-from typing import IO, Any, Self
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import IO, TYPE_CHECKING, Any, Self
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.files import check_writable, write_bytes
 from tmd.lock import try_lock
-from tmd.robot.video.captions import pillow
+from tmd.robot.video.captions import Pixels, pillow
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
 
 SUFFIXES = (".mp4", ".gif")
 _COLOURS = 128
 
 
 class MovieFile:
-    """A film that is being written.
+    """A film that is being written, with pictures of a size in pixels (even numbers), ``fps`` of them a second.
 
-    Args:
-        path: Where it goes.
-        size: Width and height of every picture, in pixels; even numbers.
-        fps: Pictures a second.
-        small: Spare bytes rather than detail: an MP4 is a third as large.
+    ``small`` spares bytes rather than detail: an MP4 is a third as large.
 
     Attributes:
-        pictures: How many were added.
-        last: The one that was added last; ``None`` for none.
+        pictures: The number of pictures so far.
+        last: The last of them; ``None`` without one.
 
     Raises:
-        MissingToolError: What writes films of this kind is not installed.
+        MissingToolError: A package that writes films of this kind is not installed.
         OutputError: It cannot be written there.
-        TmdError: The suffix says no kind of film that is known.
+        TmdError: The suffix is not that of a known kind of film.
     """
 
     def __init__(self, path: Path, size: tuple[int, int], fps: int, *, small: bool = False) -> None:
@@ -50,13 +44,9 @@ class MovieFile:
         self.size = size
         self.fps = fps
         self.pictures = 0
-        self.last: NDArray[np.uint8] | None = None
+        self.last: Pixels | None = None
         self._draft = path.with_name(f"{path.stem}.unfinished{path.suffix}")
-        known: dict[str, Callable[[Path, tuple[int, int], int], _Writer]] = {
-            ".mp4": partial(_Mp4, small=small),
-            ".gif": _Gif,
-        }
-        if path.suffix not in known:
+        if path.suffix not in SUFFIXES:
             raise TmdError(f"{path}: films are .mp4 or .gif files", hint=f"call it {path.stem}.mp4")
         check_writable(path)
         pillow()
@@ -65,27 +55,24 @@ class MovieFile:
             raise OutputError(f"{path} cannot be written: another run is filming there", hint="name another file")
         self._lock = lock
         try:
-            self._writer: _Writer | None = known[path.suffix](self._draft, size, fps)
-        except OSError as error:
+            self._writer: _Mp4 | _Gif | None = (
+                _Gif(self._draft, fps) if path.suffix == ".gif" else _Mp4(self._draft, size, fps, small=small)
+            )
+        except (OSError, MissingToolError) as error:
             self._lock.release(remove=True)
-            raise self._error(error) from error
-        except MissingToolError:
-            self._lock.release(remove=True)
-            raise
+            raise (self._error(error) if isinstance(error, OSError) else error) from error
 
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
         try:
             self.close()
         except OutputError:
             if error is None:
                 raise
 
-    def add(self, picture: NDArray[np.uint8], times: int = 1) -> None:
+    def add(self, picture: Pixels, times: int = 1) -> None:
         """Show a picture for so many frames.
 
         Raises:
@@ -144,17 +131,7 @@ class MovieFile:
         )
 
 
-class _Writer:
-    """Writes one kind of film."""
-
-    def add(self, picture: NDArray[np.uint8], times: int) -> None:
-        raise NotImplementedError
-
-    def close(self) -> None:
-        raise NotImplementedError
-
-
-class _Mp4(_Writer):
+class _Mp4:
     """H.264 by the ffmpeg that imageio-ffmpeg brings."""
 
     def __init__(self, path: Path, size: tuple[int, int], fps: int, *, small: bool) -> None:
@@ -188,7 +165,7 @@ class _Mp4(_Writer):
         )
         self._frames.send(None)
 
-    def add(self, picture: NDArray[np.uint8], times: int) -> None:
+    def add(self, picture: Pixels, times: int) -> None:
         data = picture.tobytes()
         for _ in range(times):
             self._frames.send(data)
@@ -197,58 +174,23 @@ class _Mp4(_Writer):
         self._frames.close()
 
 
-class _Gif(_Writer):
-    """Written by hand from Pillow's pieces: Pillow itself keeps all pictures until the last.
+class _Gif:
+    """Kept until it is closed: Pillow then stores of each picture the box that has changed."""
 
-    A picture is stored as the box in which it differs from the one before, with colours of its own.
-    """
-
-    def __init__(self, path: Path, size: tuple[int, int], fps: int) -> None:
+    def __init__(self, path: Path, fps: int) -> None:
         self._file: IO[bytes] = path.open("wb")
-        self._pause = round(100 / fps)
-        self._waiting: tuple[NDArray[np.uint8], int] | None = None
-        self._before: NDArray[np.uint8] | None = None
-        width, height = size
-        self._file.write(b"GIF89a" + width.to_bytes(2, "little") + height.to_bytes(2, "little") + b"\x00\x00\x00")
-        self._file.write(b"!\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00")  # again and again
+        self._pause = 10 * round(100 / fps)
+        self._images: list[Image] = []
+        self._pauses: list[int] = []
 
-    def add(self, picture: NDArray[np.uint8], times: int) -> None:
-        if self._waiting is not None and np.array_equal(self._waiting[0], picture):
-            self._waiting = self._waiting[0], self._waiting[1] + times
-            return
-        self._write()
-        self._waiting = picture, times
+    def add(self, picture: Pixels, times: int) -> None:
+        from PIL import Image
 
-    def _write(self) -> None:
-        from PIL import GifImagePlugin, Image
-
-        if self._waiting is None:
-            return
-        picture, times = self._waiting
-        top, left, bottom, right = _changed(self._before, picture)
-        image = Image.fromarray(picture[top:bottom, left:right]).quantize(_COLOURS, dither=Image.Dither.NONE)
-        image.encoderinfo = {}
-        pieces = GifImagePlugin.getdata(
-            image, (left, top), duration=10 * self._pause * times, include_color_table=True, disposal=1
-        )
-        self._file.write(b"".join(pieces))
-        self._file.flush()
-        self._before, self._waiting = picture, None
+        self._images.append(Image.fromarray(picture).quantize(_COLOURS, dither=Image.Dither.NONE))
+        self._pauses.append(self._pause * times)
 
     def close(self) -> None:
-        try:
-            self._write()
-            self._file.write(b";")
-        finally:
-            self._file.close()
-
-
-def _changed(before: NDArray[np.uint8] | None, now: NDArray[np.uint8]) -> tuple[int, int, int, int]:
-    """The box in which two pictures differ: top, left, bottom, right."""
-    height, width, _ = now.shape
-    if before is None:
-        return 0, 0, height, width
-    rows, columns = np.nonzero((before != now).any(axis=2))
-    if not len(rows):
-        return 0, 0, 1, 1
-    return int(rows.min()), int(columns.min()), int(rows.max()) + 1, int(columns.max()) + 1
+        with self._file:
+            if self._images:
+                first, *rest = self._images
+                first.save(self._file, "GIF", save_all=True, append_images=rest, duration=self._pauses, loop=0)

@@ -1,4 +1,4 @@
-"""A scene without a simulator: where everything stands, and how it looks, when a symbolic state holds.
+"""A scene without a simulator: places and looks of everything in a symbolic state.
 
 The shapes, the places and the colours are those of the simulated scene (:mod:`tmd.robot.scene.scene`). The predicates
 are read as ``skills.yaml`` says: what the sensor *support* sees is where an item stands, what *joint* sees is a door,
@@ -15,7 +15,6 @@ from tmd.pddl.model import State
 from tmd.robot.assets.colours import mixed
 from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.scene.catalogue import FLOOR, Catalogue, built
-from tmd.robot.scene.handles import grip_of
 from tmd.robot.scene.placement import Placing
 from tmd.robot.scene.support_relations import free_spots
 from tmd.robot.sim.pose import Pose, Vector
@@ -25,18 +24,18 @@ from tmd.world.folder import DomainFolder
 
 Colour = tuple[float, float, float, float]
 INVISIBLE: Colour = (0.0, 0.0, 0.0, 0.0)
+# Metres from a front, or from an item on the floor, to the middle of the robot.
 _BEFORE = 0.6
-"""Metres from a front, or from an item on the floor, to the middle of the robot."""
+# Places of held things in the robot's frame: in the right hand, in the left.
 HANDS = ((0.62, -0.17, 0.95), (0.62, 0.17, 0.95))
-"""Where what is held is, in the robot's frame: in the right hand, in the left."""
 _SENSES = ("held", "support", "joint", "setting", "reach")
 
 
 @dataclass(frozen=True, slots=True)
 class Rest:
-    """Where an item is: at something, at a pose in the frame of the link that carries it.
+    """The place of an item: its support, and the pose in the frame of the link that carries it.
 
-    ``link`` is ``None`` for the floor; an item in a hand is at the robot, whose name is ``whole``.
+    ``link`` is ``None`` for the floor; an item in a hand is at the robot, and ``whole`` is empty.
     """
 
     at: tuple[str, str]
@@ -47,15 +46,15 @@ class Rest:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """How a scene looks.
+    """The look of a scene.
 
     Attributes:
         poses: Of every object.
         joints: Positions of the joints that are not at 0, by object and link; radians or metres.
         colours: Of the links that show a state or a content, by object and link.
-        robot: Where the robot stands.
-        rests: What each item is at.
-        near: What the robot is near to.
+        robot: Its pose.
+        rests: The place of each item.
+        near: The things near the robot.
     """
 
     poses: Mapping[str, Pose]
@@ -67,15 +66,10 @@ class Picture:
 
 
 class Still(Catalogue):
-    """Draws the states of an environment.
-
-    Args:
-        environment: What there is and where.
-        folder: Its domain, with the shapes of its classes.
-        skills: What its predicates mean to the eye.
+    """Draws the states of an environment; ``skills`` gives the visible meaning of its predicates.
 
     Attributes:
-        room: Where the fixtures and walls are.
+        room: The places of fixtures and walls.
 
     Raises:
         TmdError: A shape makes no sense, or something does not fit where it should be.
@@ -93,7 +87,7 @@ class Still(Catalogue):
         self._start = self._now = Picture(placing.poses, {}, {}, Pose((0.0, 0.0, 0.0)), {})
 
     def first(self, state: State) -> Picture:
-        """The environment as it is at the start."""
+        """Return the environment as it is at the start."""
         start = replace(self._start, joints=self._joints(state))
         self._now = start
         rests: dict[str, Rest] = {}
@@ -104,7 +98,7 @@ class Still(Catalogue):
         return self.draw(state, replace(start, rests=rests))
 
     def draw(self, state: State, before: Picture) -> Picture:
-        """How ``state`` looks, when ``before`` was seen before it."""
+        """Return the look of ``state`` after the picture ``before``."""
         held = self._held(state)
         near = frozenset(atom.args[1] for atom in state if atom.predicate in self._by_sense["reach"])
         robot = self._stand(sorted(near - before.near - set(held)), before)
@@ -129,25 +123,20 @@ class Still(Catalogue):
     # what is where
 
     def frame(self, whole: str, link: str) -> Pose:
-        """Where a link of an object is in the picture that is being drawn."""
+        """Return the pose of a link of an object in the picture that is being drawn."""
         return self._now.poses[whole] * self.within(whole, link, self._now)
 
     def within(self, whole: str, link: str, picture: Picture) -> Pose:
-        """Where a link is in the frame of its object."""
-        model, frame = self.blueprints[whole].model, Pose((0.0, 0.0, 0.0))
-        while link != ROOT:
-            step = model.links[link]
-            position = picture.joints.get((whole, link), 0.0)
-            frame = step.at_zero() * moved(step.kind, step.axis, position) * frame
-            link = step.parent
-        return frame
+        """Return the pose of a link in the frame of its object."""
+        joints = {name: position for (owner, name), position in picture.joints.items() if owner == whole}
+        return self.blueprints[whole].model.frame(link, joints)
 
     def pose_of(self, item: str) -> Pose:
-        """Where an object is."""
+        """Return the pose of an object."""
         return self._now.poses[item]
 
     def top_of(self, item: str) -> float:
-        """The height of its highest point."""
+        """Return the height of its highest point."""
         return self._now.poses[item].position[2] + self.size(item)[1][2]
 
     def _rest(self, item: str, at: tuple[str, str], before: Picture, held: list[str]) -> Rest:
@@ -162,14 +151,14 @@ class Still(Catalogue):
         return Rest(at, whole, link, frame.inverse() * pose)
 
     def _above(self, whole: str) -> Pose:
-        """Where there is no place left, or none that a shape names: on top."""
+        """Return a pose on top, if there is no place left, or none of a shape."""
         if whole == FLOOR:
             return Pose((-1.0, 0.0, 0.0))
         x, y, _ = self._now.poses[whole].position
         return Pose((x, y, self.top_of(whole)), self._now.poses[whole].orientation)
 
     def _carrier(self, thing: str, relation: str) -> tuple[str, str | None]:
-        """The object, and the link of it, that carries what is at a thing."""
+        """Return the object, and the link of it, that carries what is at a thing."""
         whole, part = self.where(thing)
         if whole == FLOOR:
             return FLOOR, None
@@ -186,7 +175,7 @@ class Still(Catalogue):
         self._now = replace(self._now, poses={**self._now.poses, item: pose})
 
     def _stand(self, approached: list[str], before: Picture) -> Pose:
-        """In front of what the robot is near to now and was not before."""
+        """Return a pose in front of what the robot is near to now and was not before."""
         if not approached:
             return before.robot
         whole = self.whole(approached[0])
@@ -222,7 +211,7 @@ class Still(Catalogue):
         joints: dict[tuple[str, str], float] = {}
         for name in self.names():
             whole, part = self.where(name)
-            grip = grip_of(self, whole, part)
+            grip = self.grip(whole, part)
             if grip is not None and grip.kind != "button":
                 setting = dict(grip.settings).get(settings.get(name, ""))
                 position = setting if setting is not None else grip.open if name in opened else grip.closed
@@ -230,7 +219,7 @@ class Still(Catalogue):
         return joints
 
     def colours(self, state: State) -> dict[tuple[str, str], Colour]:
-        """The colours of the links that show a state or a content."""
+        """Return the colours of the links that show a state or a content."""
         contents: dict[str, list[str]] = {}
         for atom in sorted(state):
             if atom.predicate == self._skills.contents and len(atom.args) == 2:
@@ -247,18 +236,8 @@ class Still(Catalogue):
         return colours
 
 
-def moved(kind: str, axis: Vector, position: float) -> Pose:
-    """What a joint at ``position`` does to the frame of its link."""
-    if kind == "prismatic":
-        x, y, z = axis
-        return Pose((x * position, y * position, z * position))
-    if kind != "revolute" or position == 0.0:
-        return Pose((0.0, 0.0, 0.0))
-    return Pose.about(axis, position)
-
-
 def _facing(point: Vector, robot: Pose) -> Pose:
-    """Before a point on the floor, on the side where the robot is."""
+    """Return a pose before a point on the floor, on the side where the robot is."""
     dx, dy = robot.position[0] - point[0], robot.position[1] - point[1]
     away = max((dx * dx + dy * dy) ** 0.5, 1e-6)
     return Pose.flat(point[0] + dx / away * _BEFORE, point[1] + dy / away * _BEFORE, 0.0, atan2(-dy, -dx))
