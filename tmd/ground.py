@@ -24,7 +24,7 @@ from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, Weights, count, named_weights
 from tmd.inference.engine import Inference
 from tmd.inference.forward_pass import Planners, Restoration
-from tmd.inference.policy import Policy, Reward
+from tmd.inference.policy.model import Policy, Reward
 from tmd.inference.proposers import SequenceModel, proposers_of
 from tmd.inference.ranking import Inferred
 from tmd.pddl.model import Formula
