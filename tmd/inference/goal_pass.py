@@ -36,10 +36,10 @@ from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 from tmd.veil.library import tidy
 
+# Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it.
 _MOST_FURTHER_STEPS = 8
-"""Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it."""
+# Maximum number of different readings of a request that are followed at a time, each with its own beam.
 _MOST_READINGS = 4
-"""Maximum number of different readings of a request that are followed at a time, each with a beam of its own."""
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
 PRIOR = "prior"
 """The factor of the reader's prior: the negative logarithm of its belief in the candidate goal."""
@@ -70,7 +70,7 @@ class GoalPass(ForwardPass):
     """The forward pass over the steps of one dialogue.
 
     Args:
-        setup: What inference works with.
+        setup: The inputs of inference.
         dialogue: The request as it was read.
         top: The number of distinct plans that are wanted.
         chosen: For steps of :attr:`Dialogue.steps` that the user was asked about, the goal that is meant.
