@@ -140,7 +140,7 @@ def test_statuses(status: str, kind: type) -> None:
 )
 def test_universal_conditions_are_found(text: str, universal: bool) -> None:
     document = parse(text, "test")
-    assert has_universal(read_condition(document.groups[0], document.source), True) is universal
+    assert has_universal(read_condition(document.groups[0], document.source)) is universal
 
 
 def test_axioms_decide_the_configuration(pantry_problem: Problem) -> None:

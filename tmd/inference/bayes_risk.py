@@ -79,8 +79,8 @@ def decided(
     losses = expected_losses(list(plans), people, world)
     order = sorted(zip(losses.tolist(), plans.values(), strict=True), key=lambda pair: (pair[0], pair[1].instructions))
     ranked = [_with_risk(plan, loss) for loss, plan in order[:top]]
-    told = (replace(plan, why=why_lost(plan, ranked[0]) if place else "") for place, plan in enumerate(ranked))
-    return replace(inferred, plans=tuple(told))
+    explained = (replace(plan, why=why_lost(plan, ranked[0]) if place else "") for place, plan in enumerate(ranked))
+    return replace(inferred, plans=tuple(explained))
 
 
 def _with_risk(plan: RankedPlan, loss: float) -> RankedPlan:
@@ -96,7 +96,7 @@ def expected_losses(
     """Return the mean loss of each plan against all sequences, from 0 to 1, under the planning rules."""
     similar, same = similarities(plans, people, lambda sequence: _changed(sequence, world)).mean(axis=2)
     found: NDArray[np.float64] = 1 - (_SHARE_OF_IED * similar + (1 - _SHARE_OF_IED) * same)
-    return np.round(found, 9)  # equal ones stay equal whatever the order of a sum
+    return np.round(found, 9)  # equal ones stay equal for any order of a sum
 
 
 def similarities(

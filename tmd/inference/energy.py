@@ -78,7 +78,7 @@ class Statistics:
         instructions: How often each instruction occurs.
         parameters: For each parameter of each instruction, the classes of its objects.
         ends: P(obj, s, v) for the objects that clauses of a verb speak of.
-        all_ends: The same whatever the verb, for every object that was used: for latent instructions.
+        all_ends: The same for all verbs, for every object that was used: for latent instructions.
     """
 
     instructions: Frequencies = field(default_factory=Frequencies)
@@ -219,7 +219,7 @@ def parse_weights(text: str, file: str = "<text>") -> Weights:
     """Read weights: ``name value`` a line, ``#`` begins a comment.
 
     Raises:
-        TmdError: A line is none, a name is unknown or said twice, or a value is not a finite number.
+        TmdError: A line is malformed, a name is unknown or given twice, or a value is not a finite number.
     """
     values: dict[str, float] = {}
     for number, line in enumerate(text.splitlines(), start=1):

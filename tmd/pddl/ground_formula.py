@@ -80,7 +80,7 @@ def _instantiated(formula: Formula, binding: Binding, task: Task, objects: Unive
         case Or(parts):
             return disjunction(map(inner, parts))
         case Imply(left, right):
-            return disjunction((negation(inner(left)), inner(right)))
+            return inner(Or((Not(left), right)))
         case Forall(parameters, part):
             return conjunction(inner(part, each) for each in bindings(parameters, objects, binding))
         case Exists(parameters, part):

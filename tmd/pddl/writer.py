@@ -37,7 +37,7 @@ _WIDTH = 100
 
 
 def format_domain(domain: Domain) -> str:
-    """``domain`` as text; reading it gives an equal domain."""
+    """Format ``domain`` as text; reading it gives an equal domain."""
     typed = bool(domain.types)
     sections = [f"(define (domain {domain.name})"]
     if domain.requirements:
@@ -56,7 +56,7 @@ def format_domain(domain: Domain) -> str:
 
 
 def format_problem(problem: Problem) -> str:
-    """``problem`` as text; reading it with the same domain gives an equal problem."""
+    """Format ``problem`` as text; reading it with the same domain gives an equal problem."""
     typed = bool(problem.domain.types)
     sections = [f"(define (problem {problem.name})\n  (:domain {problem.domain.name})"]
     if problem.requirements:
@@ -76,7 +76,7 @@ def format_problem(problem: Problem) -> str:
 
 
 def format_formula(formula: Formula, binding: Mapping[str, str] | None = None, *, typed: bool = False) -> str:
-    """``formula`` on one line, with the variables of ``binding`` replaced.
+    """Format ``formula`` on one line, with the variables of ``binding`` replaced.
 
     ``typed`` writes the type ``object`` as well, which VAL insists on in domains with types.
     """
@@ -110,7 +110,7 @@ def _within(parameters: Sequence[TypedName], part: Formula, bound: Mapping[str, 
 
 
 def format_effect(effect: Effect, *, typed: bool = False) -> str:
-    """``effect`` on one line; ``typed`` as for :func:`format_formula`."""
+    """Format ``effect`` on one line; ``typed`` as for :func:`format_formula`."""
     text = format_formula(effect.atom)
     if not effect.positive:
         text = f"(not {text})"
@@ -130,7 +130,7 @@ def _type_text(types: Sequence[str]) -> str:
 
 
 def _runs(names: Iterable[TypedName]) -> list[tuple[tuple[str, ...], list[str]]]:
-    """Neighbours of the same types together; order is kept."""
+    """Group neighbours of the same types; order is kept."""
     runs: list[tuple[tuple[str, ...], list[str]]] = []
     for name in names:
         if not runs or runs[-1][0] != name.types:
@@ -144,7 +144,7 @@ def _typed(names: Sequence[TypedName], typed: bool) -> str:
 
 
 def _listed(names: Sequence[TypedName], typed: bool) -> list[str]:
-    """Names with their types. Where no type is said anywhere, none is written, so STRIPS stays STRIPS."""
+    """Format names with their types. Where no type is declared, none is written, so STRIPS stays STRIPS."""
     if not typed and all(name.types == (OBJECT,) for name in names):
         return [" ".join(name.name for name in names)]
     return [f"{' '.join(run)} - {_type_text(types)}" for types, run in _runs(names)]
@@ -184,7 +184,7 @@ def _action(action: ActionSchema, typed: bool) -> str:
 
 
 def _laid_out(formula: Formula, indent: int, typed: bool) -> str:
-    """``formula``; a conjunction that is too long for one line gets a line for each part."""
+    """Return ``formula``; a conjunction that is too long for one line gets a line for each part."""
     line = format_formula(formula, typed=typed)
     if len(line) + indent <= _WIDTH or not isinstance(formula, And):
         return line

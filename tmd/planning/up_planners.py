@@ -20,7 +20,7 @@ from typing import Any
 
 from tmd.diagnostics import LimitError, MissingToolError, PlannerError, TmdError
 from tmd.pddl.derived import without_derived
-from tmd.pddl.model import TRUE, And, Domain, Exists, Forall, Formula, Imply, Instruction, Not, Or, Problem
+from tmd.pddl.model import TRUE, Domain, Exists, Forall, Formula, Instruction, Problem, signed_subformulas
 from tmd.pddl.normalise import portable
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.pddl.validator import validate
@@ -309,7 +309,7 @@ def fast_downward_for_gaps(task: Task, *, time_limit: float = 60.0) -> UnifiedPl
 def spec(domain: Domain, time_limit: float = 60.0) -> EngineSpec:
     """Return how Fast Downward is called for ``domain``."""
     universal = any(
-        has_universal(condition, True)
+        has_universal(condition)
         for action in domain.actions
         for condition in (action.precondition, *(effect.condition for effect in action.effects))
     )
@@ -317,18 +317,6 @@ def spec(domain: Domain, time_limit: float = 60.0) -> EngineSpec:
     return EngineSpec("fast-downward", {"fast_downward_search_config": search}, time_limit, skip_checks=True)
 
 
-def has_universal(formula: Formula, positive: bool) -> bool:
+def has_universal(formula: Formula) -> bool:
     """Return whether a universal quantifier remains once negations are pushed inwards."""
-    match formula:
-        case Not(part):
-            return has_universal(part, not positive)
-        case And(parts) | Or(parts):
-            return any(has_universal(part, positive) for part in parts)
-        case Imply(left, right):
-            return has_universal(left, not positive) or has_universal(right, positive)
-        case Forall(_, part):
-            return positive or has_universal(part, positive)
-        case Exists(_, part):
-            return not positive or has_universal(part, positive)
-        case _:
-            return False
+    return any(isinstance(p, Forall if positive else Exists) for p, positive in signed_subformulas(formula))

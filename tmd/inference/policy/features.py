@@ -33,15 +33,15 @@ LEVELS = 5
 # How recently an object was named: never, earlier, by the instruction before.
 NAMED, JUST_NAMED = 1, 2
 RECENCIES = 3
-# Positions in a sequence that are told apart; later ones are alike.
+# Positions in a sequence that are distinguished; later ones are alike.
 _POSITIONS = 6
 # How much of the objects that a clause mentions was named: it mentions none; none was; some; all.
 MET = 4
 # Features that are numbers: the share of instructions that are not repeated, and (of STOP) the length so far.
 REALS = 2
-# Places of a clause in its text that are told apart: the first, the last, between.
+# Places of a clause in its text that are distinguished: the first, the last, between.
 WHERE = 3
-# Numbers of instructions of the clause so far that are told apart with each action, and with STOP; more are alike.
+# Numbers of instructions of the clause so far that are distinguished with each action, and with STOP; more are alike.
 BEGUN = 4
 LENGTHS = 13
 # How often an instruction was done (never, once, more often), in this clause or before it.

@@ -246,10 +246,10 @@ def _look(menu: Menu, said: ClauseContext, node: Node) -> tuple[Ints, Ints, Floa
         begun, where = min(len(node.own), BEGUN - 1), said.where
         end = np.full(len(menu.choices), start[13])
         end[-1] += 1 + (met * WHERE + where) * LENGTHS + min(len(node.own), LENGTHS - 1)
-        told = levels[menu.args]
+        mentioned = levels[menu.args]
         columns += [
-            start[6] + (menu.places * LEVELS + told) * RECENCIES + recent[menu.args],
-            start[7] + menu.places * 4 + said.later[menu.args] * 2 + (told > 0),
+            start[6] + (menu.places * LEVELS + mentioned) * RECENCIES + recent[menu.args],
+            start[7] + menu.places * 4 + said.later[menu.args] * 2 + (mentioned > 0),
             start[8] + (earlier * (n + 1) + follows) * n + menu.actions,
             start[9] + menu.actions * REPEATS + np.minimum(times, 2) * 2 + done,
             start[10] + (menu.actions * WHERE + where) * BEGUN + begun,

@@ -27,7 +27,7 @@ from tmd.pddl.model import Instruction
 from tmd.veil.world import World
 from tmd.world.verb_clause import VerbClause
 
-# Rewards are rounded before they are compared, so that equal ones stay equal whatever the order of a sum.
+# Rewards are rounded before they are compared, so that equal ones stay equal for any order of a sum.
 _ROUNDED = 9
 MOST = 12.0
 """The surprise of a choice that training makes impossible."""

@@ -64,7 +64,7 @@ class OptimalSearch:
         self._kernel = self._made("python" if self._patience else self.backend)
 
     def fill(self, state: Bits, goal: Sequence[Cube], cap: int | None = None) -> Answer:
-        """The missing instructions from ``state`` to any cube of ``goal``; ``cap`` replaces the usual one."""
+        """Return the missing instructions from ``state`` to any cube of ``goal``; ``cap`` replaces the usual one."""
         self.generated = 0
         limit = self.cap if cap is None else cap
         cubes = tuple(cube for cube in goal if not cube.positive & cube.negative)
@@ -90,7 +90,7 @@ class OptimalSearch:
         return self._kernel.run(state, cubes, cap)
 
     def _made(self, backend: str) -> _Kernel:
-        """The kernel in one of its forms."""
+        """Return the kernel in one of its forms."""
         if backend == "python":
             functions = Functions(prepared, kernel.search, greedy.search_any)
             return _Kernel(build(self.task), functions, self._entry(functions), list)
@@ -114,7 +114,7 @@ class FirstSearch(OptimalSearch):
 
 
 def chosen(backend: str) -> Literal["numba", "python"]:
-    """The back-end that ``backend`` means on this machine."""
+    """Return the back-end that ``backend`` means on this machine."""
     present = find_spec("numba") is not None
     if backend == "python" or (backend == "auto" and not present):
         return "python"
@@ -140,7 +140,7 @@ class _Kernel:
         self._goals: dict[tuple[Cube, ...], Goal] = {}
 
     def run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, tuple[int, ...]]:
-        """The status, the number of generated states and the operators of the plan."""
+        """Return the status, the number of generated states and the operators of the plan."""
         goal = self._goals.pop(cubes, None) or self._prepared(cubes)
         self._goals[cubes] = goal
         start = self._pack(words_of(state, self._tables.words))
@@ -148,7 +148,7 @@ class _Kernel:
         return int(status), int(generated), tuple(int(step) for step in plan)
 
     def _prepared(self, cubes: tuple[Cube, ...]) -> Goal:
-        """A goal that is new; the one that was longest without use is forgotten for it."""
+        """Return a goal that is new; the one that was longest without use is forgotten for it."""
         if len(self._goals) >= GOALS_KEPT:
             del self._goals[next(iter(self._goals))]
         words = self._tables.words
