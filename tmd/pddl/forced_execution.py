@@ -16,8 +16,8 @@ from tmd.pddl.model import OBJECT, Instruction, Or, Problem, State, TypedName, u
 from tmd.pddl.semantics import bind, schema_of
 from tmd.pddl.task import Bits, Cube, Operator, Task
 
+# Names of stand-ins for objects that do not exist begin so; no PDDL name can.
 _GHOST = "?nobody-"
-"""Names of stand-ins for objects that do not exist begin so; no PDDL name can."""
 
 _FALSE = Or()
 

@@ -22,10 +22,10 @@ _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
 _STAMP = re.compile(r"([0-9.]+)\s*:\s*")
 _DURATION = re.compile(r"\s*\[\s*(?:D:)?\s*([0-9.]+)[^\]]*\]$", re.IGNORECASE)
+# What stands before a comment; LPG has a ``;`` within the brackets of a duration.
 _CODE = re.compile(r"[^;\[]*(?:\[[^\]]*\])?[^;]*")
-"""What stands before a comment; LPG has a ``;`` within the brackets of a duration."""
+# Times are printed with three decimals; what overlaps by less does not.
 _TOLERANCE = Decimal("0.001")
-"""Times are printed with three decimals; what overlaps by less does not."""
 _ANNOUNCED = re.compile(r"(?:;*\s*solution found.*|plan:)", re.IGNORECASE)
 
 

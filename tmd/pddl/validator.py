@@ -69,7 +69,7 @@ def validate(problem: Problem, plan: Iterable[Instruction], *, trace: bool = Fal
             reason = f"step {step}, {instruction}: {error}"
             return Verdict(False, Status.BAD_INSTRUCTION, step, instruction, None, reason, seen, total)
         if broken:
-            reason = f"step {step}, {instruction}: {_needs(broken)}"
+            reason = f"step {step}, {instruction}: its precondition {broken.text} does not hold"
             status = Status.BROKEN_PRECONDITION
             return Verdict(False, status, step, instruction, broken, reason, seen, total)
         total += semantics.cost(instruction, problem)
@@ -82,7 +82,3 @@ def validate(problem: Problem, plan: Iterable[Instruction], *, trace: bool = Fal
         reason = f"at the end the goal {missing.text} does not hold"
         return Verdict(False, Status.GOAL_NOT_REACHED, None, None, missing, reason, seen, total)
     return Verdict(True, Status.VALID, trace=seen, cost=total)
-
-
-def _needs(broken: Broken) -> str:
-    return f"its precondition {broken.text} does not hold"

@@ -8,6 +8,7 @@ of a predicate stands beside it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import groupby
 
 from tmd.pddl.model import (
     OBJECT,
@@ -125,20 +126,6 @@ def _section(name: str, lines: Iterable[str]) -> str:
     return "\n".join([f"  (:{name}", *(f"    {line}" for line in lines), "  )"])
 
 
-def _type_text(types: Sequence[str]) -> str:
-    return types[0] if len(types) == 1 else f"(either {' '.join(types)})"
-
-
-def _runs(names: Iterable[TypedName]) -> list[tuple[tuple[str, ...], list[str]]]:
-    """Group neighbours of the same types; order is kept."""
-    runs: list[tuple[tuple[str, ...], list[str]]] = []
-    for name in names:
-        if not runs or runs[-1][0] != name.types:
-            runs.append((name.types, []))
-        runs[-1][1].append(name.name)
-    return runs
-
-
 def _typed(names: Sequence[TypedName], typed: bool) -> str:
     return " ".join(_listed(names, typed))
 
@@ -147,7 +134,11 @@ def _listed(names: Sequence[TypedName], typed: bool) -> list[str]:
     """Format names with their types. Where no type is declared, none is written, so STRIPS stays STRIPS."""
     if not typed and all(name.types == (OBJECT,) for name in names):
         return [" ".join(name.name for name in names)]
-    return [f"{' '.join(run)} - {_type_text(types)}" for types, run in _runs(names)]
+    listed = []
+    for types, run in groupby(names, key=lambda name: name.types):
+        either = types[0] if len(types) == 1 else f"(either {' '.join(types)})"
+        listed.append(f"{' '.join(name.name for name in run)} - {either}")
+    return listed
 
 
 def _signature(predicate: Predicate, typed: bool) -> str:

@@ -261,5 +261,5 @@ def _in_process(problem: Problem, deadline: Deadline) -> Solution:
         with memory_limit(deadline.memory):
             answer = make(IN_PROCESS, task, cap=PLAN_CAP).fill(task.init, task.goal)
     except MemoryError:
-        return GaveUp(deadline.memory_of("this process"))
+        return GaveUp(f"{deadline.memory_limit()} of this process")
     return Solved(answer.plan, answer.cost, optimal=True) if isinstance(answer, Filled) else answer

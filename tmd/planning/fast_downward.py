@@ -168,22 +168,30 @@ def _answer(
     if reason is not None:
         return Unreachable(reason)
     code = process.wait(deadline)
-    if code is None:
-        return GaveUp(f"{deadline.seconds:g} s of {NAME}")
-    if code in _NO_TIME and deadline.processor is not None:
-        return GaveUp(f"{deadline.processor} s of {NAME}")
     if code == 0:
         plan.seek(0)
         return checked(problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL)
-    if code in _NO_MEMORY or (code == 1 and any(text in process.log() for text in _PYTHON_WITHOUT_MEMORY)):
-        return GaveUp(deadline.memory_of(NAME))
+    limit = _limit(code, process, deadline)
+    if limit is not None:
+        return GaveUp(f"{limit} of {NAME}")
+    # the dead ends of searches that are not optimal prove nothing
     exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.output()
-    if code in _UNSOLVABLE or exhausted:  # the dead ends of other searches prove nothing
+    if code in _UNSOLVABLE or exhausted:
         reason = prover.reason(deadline.at_most(EXPLAINING)) if prover else None
         return Unreachable(reason or f"{NAME} looked at every state that can be reached, and the goal holds in none")
     if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search not in _OPTIMAL):
         return None
-    raise process.failed(ending(code))
+    raise process.failed(ending(code or 0))
+
+
+def _limit(code: int | None, process: PlannerProcess, deadline: Deadline) -> str | None:
+    """Return the limit of time or memory at which a process ended; ``None`` where it ended otherwise."""
+    if code is None:
+        return f"{deadline.seconds:g} s"
+    if code in _NO_TIME and deadline.processor is not None:
+        return f"{deadline.processor} s"
+    without_memory = code == 1 and any(text in process.log() for text in _PYTHON_WITHOUT_MEMORY)
+    return deadline.memory_limit() if code in _NO_MEMORY or without_memory else None
 
 
 def translated(problem: Problem) -> str:

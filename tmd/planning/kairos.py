@@ -50,7 +50,7 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
                 case 10:
                     return Unreachable(prover.reason(deadline.at_most(EXPLAINING)) or f"{NAME} proved it")
                 case 12:
-                    return GaveUp(deadline.memory_of(NAME))
+                    return GaveUp(f"{deadline.memory_limit()} of {NAME}")
                 case 14:
                     return GaveUp(f"the end of what {NAME} can search")
                 case 13:

@@ -58,9 +58,9 @@ class Deadline:
         """Return the seconds that are left, at least 0."""
         return max(0.0, self._end - time.monotonic())
 
-    def memory_of(self, name: str) -> str:
-        """Describe the memory limit of the process ``name``."""
-        return f"the memory of {name}" if self.memory is None else f"{self.memory // MEGABYTE} MB of {name}"
+    def memory_limit(self) -> str:
+        """Describe the memory limit."""
+        return "the memory" if self.memory is None else f"{self.memory // MEGABYTE} MB"
 
     def at_most(self, seconds: float) -> Deadline:
         """Return this deadline, or one in ``seconds`` if that is earlier."""

@@ -429,8 +429,8 @@ def _integers(vector: Sequence[Fraction]) -> list[int]:
     return [value // shared for value in whole]
 
 
+# Pairs of effects, over all operators, that are looked at: a few seconds' work. A kitchen of 20 things has 40,000.
 _MOST_PAIRS = 2_000_000
-"""Pairs of effects, over all operators, that are looked at: a few seconds' work. A kitchen of 20 things has 40,000."""
 
 
 class Impossible:

@@ -31,8 +31,8 @@ from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State, uni
 from tmd.pddl.semantics import Binding, bind, size
 from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
 
+# A forbidden cube that holds in every state.
 _NEVER = Cube(0, 0)
-"""A forbidden cube that holds in every state."""
 
 
 def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Sequence[Instruction] = ()) -> Task:

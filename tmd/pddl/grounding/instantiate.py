@@ -48,10 +48,10 @@ from tmd.pddl.semantics import Binding, action_cost, holds, instantiate, size
 Row: TypeAlias = tuple[str, ...]
 
 _MOST_ROWS = 500_000
+# Atoms that a check of a static condition looks at, in all rows together: some 30 s.
 _MOST_CHECKED = 50_000_000
-"""Atoms that a check of a static condition looks at, in all rows together: some 30 s."""
+# The size a relation is taken to have that is still to grow.
 _UNKNOWN = 1_000_000
-"""The size a relation is taken to have that is still to grow."""
 
 
 class JoinRelation:

@@ -32,8 +32,8 @@ from tmd.pddl.model import (
 from tmd.pddl.reading.syntax import Group, Node, Source, Word
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
+# What planners take for a name although PDDL does not.
 _ODD_NAME = re.compile(r"[a-z0-9_][!-~]*")
-"""What planners take for a name although PDDL does not."""
 _VARIABLE = re.compile(r"\?[a-z][a-z0-9_-]*")
 _ODD_VARIABLE = re.compile(r"\?[a-z0-9_][!-~]*")
 _NUMBER = re.compile(r"([0-9]{1,15})(\.0*)?")
@@ -89,13 +89,13 @@ def look_alike(letter: str) -> str | None:
     return f'write "{plain}"' if plain.isascii() and plain.isprintable() else None
 
 
+# Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like.
 _LOOK_ALIKES = {
     **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe63\uff0d", "-"),
     **dict(zip("\u0430\u0435\u043e\u0440\u0441\u0443\u0445\u0456\u0458\u0455", "aeopcyxijs", strict=True)),
     **dict(zip("\u03b1\u03bf\u03c1\u03bd\u03b9", "aopvi", strict=True)),
     **dict.fromkeys("\u2018\u2019\u201c\u201d", "'"),
 }
-"""Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like."""
 
 
 def read_term(node: Node, source: Source) -> str:
@@ -212,8 +212,8 @@ _UNSUPPORTED_CONDITIONS = {
         "trajectory constraints",
     ),
 }  # fmt: skip
+# The others may be names of predicates as well, and then have no conditions in them.
 _NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
-"""The others may be names of predicates as well, and then have no conditions in them."""
 _UNSUPPORTED_EFFECTS = {
     "assign": "numeric and object fluents",
     "change": "numeric and object fluents",

@@ -176,8 +176,8 @@ def _with_undeclared_parents(found: list[TypeDeclaration], source: Source) -> li
     return [*found, *added.values()]
 
 
+# The likeness (of :mod:`difflib`) of two names of four letters or more that differ by one.
 _ONE_SLIP = 0.85
-"""The likeness (of :mod:`difflib`) of two names of four letters or more that differ by one."""
 
 
 def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> None:
@@ -610,7 +610,9 @@ class InitReader:
             self.source.recover(None, self._read_entry, node)
         for atom in self.denied:
             if atom in self.atoms:
-                self.source.fault(self._contradiction(atom))
+                message = f"{atom} is said to hold and not to hold"
+                hint = "remove one of the two"
+                self.source.fault(self.source.error(message, self.locations[atom], hint, "contradictory-init"))
         if self.twice:
             atom, place = self.twice[0]
             more = f", and so do {len(self.twice) - 1} more" if len(self.twice) > 1 else ""
@@ -664,10 +666,6 @@ class InitReader:
         if function in self.values:
             raise self.source.error(f"the value of {function} is given twice", node.location)
         self.values[function] = number
-
-    def _contradiction(self, atom: GroundAtom) -> TmdError:
-        message = f"{atom} is said to hold and not to hold"
-        return self.source.error(message, self.locations[atom], "remove one of the two", "contradictory-init")
 
 
 def _spread(nodes: Iterable[Node]) -> list[Node]:

@@ -39,11 +39,11 @@ _IMPLIED = {
     ),
 }
 
+# Needs :negative-preconditions to the letter. Most domains do without, so its lack is not a fault; we write it.
 _OTHER_NOT = '"not" around something else than an atom'
-"""Needs :negative-preconditions to the letter. Most domains do without, so its lack is not a fault; we write it."""
 
+# A requirement, the feature that needs it, and where that stands.
 _Use = tuple[str, str, Location | None]
-"""A requirement, the feature that needs it, and where that stands."""
 
 
 def missing_requirements(domain: Domain, problem: Problem | None = None) -> list[TmdError]:

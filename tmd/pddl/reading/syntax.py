@@ -229,17 +229,17 @@ ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]")
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 _CONNECTIVES = frozenset({"and", "or", "not", "imply", "forall", "exists", "when"})
 _PARTS = frozenset({":parameters", ":precondition", ":effect"})
+# Keywords that begin a section, and nothing else.
 _SECTIONS = frozenset(
     {
         ":requirements", ":types", ":constants", ":predicates", ":functions", ":action", ":durative-action",
         ":derived", ":process", ":event", ":domain", ":objects", ":init", ":goal", ":metric",
     }
 )  # fmt: skip
-"""Keywords that begin a section, and nothing else."""
+# The groups of longer texts, in characters, are not kept for the next reader.
 _MOST_KEPT = 200_000
-"""The groups of longer texts, in characters, are not kept for the next reader."""
+# Number of faults of parentheses after which the rest of a text tells nothing.
 _MOST_FAULTS = 100
-"""Number of faults of parentheses after which the rest of a text tells nothing."""
 
 
 @dataclass(slots=True)

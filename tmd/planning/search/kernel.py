@@ -1,8 +1,8 @@
 """The search kernel: depth-first search under rising cost bounds, with landmark cuts as the lower bound.
 
-Every function here and in :mod:`~tmd.planning.search.heuristics`, :mod:`~tmd.planning.search.heuristics` and
-:mod:`~tmd.planning.search.heuristics` is written in the common subset of plain Python over lists and of numba over
-arrays: :mod:`tmd.planning.search.numba_build` compiles the very same code, so both give the same answers step by step.
+Every function here, in :mod:`~tmd.planning.search.heuristics` and in :mod:`~tmd.planning.search.greedy` is written in
+the common subset of plain Python over lists and of numba over arrays: :mod:`tmd.planning.search.numba_build` compiles
+the same code, so both give the same answers step by step.
 
 **What is computed.** The cheapest plan from a state to any cube of the goal; among the cheapest, the plans with the
 fewest steps; and among these the one whose sequence of operator numbers comes first in lexicographic order. With unit

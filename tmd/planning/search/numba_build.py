@@ -75,7 +75,7 @@ def compiled() -> Functions:
 
 
 class _Announcement:
-    """Says once that numba compiles the kernel; loading what was compiled before is not an event."""
+    """A message, printed once, that numba compiles the kernel; loading compiled code is not an event."""
 
     said = False
 
