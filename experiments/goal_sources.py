@@ -19,7 +19,7 @@ from tmd.ground import infer, restoration_of
 from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, count, named_weights
-from tmd.inference.policy import Policy
+from tmd.inference.policy.model import Policy
 from tmd.knowledge import Knowledge, known
 from tmd.language import parse
 from tmd.language.clause import Clause, Mood, Parsed

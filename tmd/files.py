@@ -1,6 +1,6 @@
-"""Writing files whole or not at all: a reader never meets half a file, whatever happens to the writer.
+"""Atomic writing of files: a reader never meets half a file, even if the writer is killed.
 
-Reading has an end, whatever is read.
+Reading is limited in size.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from zlib import crc32
 from tmd.diagnostics import OutputError
 
 MAX_BYTES = 100_000_000
-"""More than this is read of no file: a device may have no end."""
+"""Maximum size of a file that is read: a device may have no end."""
 _PIECE = 1 << 20
 
 
 def read_bytes(source: str | Path | IO[bytes]) -> bytes:
-    """All bytes of a file, or of an open one.
+    """Return all bytes of a file, or of an open one.
 
     Raises:
         OSError: It cannot be read, or has more than :data:`MAX_BYTES`.
@@ -80,7 +80,7 @@ def write_bytes(path: str | Path, data: bytes) -> None:
 
 
 def real(path: Path) -> Path:
-    """The path without links, as :meth:`pathlib.Path.resolve`, which fails at a link that points to itself."""
+    """Return the path without links, as :meth:`pathlib.Path.resolve`, which fails at a link that points to itself."""
     return Path(os.path.realpath(path))
 
 
@@ -142,7 +142,7 @@ def check_writable(path: str | Path) -> None:
 
 
 def draft_of(target: Path) -> Path:
-    """Where this process writes what is to become ``target``: nobody else does, on whatever machine it is.
+    """Return the file in which this process writes the content of ``target``; no other process uses it.
 
     The host is in the name as a checksum, so that a long host name does not make the file name too long.
     """
@@ -171,12 +171,12 @@ def _beginning(target: Path) -> str:
 
 
 def machine() -> str:
-    """This machine, in eight characters for names of files."""
+    """Return eight characters for this machine, for names of files."""
     return f"{crc32(os.uname().nodename.encode()):08x}"
 
 
 def lives(process: int) -> bool:
-    """Whether a process of this machine runs."""
+    """Return whether a process of this machine runs."""
     try:
         os.kill(process, 0)
     except (ProcessLookupError, OverflowError):

@@ -24,8 +24,8 @@ from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, Weights, count, named_weights
 from tmd.inference.engine import Inference
 from tmd.inference.forward_pass import Planners, Restoration
-from tmd.inference.policy import Policy, Reward
-from tmd.inference.proposers import SequenceModel, proposers_of
+from tmd.inference.policy.model import Policy, Reward
+from tmd.inference.proposers import proposers_of
 from tmd.inference.ranking import Inferred
 from tmd.pddl.model import Formula
 from tmd.pddl.validator import validate
@@ -209,7 +209,7 @@ def infer(
     planners: Planners,
     config: InferenceConfig,
     *,
-    policy: SequenceModel | None = None,
+    policy: Policy | None = None,
     restoration: Restoration | None = None,
     top: int = 1,
     chosen: Mapping[int, Formula] | None = None,

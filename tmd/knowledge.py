@@ -34,7 +34,9 @@ from tmd.files import cache_directory, make_directory, write_bytes
 from tmd.goals.sources.demonstrations import learn_goals, table_from_json, table_to_json
 from tmd.goals.sources.table import GoalTable
 from tmd.inference.energy import Weights, format_weights, parse_weights
-from tmd.inference.policy import Features, Reward, Syntax, learn_policy
+from tmd.inference.policy.features import Features, Syntax
+from tmd.inference.policy.learning import learn_policy
+from tmd.inference.policy.model import Reward
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction
@@ -292,7 +294,7 @@ class Progress:
 
 
 _ROOT = Path(__file__).resolve().parent
-_SOURCES = ("pddl", "world", "language", "veil", "goals", "inference/policy.py", "knowledge.py")
+_SOURCES = ("pddl", "world", "language", "veil", "goals", "inference/policy", "knowledge.py")
 """The packages and modules of ``tmd`` whose code decides what is learned from a demonstration."""
 _DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from tmd.diagnostics import OutputError
 
+# Seconds between two attempts.
 _PAUSE = 0.01
-"""Seconds between two attempts."""
 
 
 class Lock:

@@ -27,7 +27,7 @@ from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled
-from tmd.planning.up_planners import UnifiedPlanner, fast_downward
+from tmd.planning.up_planners import UnifiedPlanner, fast_downward_for_gaps
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain, find_root
@@ -54,7 +54,7 @@ def main() -> None:
     environments = sorted((find_root("problems") / "kitchen" / "environments").glob("*.yaml"))
     for number, path in enumerate(environments):
         task = ground(compile_problem(load_environment(path), folder))
-        reference = fast_downward(task, time_limit=10)
+        reference = fast_downward_for_gaps(task, time_limit=10)
         random = np.random.default_rng([7, number])
         GapFiller(task, backend="numba").fill(task.init, (Cube(1, 0),))
         for _ in range(-(-count // len(environments))):

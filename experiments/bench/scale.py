@@ -23,7 +23,8 @@ from inference_growth import ENVIRONMENT, with_spoons
 
 from tmd.ground import ground
 from tmd.inference.config import PRESETS
-from tmd.inference.policy import Reward, learn_policy
+from tmd.inference.policy.learning import learn_policy
+from tmd.inference.policy.model import Reward
 from tmd.knowledge import library_from_json, library_to_json
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration

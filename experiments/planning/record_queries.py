@@ -22,7 +22,7 @@ from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search.flat_task import ones
-from tmd.planning.up_planners import UnifiedPlanner, fast_downward
+from tmd.planning.up_planners import UnifiedPlanner, fast_downward_for_gaps
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain
@@ -52,7 +52,7 @@ def main() -> None:
         (arguments.output / f"{path.stem}.pddl").write_text(format_problem(problem), encoding="utf-8")
         task = ground(problem)
         random = np.random.default_rng([arguments.seed, number])
-        reference = fast_downward(task, time_limit=arguments.time_limit)
+        reference = fast_downward_for_gaps(task, time_limit=arguments.time_limit)
         lines = [json.dumps(query(task, random, reference)) for _ in range(arguments.count)]
         (arguments.output / f"{path.stem}.jsonl").write_text("\n".join(lines) + "\n", encoding="utf-8")
         reference.close()

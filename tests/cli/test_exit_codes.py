@@ -214,7 +214,7 @@ def test_a_time_limit(tmd: Tmd, tmp_path: Path, planner: str) -> None:
 
 def test_planner_failed(tmd: Tmd) -> None:
     pytest.importorskip("up_fast_downward")
-    broken = "import tmd.planning.downward_process as d; d.FIRST = 'no_such_search()'"
+    broken = "import tmd.planning.fast_downward as d; d.FIRST = 'no_such_search()'"
     ended = tmd("plan", DOMAIN, PROBLEM, "--planner", "fast-downward", before=broken)
     assert (ended.code, ended.out) == (ExitCode.PLANNER_FAILED, "")
     assert re.match(r"error: Fast Downward ended with the exit code 33; its last lines: .*no_such_search", ended.err)

@@ -17,22 +17,10 @@ from hypothesis import strategies as st
 
 from tmd.evaluation.models.instruction_tree import InstructionTree
 from tmd.evaluation.runs.dataset import BundledData, Example
-from tmd.inference.policy import (
-    FIRST,
-    Features,
-    KnownObjects,
-    Made,
-    Menu,
-    ascend,
-    bag,
-    learn_syntax,
-    likelihood,
-    log_probabilities,
-    mentioned,
-    number_features,
-    steps_made,
-    study,
-)
+from tmd.inference.policy.features import FIRST, Features, KnownObjects, bag, learn_syntax, mentioned
+from tmd.inference.policy.learning import Made, ascend, likelihood, number_features, steps_made, study
+from tmd.inference.policy.menu import Menu
+from tmd.inference.policy.model import log_probabilities
 from tmd.language import parse
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction

@@ -78,7 +78,7 @@ def test_sas_is_what_fast_downward_searches(tmp_path: Path) -> None:
     pytest.importorskip("up_fast_downward")
     import subprocess
 
-    from tmd.planning.downward_process import binaries
+    from tmd.planning.fast_downward import binaries
 
     source = planned_case("kitchen")
     files = FORMATS["sas"].write(source)

@@ -15,7 +15,7 @@ from tmd.ground import ground
 from tmd.grounded import Grounded
 from tmd.inference.bayes_risk import RISK, SAMPLE_SOURCE, expected_losses
 from tmd.inference.config import BAYES_RISK, GOALS, InferenceConfig
-from tmd.inference.policy import Policy
+from tmd.inference.policy.model import Policy
 from tmd.knowledge import Knowledge, study
 from tmd.language import parse
 from tmd.pddl.model import Instruction

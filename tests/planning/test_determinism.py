@@ -20,7 +20,7 @@ from tmd.planning.gap_filler import GapFiller
 from tmd.planning.unsolvable import Impossible
 here = Path(sys.argv[1])
 pantry = ground(read_problem(here / "cases/pantry-problem.pddl", read_domain(here / "cases/pantry.pddl")))
-filler = GapFiller(pantry, backend="python", generalise=True)
+filler = GapFiller(pantry, backend="python")
 state = pantry.init
 for operator in pantry.operators:
     print(filler.fill(state, (operator.precondition,)))

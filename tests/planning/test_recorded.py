@@ -15,7 +15,7 @@ from tmd.pddl import semantics
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Unreachable
-from tmd.planning.up_planners import fast_downward
+from tmd.planning.up_planners import fast_downward_for_gaps
 
 NAMES = sorted(path.stem for path in (Path(__file__).parent / "queries").glob("*.jsonl"))
 
@@ -89,7 +89,7 @@ def test_a_sample_is_asked_of_fast_downward_again(queries_of: Queries) -> None:
     pytest.importorskip("up_fast_downward", reason="Fast Downward is not installed")
     queries = [query for query in queries_of(NAMES[0]) if query.verdict != "gave up"]
     chosen = queries[len(queries) // 2 :][:1]
-    reference = fast_downward(queries[0].task)
+    reference = fast_downward_for_gaps(queries[0].task)
     try:
         task = queries[0].task
         known = next(i for i, atom in enumerate(task.atoms) if atom.predicate == "found")

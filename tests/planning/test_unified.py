@@ -22,7 +22,7 @@ from tmd.planning.result import Filled, GaveUp, Unreachable
 from tmd.planning.up_planners import (
     EngineSpec,
     UnifiedPlanner,
-    fast_downward,
+    fast_downward_for_gaps,
     has_universal,
     judged,
     spec,
@@ -36,7 +36,7 @@ installed = pytest.mark.skipif(
 @installed
 def test_fast_downward_agrees_in_the_pantry(pantry: Task, pantry_problem: Problem) -> None:
     """Costs, free steps, conditional effects, a disjunctive precondition, negative goals."""
-    reference = fast_downward(pantry)
+    reference = fast_downward_for_gaps(pantry)
     ours = GapFiller(pantry)
     try:
         for goal in (pantry.goal, (Cube(0, 1 << 3), Cube(1 << 5, 0))):
@@ -53,7 +53,7 @@ def test_fast_downward_agrees_in_the_pantry(pantry: Task, pantry_problem: Proble
 
 @installed
 def test_two_at_once_do_not_disturb_each_other(pantry: Task) -> None:
-    planners = [fast_downward(pantry), fast_downward(pantry)]
+    planners = [fast_downward_for_gaps(pantry), fast_downward_for_gaps(pantry)]
     try:
         with ThreadPoolExecutor(2) as pool:
             answers = list(pool.map(lambda p: [p.fill(pantry.init, (Cube(1 << i, 0),)) for i in range(4)], planners))
@@ -68,7 +68,7 @@ def test_two_at_once_do_not_disturb_each_other(pantry: Task) -> None:
 def test_the_worker_leaves_nothing_behind(pantry: Task, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    planner = fast_downward(pantry)
+    planner = fast_downward_for_gaps(pantry)
     planner.fill(pantry.init, pantry.goal)
     planner.close()
     planner.close()
@@ -77,7 +77,7 @@ def test_the_worker_leaves_nothing_behind(pantry: Task, tmp_path: Path, monkeypa
 
 @installed
 def test_a_closed_planner_starts_again(pantry: Task) -> None:
-    planner = fast_downward(pantry)
+    planner = fast_downward_for_gaps(pantry)
     planner.close()
     assert isinstance(planner.fill(pantry.init, pantry.goal), Filled)
     planner.close()
@@ -95,7 +95,7 @@ def test_unknown_planners_are_refused(name: str, pantry: Task) -> None:
 
 
 def test_without_fast_downward(monkeypatch: pytest.MonkeyPatch, pantry: Task) -> None:
-    monkeypatch.setattr("tmd.planning.downward_process.find_spec", lambda name: None)
+    monkeypatch.setattr("tmd.planning.fast_downward.find_spec", lambda name: None)
     with pytest.raises(MissingToolError) as caught:
         make("fast-downward", pantry)
     assert caught.value.hint == "pip install up-fast-downward"
@@ -140,7 +140,7 @@ def test_statuses(status: str, kind: type) -> None:
 )
 def test_universal_conditions_are_found(text: str, universal: bool) -> None:
     document = parse(text, "test")
-    assert has_universal(read_condition(document.groups[0], document.source), True) is universal
+    assert has_universal(read_condition(document.groups[0], document.source)) is universal
 
 
 def test_axioms_decide_the_configuration(pantry_problem: Problem) -> None:

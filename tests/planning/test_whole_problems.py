@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -22,9 +22,8 @@ from tmd.planning import up_planners
 from tmd.planning.backends import solve
 from tmd.planning.fast_downward import FirstPlan
 from tmd.planning.gap_filler import GapFiller
-from tmd.planning.processes import Conversation, Deadline
 from tmd.planning.result import Filled, GaveUp, Solved, Unreachable
-from tmd.planning.up_planners import EngineSpec, UnifiedPlanner
+from tmd.planning.up_planners import EngineSpec, UnifiedPlanner, Worker
 
 pytest.importorskip("up_fast_downward", reason="Fast Downward is not installed")
 
@@ -122,7 +121,7 @@ class FakeDownward:
 
     def __init__(self, directory: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         self.directory = directory
-        monkeypatch.setattr("tmd.planning.downward_process.binaries", lambda: directory)
+        monkeypatch.setattr("tmd.planning.fast_downward.binaries", lambda: directory)
 
     def does(self, search: str, translator: str = "") -> None:
         package = self.directory / "fast_downward" / "translate"
@@ -259,7 +258,7 @@ def test_no_planner_outlives_the_program(fake: FakeDownward, number: signal.Sign
     domain.write_text(LAMP)
     problem.write_text("(define (problem dark) (:domain lamp) (:goal (lit)))")
     program = (
-        "from pathlib import Path; import tmd.planning.downward_process as d; import sys\n"
+        "from pathlib import Path; import tmd.planning.fast_downward as d; import sys\n"
         f"d.binaries = lambda: Path({str(fake.directory)!r})\n"
         "from tmd.cli import main; sys.argv[0] = 'tmd'; main()"
     )
@@ -304,45 +303,49 @@ def test_what_kairos_does_not_solve_fast_downward_is_asked(
 # ---------------------------------------------------------------------- the worker of unified-planning
 
 
-def talk(program: str) -> Conversation:
-    return Conversation("the planner x", [sys.executable, "-c", program], {})
+READY = "print('{}', flush=True); input()"
 
 
-def test_a_worker_that_hangs_is_told_from_one_that_died() -> None:
-    hangs, dies = talk("import time; time.sleep(60)"), talk("import sys; print('no space', file=sys.stderr); exit(3)")
-    try:
-        assert hangs.ask("x" * 1_000_000, Deadline(0.5)) is None
-        with pytest.raises(PlannerError, match=r"^the planner x ended with the exit code 3; its last lines: no space$"):
-            dies.ask("{}", Deadline(10))
-    finally:
-        hangs.close()
-        dies.close()
-
-
-def test_what_a_worker_started_in_a_session_of_its_own_ends_with_it(tmp_path: Path) -> None:
-    text = f"sleep 60; : {tmp_path}"
-    told = talk(
-        f"import subprocess; subprocess.Popen(['sh', '-c', {text!r}], start_new_session=True); print(1); input()"
-    )
-    try:
-        assert told.ask("{}", Deadline(10)) == "1"
-        assert processes_with(str(tmp_path))
-    finally:
-        told.close()
-    assert all_gone(str(tmp_path))
+@pytest.fixture
+def worker(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
+    """Replaces the program of the worker."""
+    monkeypatch.setattr(up_planners, "GRACE", 1.0)
+    return lambda program: monkeypatch.setattr(Worker, "command", (sys.executable, "-c", program))
 
 
 @pytest.mark.parametrize(
     ("program", "why"),
     [
         ("print('rubbish')", "answered what is no JSON"),
-        ("print('{}', flush=True); input(); print('[rubb', flush=True); input()", "answered what is no JSON"),
-        ("import time; time.sleep(60)", "did not start within"),
+        (f"input(); {READY}; print('[rubb', flush=True); input()", "answered what is no JSON"),
+        ("import time; time.sleep(60)", "did not start within 2 s"),
         ("import os; os.abort()", "was killed by SIGABRT"),
+        (
+            "import sys; print('no space', file=sys.stderr); exit(3)",
+            r"^the planner x ended with the exit code 3; its last lines: no space$",
+        ),
     ],
 )
-def test_an_engine_that_misbehaves(program: str, why: str, pantry: Task, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(up_planners, "GRACE", 1.0)
-    monkeypatch.setattr(up_planners, "Conversation", lambda name, command, environment: talk(program))
+def test_an_engine_that_misbehaves(worker: Callable[[str], None], program: str, why: str, pantry: Task) -> None:
+    worker(program)
     with pytest.raises(PlannerError, match=why):
         UnifiedPlanner(pantry, EngineSpec("x", time_limit=1.0)).fill(pantry.init, pantry.goal)
+
+
+def test_a_worker_that_reads_nothing_gave_up(worker: Callable[[str], None], alike: Problem) -> None:
+    """A question of more than a socket takes at once."""
+    worker(f"input(); {READY.removesuffix('; input()')}; import time; time.sleep(60)")
+    asked = Worker(alike, EngineSpec("x", time_limit=0.2))
+    assert asked.solve([(("x" * 1_000_000,), True)], []) == ("TIMEOUT", None)
+    assert asked.closed
+
+
+def test_what_a_worker_started_in_a_session_of_its_own_ends_with_it(
+    worker: Callable[[str], None], alike: Problem, tmp_path: Path
+) -> None:
+    text = f"sleep 60; : {tmp_path}"
+    worker(f"import subprocess; subprocess.Popen(['sh', '-c', {text!r}], start_new_session=True); input(); {READY}")
+    asked = Worker(alike, EngineSpec("x", time_limit=10.0))
+    assert processes_with(str(tmp_path))
+    asked.close()
+    assert all_gone(str(tmp_path))

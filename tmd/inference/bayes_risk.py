@@ -1,4 +1,4 @@
-"""Deciding by expected loss (minimum Bayes risk): the plan that is nearest to whatever people may do.
+"""Deciding by expected loss (minimum Bayes risk): the plan that is nearest to the plans of people.
 
 People who do the same task do it differently, so the likeliest sequence is like few of theirs. The policy is a
 distribution over what they do; sequences drawn from it stand for them. The loss of a plan against a sequence is half
@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmd.inference.config import InferenceConfig
-from tmd.inference.proposers import SequenceModel
+from tmd.inference.policy.model import Policy
 from tmd.inference.ranking import Choice, Inferred, PlanStep, RankedPlan, why_lost
 from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import Constraints
@@ -26,44 +26,44 @@ from tmd.veil.world import World
 from tmd.world.verb_clause import VerbClause
 
 PLANS = 10
-"""How many plans of least energy are looked at."""
+"""Number of plans of least energy that are considered."""
 RISK = "risk"
 """The name of the factor by which such plans are ranked."""
 SAMPLE_SOURCE = "policy sample"
 """The source of a plan that was drawn from the policy."""
+# The draws depend on text and environment alone.
 _SEED = 0
-"""The draws depend on text and environment alone."""
+# Maximum number of instructions that are put before one that does not apply; with more it is left out.
 _FILLED = 3
-"""How many instructions may be put before one that does not apply; with more it is left out."""
 _SHARE_OF_IED = 0.5
+# Sources of goals that every plan must reach, so that drawn sequences are not candidates.
 _STATED = frozenset({"declared", "model"})
-"""Sources of goals that every plan must reach, so that drawn sequences are no candidates."""
 
 Drawn = Sequence[tuple[Instruction, ...]]
 """A sequence that was drawn, clause by clause."""
 Changed = Callable[[tuple[Instruction, ...]], Bits]
-"""Gives the atoms that are otherwise after a sequence; of one task, whatever the sequence."""
+"""Returns the atoms that a sequence changes."""
 
 
 def decided(
     inferred: Inferred,
     clauses: Sequence[VerbClause],
     world: World,
-    policy: SequenceModel,
+    policy: Policy,
     planner: Planner,
     config: InferenceConfig,
     top: int,
 ) -> Inferred:
-    """The ``top`` plans of least expected loss, among those that inference found and those that were drawn.
+    """Return the ``top`` plans of least expected loss, among those that inference found and those that were drawn.
 
     Args:
         inferred: The outcome of inference, with about :data:`PLANS` plans; where it refuses the text it stays as it is.
         clauses: The clauses of the text.
         world: The environment.
-        policy: What people may do.
-        planner: Finds what a drawn instruction needs.
-        config: The model: how many sequences are drawn, and whether they are candidates.
-        top: How many plans are wanted.
+        policy: The distribution over the sequences of people.
+        planner: Fills in the instructions that a drawn one needs.
+        config: The preset: how many sequences are drawn, and whether they are candidates.
+        top: The number of plans.
     """
     if not inferred.plans or not clauses:
         return replace(inferred, plans=inferred.plans[:top])
@@ -79,12 +79,12 @@ def decided(
     losses = expected_losses(list(plans), people, world)
     order = sorted(zip(losses.tolist(), plans.values(), strict=True), key=lambda pair: (pair[0], pair[1].instructions))
     ranked = [_with_risk(plan, loss) for loss, plan in order[:top]]
-    told = (replace(plan, why=why_lost(plan, ranked[0]) if place else "") for place, plan in enumerate(ranked))
-    return replace(inferred, plans=tuple(told))
+    explained = (replace(plan, why=why_lost(plan, ranked[0]) if place else "") for place, plan in enumerate(ranked))
+    return replace(inferred, plans=tuple(explained))
 
 
 def _with_risk(plan: RankedPlan, loss: float) -> RankedPlan:
-    """The plan with its expected loss, in percent, in the place of its energy."""
+    """Return the plan with its expected loss, in percent, in the place of its energy."""
     factors = [{RISK: 100 * loss} if not number else {} for number in range(len(plan.choices))]
     choices = (replace(choice, factors=own) for choice, own in zip(plan.choices, factors, strict=True))
     return replace(plan, choices=tuple(choices))
@@ -93,21 +93,21 @@ def _with_risk(plan: RankedPlan, loss: float) -> RankedPlan:
 def expected_losses(
     plans: Sequence[tuple[Instruction, ...]], people: Sequence[tuple[Instruction, ...]], world: World
 ) -> NDArray[np.float64]:
-    """The mean loss of each plan against all sequences, from 0 to 1, under the planning rules."""
+    """Return the mean loss of each plan against all sequences, from 0 to 1, under the planning rules."""
     similar, same = similarities(plans, people, lambda sequence: _changed(sequence, world)).mean(axis=2)
     found: NDArray[np.float64] = 1 - (_SHARE_OF_IED * similar + (1 - _SHARE_OF_IED) * same)
-    return np.round(found, 9)  # equal ones stay equal whatever the order of a sum
+    return np.round(found, 9)  # equal ones stay equal for any order of a sum
 
 
 def similarities(
     plans: Sequence[tuple[Instruction, ...]], people: Sequence[tuple[Instruction, ...]], changed: Changed
 ) -> NDArray[np.float64]:
-    """IED and END of each plan with each sequence, from 0 to 1: 2 x plans x people.
+    """Return IED and END of each plan with each sequence, from 0 to 1: 2 x plans x people.
 
     Args:
         plans: The plans.
         people: The sequences.
-        changed: Says what a sequence changes, by the rules under which END is meant.
+        changed: Returns the changes of a sequence, by the rules of END.
     """
     from rapidfuzz import process  # most models decide by energy
     from rapidfuzz.distance import Levenshtein
@@ -122,7 +122,7 @@ def similarities(
 
 
 def _changed(sequence: Sequence[Instruction], world: World) -> Bits:
-    """The atoms that are otherwise after a sequence, leaving out what is no instruction here."""
+    """Return the atoms that are otherwise after a sequence, without instructions that are impossible here."""
     state = world.task.init
     for instruction in sequence:
         operator = world.task.by_instruction.get(instruction)
@@ -131,16 +131,16 @@ def _changed(sequence: Sequence[Instruction], world: World) -> Bits:
 
 
 def _alike(a: Bits, b: Bits) -> float:
-    """The share of the changes of either that both have, from 0 to 1; 1 where neither changes anything."""
+    """Return the share of the changes of either that both have, from 0 to 1; 1 where neither changes anything."""
     return (a & b).bit_count() / (a | b).bit_count() if a or b else 1.0
 
 
 class SequenceCompleter:
-    """Makes sequences executable: what is missing is put in, and what cannot be done is left out.
+    """Makes sequences executable: puts in missing instructions, and leaves out impossible ones.
 
     Args:
         world: The environment.
-        planner: Finds what an instruction needs.
+        planner: Fills in the instructions that another one needs.
     """
 
     def __init__(self, world: World, planner: Planner) -> None:
@@ -150,7 +150,7 @@ class SequenceCompleter:
         self._needed: dict[tuple[Bits, Instruction], tuple[Instruction, ...] | None] = {}
 
     def plan(self, sequence: Drawn) -> RankedPlan:
-        """The sequence as a plan, with a choice for each clause."""
+        """Return the sequence as a plan, with a choice for each clause."""
         state = self.world.task.init
         choices = []
         for number, own in enumerate(sequence):

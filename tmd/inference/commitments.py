@@ -13,8 +13,8 @@ from tmd.pddl.model import Formula, GroundAtom
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.readers.interface import PlanConstraints
 
+# Maximum number of conjunctions of a goal and its commitments.
 _MOST = 512
-"""Maximum number of conjunctions of a goal and its commitments."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""One definition of a model: what inference minimises, and how far it looks.
+"""Presets: the energy that inference minimises, and the extent of its search.
 
 ``tmd ground --model``, ``import tmd`` and the rows of the experiments take the same presets, so what ships is what was
 measured. The ablations of the paper are presets with one thing changed (:mod:`tmd.evaluation.models.paper_models`).
@@ -13,12 +13,12 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import nearest
 
 AKIN = 0.75
-"""What a noun counts in extended models that differs from another only by a modifier."""
+"""Value of a noun, in extended presets, that differs from another only by a modifier."""
 
 
 @dataclass(frozen=True, slots=True)
 class InferenceConfig:
-    """How clauses become plans.
+    """A preset: how clauses become plans.
 
     Attributes:
         weights: The name of the weights (``tmd/inference/data``); where weights are learned, those that learning begins
@@ -29,25 +29,25 @@ class InferenceConfig:
             judges all candidates by the words of the clause (Δ_words).
         goals: Whether each clause has a PDDL goal, which every plan for it must reach (:mod:`tmd.goals`).
         sources: Where the meaning of a clause may come from (:data:`tmd.goals.tables.SOURCES`).
-        latent: Whether the planner may add what was left unsaid; without it this is *No latent nodes*.
-        knowledge: Whether the robot knows what its instructions need and do; without it *No Domain Knowledge*: every
+        latent: Whether the planner may add unsaid instructions; without it this is *No latent nodes*.
+        knowledge: Whether the robot knows preconditions and effects; without them *No Domain Knowledge*: every
             candidate counts as executable, nothing is added to it, and the environment stays as it was.
-        language: Whether the robot hears what is said; without it *No NL Instructions*. Rows of the experiments only.
-        beam: How many environments each α_j keeps; ``None`` keeps all, which is exact.
-        trim: How many leading instructions of a template may be trimmed; ``None`` is any number.
-        generated: How many sequences of the policy are looked at for each clause and environment.
-        few: Below how many templates in all the policy is trusted less than half: with n its word counts
-            n / (n + ``few``), and its proposals are charged (n + ``few``) / n. What few demonstrations taught is
-            better done as it was shown. 0 trusts it always.
-        tried: How many proposals of templates and policy are completed to the goal of a clause.
+        language: Whether the robot reads the text; otherwise *No NL Instructions*. Rows of the experiments only.
+        beam: Number of environments that each α_j keeps; ``None`` keeps all, which is exact.
+        trim: Maximum number of leading instructions of a template that are trimmed; ``None`` for any number.
+        generated: Number of sequences of the policy for each clause and environment.
+        few: Number of templates below which the policy is trusted less than half: with n its judgement counts
+            n / (n + ``few``), and its proposals are charged (n + ``few``) / n. Few demonstrations are better repeated
+            as they were shown. 0 trusts it always.
+        tried: Number of proposals of templates and policy that are completed to the goal of a clause.
         guess: Whether anything is proposed for a verb that has no templates; with goals, whether a plan may be made
-            where what was said cannot be done, or is not understood.
+            where the request cannot be done, or is not understood.
         cap: Generated states after which a search of the in-process planner gives up.
         last_resort: Whether planners that are content with any plan are asked for the goal of a clause where the
             optimal search gave up.
         close: The difference of energies up to which two readings of a request count as equally good, so that the user
             is asked which one is meant.
-        samples: How many sequences are drawn from the policy, against which the expected loss of each plan decides
+        samples: Number of sequences drawn from the policy, against which the expected loss of each plan decides
             (:mod:`tmd.inference.bayes_risk`); 0 decides by energy.
         drawn_candidates: Whether those sequences are candidates as well, where no declared goal must be reached.
     """
@@ -74,7 +74,7 @@ class InferenceConfig:
 
     @property
     def akin(self) -> float:
-        """As for :func:`tmd.inference.energy.delta_nl`."""
+        """The value of akin nouns, as for :func:`tmd.inference.energy.delta_nl`."""
         return AKIN if self.extended else 0.0
 
 
@@ -97,7 +97,7 @@ _RENAMED = {"stating": "goals", "generating": "policy", "extended": "paper_exten
 
 
 def preset(name: str) -> InferenceConfig:
-    """The model of that name.
+    """Return the preset of that name.
 
     Raises:
         TmdError: There is none.

@@ -22,8 +22,8 @@ from tmd.veil.template import Instantiation, Template
 from tmd.veil.world import Profile, World, differences
 from tmd.world.verb_clause import VerbClause
 
+# Added to every count, so that nothing has probability zero (Laplace).
 SMOOTHING = 1.0
-"""Added to every count, so that nothing has probability zero (Laplace)."""
 
 StateName = tuple[str, ...]
 
@@ -41,7 +41,7 @@ class Frequencies:
         self.total += 1
 
     def surprise(self, name: str) -> float:
-        """-log P(name); what was never seen shares one smoothed count."""
+        """Return -log P(name); all unseen names share one smoothed count."""
         kinds = len(self.counts) + 1
         return -math.log((self.counts.get(name, 0) + SMOOTHING) / (self.total + SMOOTHING * kinds))
 
@@ -59,13 +59,13 @@ class EndStates:
             self.counts[key] = self.counts.get(key, 0) + 1
 
     def probability(self, kind: str, state: StateName, value: bool) -> float:
-        """The smoothed probability of ``value``; a half where nothing is known."""
+        """Return the smoothed probability of ``value``; a half where nothing is known."""
         own = self.counts.get((kind, state, value), 0) + SMOOTHING
         other = self.counts.get((kind, state, not value), 0) + SMOOTHING
         return own / (own + other)
 
     def mean(self, objects: Iterable[tuple[str, Profile]]) -> float | None:
-        """The mean probability over all states of the objects (kind and profile); ``None`` for no state at all."""
+        """Return the mean probability over all states of objects (kind and profile); ``None`` for no state."""
         found = [self.probability(kind, state, value) for kind, profile in objects for state, value in profile.items()]
         return math.fsum(found) / len(found) if found else None
 
@@ -78,7 +78,7 @@ class Statistics:
         instructions: How often each instruction occurs.
         parameters: For each parameter of each instruction, the classes of its objects.
         ends: P(obj, s, v) for the objects that clauses of a verb speak of.
-        all_ends: The same whatever the verb, for every object that was used: for latent instructions.
+        all_ends: The same for all verbs, for every object that was used: for latent instructions.
     """
 
     instructions: Frequencies = field(default_factory=Frequencies)
@@ -87,7 +87,7 @@ class Statistics:
     all_ends: EndStates = field(default_factory=EndStates)
 
     def surprise(self, instruction: Instruction, kinds: Sequence[str]) -> tuple[float, float]:
-        """-log P of the instruction, and the mean -log P of the classes of its arguments."""
+        """Return -log P of the instruction, and the mean -log P of the classes of its arguments."""
         own = self.instructions.surprise(instruction.name)
         tables = (self.parameters.get((instruction.name, i), _NOTHING) for i in range(len(kinds)))
         each = [table.surprise(kind) for table, kind in zip(tables, kinds, strict=True)]
@@ -101,18 +101,15 @@ _COUNTED: WeakKeyDictionary[Library, tuple[int, Statistics]] = WeakKeyDictionary
 
 
 def count(library: Library) -> Statistics:
-    """The tables of a library; what they are is remembered until it has more templates."""
+    """Count the templates of a library; the tables are remembered until it has more templates."""
     known = _COUNTED.get(library)
-    if known is None or known[0] != len(library):
-        known = _COUNTED[library] = len(library), _counted(library)
-    return known[1]
-
-
-def _counted(library: Library) -> Statistics:
+    if known is not None and known[0] == len(library):
+        return known[1]
     found = Statistics()
     for verb in library.verbs():
         for template in library.templates(verb):
             _count_template(verb, template, found)
+    _COUNTED[library] = len(library), found
     return found
 
 
@@ -130,7 +127,7 @@ def _count_template(verb: str, template: Template, found: Statistics) -> None:
 
 
 def kind_of(name: str, world: World) -> str:
-    """The kind of an object, its class as a rule; a constant is its own."""
+    """Return the kind of an object, its class as a rule; a constant is its own."""
     if name in world.profiles.constants:
         return name
     return world.mentions.kinds.get(name, name)
@@ -170,7 +167,7 @@ _TITLES = {
 
 
 def title(name: str) -> str:
-    """What people read for a factor; files and JSON have its name."""
+    """Return the words for a factor, where files and JSON have its name."""
     return _TITLES.get(name, name)
 
 
@@ -198,7 +195,7 @@ _MEANINGS = {
 
 
 def meaning(name: str) -> str:
-    """What a factor counts, in a sentence: the more of it, the dearer the plan; empty where it is not known."""
+    """Explain a factor in a sentence: the more of it, the dearer the plan; empty where it is not known."""
     return _MEANINGS.get(name, "")
 
 
@@ -222,7 +219,7 @@ def parse_weights(text: str, file: str = "<text>") -> Weights:
     """Read weights: ``name value`` a line, ``#`` begins a comment.
 
     Raises:
-        TmdError: A line is none, a name is unknown or said twice, or a value is not a finite number.
+        TmdError: A line is malformed, a name is unknown or given twice, or a value is not a finite number.
     """
     values: dict[str, float] = {}
     for number, line in enumerate(text.splitlines(), start=1):
@@ -248,7 +245,7 @@ def parse_weights(text: str, file: str = "<text>") -> Weights:
 
 
 def read_weights(path: Path) -> Weights:
-    """The weights in a file.
+    """Return the weights in a file.
 
     Raises:
         TmdError: As :func:`parse_weights`, or the file cannot be read.
@@ -257,7 +254,7 @@ def read_weights(path: Path) -> Weights:
 
 
 def named_weights(name: str) -> Weights:
-    """The weights that come with the package: those of a preset (:mod:`tmd.inference.config`), or ``nearest``.
+    """Return the weights that come with the package: those of a preset (:mod:`tmd.inference.config`), or ``nearest``.
 
     Raises:
         TmdError: There are none of that name.
@@ -272,12 +269,12 @@ def named_weights(name: str) -> Weights:
 
 
 def format_weights(weights: Weights) -> str:
-    """The text of a weights file; reading it gives the same weights."""
+    """Return the text of a weights file; reading it gives the same weights."""
     return "".join(f"{name} {weights[name]!r}\n" for name in (*NAMES, *FIXED))
 
 
 def delta_env(instantiation: Instantiation) -> float:
-    """Environmental distance: the mean share of states in which ξ(z) and ξ_s(z) differ.
+    """Return the environmental distance: the mean share of states in which ξ(z) and ξ_s(z) differ.
 
     Δ_env = 1/|Z| Σ_z 1/|T(z)| Σ_t 1(ξ(z)[t] ≠ ξ_s(z)[t]); 0 for a template without variables.
     """
@@ -289,7 +286,7 @@ def delta_env(instantiation: Instantiation) -> float:
 
 
 def delta_nl(template_clause: VerbClause, clause: VerbClause, *, akin: float = AKIN) -> float:
-    """Natural-language distance: 1 - |obj(C_s) ∩ obj(C_i)| / |obj(C_s) ∪ obj(C_i)|.
+    """Return the natural-language distance: 1 - |obj(C_s) ∩ obj(C_i)| / |obj(C_s) ∪ obj(C_i)|.
 
     The paper prints the Jaccard index itself, which is a similarity; a cost needs its complement. Two clauses
     without objects are alike. Nouns of which one is the other with a modifier (*syrup*, *raspberry syrup*) count
@@ -309,12 +306,12 @@ def delta_nl(template_clause: VerbClause, clause: VerbClause, *, akin: float = A
 
 
 def akin_nouns(one: str, other: str) -> bool:
-    """Whether one noun is the other with a modifier: *ice cream* and *vanilla ice cream*."""
+    """Return whether one noun is the other with a modifier: *ice cream* and *vanilla ice cream*."""
     return one.endswith(f"_{other}") or other.endswith(f"_{one}")
 
 
 def delta_sim(instantiation: Instantiation) -> float:
-    """Parameter similarity cost: the share of variables that stand for another object than in the sample."""
+    """Return the parameter similarity cost: the share of variables whose object is not that of the sample."""
     variables = instantiation.grounding
     if not variables:
         return 0.0
@@ -323,22 +320,22 @@ def delta_sim(instantiation: Instantiation) -> float:
 
 
 def delta_pcc(template_clause: VerbClause, clause: VerbClause) -> float:
-    """Parameter cardinality cost: 1 where the clauses speak of different numbers of objects."""
+    """Return the parameter cardinality cost: 1 where the clauses speak of different numbers of objects."""
     return float(len(clause.resolved()) != len(template_clause.resolved()))
 
 
 def delta_dscpl(instructions: Sequence[Instruction]) -> float:
-    """Description length: the sum over the instructions of the number of arguments plus one."""
+    """Return the description length: the sum over the instructions of the number of arguments plus one."""
     return float(sum(1 + len(instruction.args) for instruction in instructions))
 
 
 def delta_trim(kept: int, whole: int) -> float:
-    """Trimming cost: (|I_s| - |I_i|)²."""
+    """Return the trimming cost: (|I_s| - |I_i|)²."""
     return float((whole - kept) ** 2)
 
 
 def delta_cover(names: Collection[str], used: Collection[str]) -> float:
-    """The share of the objects that the clause speaks of (``names``) which the instructions do not touch.
+    """Return the share of the objects that the clause speaks of (``names``) which the instructions do not touch.
 
     Not in the paper. Δ_nl compares the clause with the template's clause, not with what is done: this keeps *take
     the bowl* from being served by what somebody did for *get it boiling*. 0 where the clause speaks of no object.
@@ -354,7 +351,7 @@ class Energy:
     """The factors of one environment under given weights.
 
     Args:
-        weights: What each factor counts for.
+        weights: The weight of each factor.
         statistics: The tables of the training data.
         world: The environment.
         akin: As for :func:`~tmd.inference.energy.delta_nl`.
@@ -368,7 +365,7 @@ class Energy:
         self._surprises: dict[Instruction, tuple[float, float]] = {}
 
     def of_template(self, instantiation: Instantiation, clause: VerbClause) -> Factors:
-        """The factors of ψ_i that do not depend on how much of the template is kept."""
+        """Return the factors of ψ_i that do not depend on how much of the template is kept."""
         template = instantiation.template.clause
         return {
             "env": delta_env(instantiation),
@@ -378,7 +375,7 @@ class Energy:
         }
 
     def of_sequence(self, kept: Sequence[Instruction], whole: int, names: Sequence[str]) -> Factors:
-        """The factors of ψ_i that depend on the instructions that are kept; ``names`` is what the clause speaks of."""
+        """Return the factors of ψ_i that depend on the kept instructions; ``names`` are the clause's objects."""
         used = {unit for i in kept for argument in i.args for unit in self.world.profiles.unit(argument)}
         inpr, para = self._prior(kept)
         return {
@@ -390,12 +387,12 @@ class Energy:
         }
 
     def of_end(self, verb: str, names: Sequence[str], end: Bits) -> Factors:
-        """ψ'_i: whether the clause's objects end as they usually do when its verb has been done."""
+        """Return ψ'_i: whether the clause's objects end as they usually do when its verb has been done."""
         table = self.statistics.ends.get(self.world.mentions.lexicon.canonical_verb(verb))
         return {"cons": self._inconsistency(table, names, end) if table is not None else 0.0}
 
     def of_latent(self, plan: Sequence[Instruction], end: Bits) -> Factors:
-        """ψ_il and ψ'_il, for the instructions that were left unsaid; nothing where none are needed."""
+        """Return ψ_il and ψ'_il, for the instructions that were left unsaid; nothing where none are needed."""
         if not plan:
             return {}
         inpr, para = self._prior(plan)
@@ -408,21 +405,21 @@ class Energy:
         }
 
     def least_more(self) -> float:
-        """The least that end and latent factors can add to a candidate: they are never negative but by weight."""
+        """Return the least that end and latent factors can add to a candidate, negative only by weights."""
         if any(self.weights[name] < 0 for name in ("latent_dscpl", "latent_inpr", "latent_para")):
             return -math.inf
         return min(0.0, self.weights["cons"]) + min(0.0, self.weights["latent_cons"])
 
     def weigh(self, values: Mapping[str, float]) -> Factors:
-        """Each factor multiplied by its weight."""
+        """Return each factor multiplied by its weight."""
         return {name: self.weights[name] * value for name, value in values.items()}
 
     def total(self, values: Mapping[str, float]) -> float:
-        """The weighed factors, summed."""
+        """Return the weighed factors, summed."""
         return sum(self.weigh(values).values())
 
     def _prior(self, instructions: Sequence[Instruction]) -> tuple[float, float]:
-        """Δ_inpr and Δ_para: the mean surprise of the instructions, and of the classes of their arguments."""
+        """Return Δ_inpr and Δ_para: the mean surprise of the instructions, and of the classes of their arguments."""
         if not instructions:
             return 0.0, 0.0
         found = [self._surprise(instruction) for instruction in instructions]
@@ -436,7 +433,7 @@ class Energy:
         return self._surprises[instruction]
 
     def _inconsistency(self, table: EndStates, names: Sequence[str], end: Bits) -> float:
-        """Δ_cons: one minus the mean probability of the objects' states; 0 for no object."""
+        """Return Δ_cons: one minus the mean probability of the objects' states; 0 for no object."""
         objects = [(kind_of(name, self.world), self.world.profiles.of(name, end)) for name in names]
         probability = table.mean(objects)
         return 1 - probability if probability is not None else 0.0

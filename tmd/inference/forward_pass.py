@@ -57,8 +57,8 @@ class Restoration:
     """Facts that people undo unasked, as (predicate, class of the thing): the tap is turned off again.
 
     Attributes:
-        at_once: What is undone when the clause is done that needed it.
-        at_the_end: What is undone when the whole request is done.
+        at_once: Facts that are undone when the clause is done that needed them.
+        at_the_end: Facts that are undone when the whole request is done.
     """
 
     at_once: frozenset[tuple[str, str]] = frozenset()
@@ -67,7 +67,7 @@ class Restoration:
 
 @dataclass(frozen=True)
 class InferenceSetup:
-    """What inference works with in one environment. Nothing of a request is kept in it.
+    """The fixed inputs of inference in one environment. Nothing of a request is kept in it.
 
     Attributes:
         world: The environment.
@@ -113,7 +113,7 @@ class ForwardPass:
     """The forward pass over the clauses of one request.
 
     Args:
-        setup: What inference works with.
+        setup: The inputs of inference.
         clauses: The clauses.
         task: The task of the environment, without what the request forbids.
         top: The number of distinct plans that are wanted.
@@ -143,7 +143,7 @@ class ForwardPass:
         return tuple(replace(p, why=why_lost(p, plans[0])) if place else p for place, p in enumerate(plans))
 
     def _forward(self, number: int, ways: Sequence[Way]) -> list[Way]:
-        """Forward-Inference(j): α_j from α_{j-1}."""
+        """Compute α_j from α_{j-1}: Forward-Inference(j)."""
         alpha = by_state(ways)
         groups = {Situation(self.clauses, number, [way.path for way in group]): group for group in alpha.values()}
         found: dict[Bits, list[Way]] = {}

@@ -36,15 +36,15 @@ from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 from tmd.veil.library import tidy
 
+# Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it.
 _MOST_FURTHER_STEPS = 8
-"""Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it."""
+# Maximum number of different readings of a request that are followed at a time, each with its own beam.
 _MOST_READINGS = 4
-"""Maximum number of different readings of a request that are followed at a time, each with a beam of its own."""
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
 PRIOR = "prior"
 """The factor of the reader's prior: the negative logarithm of its belief in the candidate goal."""
+# A proposal that can be carried out, the planner's instructions before it, and its own instructions.
 _Executable = tuple[Proposal, Instructions, Instructions]
-"""A proposal that can be carried out, the planner's instructions before it, and its own instructions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,7 @@ class GoalPass(ForwardPass):
     """The forward pass over the steps of one dialogue.
 
     Args:
-        setup: What inference works with.
+        setup: The inputs of inference.
         dialogue: The request as it was read.
         top: The number of distinct plans that are wanted.
         chosen: For steps of :attr:`Dialogue.steps` that the user was asked about, the goal that is meant.
@@ -325,7 +325,8 @@ class GoalPass(ForwardPass):
         proposals = list(self._executables(target.step, way)) if target.step.main else []
         reason = ""
         for aim, quick in self._attempts(state, target.aims):
-            found = [] if isinstance(quick, Unreachable) else self._completions(way, proposals, target, aim)
+            tried = () if isinstance(quick, Unreachable) else proposals
+            found = [c for p in tried if (c := self._completed(way, p, target, aim)) is not None]
             answer = self._far_if_needed(quick, state, aim, target) if not found else quick
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
@@ -336,7 +337,8 @@ class GoalPass(ForwardPass):
                 return found
         if reason:
             return _impossible(target, reason)
-        return _gave_up(target)
+        message = f"no plan was found for '{target.step.text}'; nothing is proven"
+        return Refusal(RefusalKind.GAVE_UP, message, "ask another planner with --planner")
 
     def _takes(self, target: Target, way: Way, instructions: Instructions) -> bool:
         """Return whether a plan may be taken: it meets the conditions on the way, or it is a guess."""
@@ -365,12 +367,6 @@ class GoalPass(ForwardPass):
             while trace and not any(cube.holds(trace[0]) for cube in ways):
                 del trace[0]
         return bool(trace)
-
-    def _completions(
-        self, way: Way, proposals: Sequence[_Executable], target: Target, aim: tuple[Cube, ...]
-    ) -> list[tuple[Choice, Bits]]:
-        """Return the proposals that can be completed to an aim."""
-        return [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
 
     def _far_if_needed(self, quick: Answer, state: Bits, aim: tuple[Cube, ...], target: Target) -> Answer:
         """Return the far planner's answer where the quick one gave up, unless its plan keeps too much at any price."""
@@ -558,11 +554,6 @@ def _impossible(target: Target, reason: str) -> Refusal:
 
 def _impossible_goal(step: Step) -> Refusal:
     return Refusal(RefusalKind.IMPOSSIBLE, f"the goal of '{step.text}' contradicts itself or can never hold here")
-
-
-def _gave_up(target: Target) -> Refusal:
-    message = f"no plan was found for '{target.step.text}'; nothing is proven"
-    return Refusal(RefusalKind.GAVE_UP, message, "ask another planner with --planner")
 
 
 def _why_lost(refusal: Refusal | None, energy: float | None, best: float) -> str:

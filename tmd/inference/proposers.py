@@ -1,8 +1,7 @@
-"""Proposers: each says what may be done for a clause in an environment, and may judge what the others say.
+"""Proposers: sources of candidate sequences for a clause, which may also judge the candidates of the others.
 
-The paper has one, the templates of the demonstrations (section V-A). A policy stands beside it; whoever writes another
-gives it to :class:`~tmd.inference.engine.Inference` as well. The goals that every proposal has to reach are the affair
-of :mod:`tmd.inference.goal_pass`.
+The paper has one, the templates of the demonstrations (section V-A); the policy is another. Further ones are passed to
+:class:`~tmd.inference.engine.Inference`. :mod:`tmd.inference.goal_pass` completes proposals to a goal.
 """
 
 from __future__ import annotations
@@ -12,10 +11,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
-import numpy as np
-
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy, Factors
+from tmd.inference.policy.model import Policy
 from tmd.inference.ranking import Path, RejectedProposal
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
@@ -52,7 +50,7 @@ class Situation:
 
     @cached_property
     def done(self) -> Instructions:
-        """What is done on the cheapest way there."""
+        """The instructions of the cheapest way there."""
         return self.ways[0].instructions
 
     @property
@@ -60,15 +58,10 @@ class Situation:
         """The clause C_j."""
         return self.clauses[self.number]
 
-    @property
-    def earlier(self) -> Sequence[VerbClause]:
-        """The clauses before it."""
-        return self.clauses[: self.number]
-
 
 @dataclass(frozen=True, slots=True)
 class Proposal:
-    """What may be done for a clause, before the planner is asked what else that needs.
+    """A candidate sequence for a clause, before the planner is asked for the further instructions that it needs.
 
     Attributes:
         source: The demonstration or the proposer that it comes from.
@@ -89,11 +82,11 @@ class Proposer(Protocol):
     """A source of candidates. It keeps nothing of a text between calls."""
 
     def propose(self, situation: Situation) -> Iterable[Proposal | RejectedProposal]:
-        """Candidates for a clause in an environment, and why there are not more."""
+        """Yield candidates for a clause in an environment, and those that are impossible."""
         ...
 
     def judge(self, situation: Situation, instructions: Instructions, end: Bits) -> Factors:
-        """Factors of any candidate, whoever proposed it: ``instructions`` is all that is done, up to ``end``."""
+        """Return factors of any proposer's candidate: all its instructions lead to ``end``."""
         return {}
 
 
@@ -114,7 +107,7 @@ class TemplateProposer(Proposer):
         self.config = config
 
     def propose(self, situation: Situation) -> Iterator[Proposal | RejectedProposal]:
-        """Each distinct trimmed instantiation, at its cheapest."""
+        """Yield each distinct trimmed instantiation, at its cheapest."""
         best: dict[tuple[Instructions, tuple[str, ...]], Proposal] = {}
         for template in self.library.distinct(situation.clause, self.world):
             for proposed in self._of_template(template, situation):
@@ -139,14 +132,14 @@ class TemplateProposer(Proposer):
         yield from self._trimmings(made, situation, first)
 
     def _first_possible(self, instructions: Instructions) -> int:
-        """The first t for which nothing in I[t..] is impossible in this environment."""
+        """Return the first t for which nothing in I[t..] is impossible in this environment."""
         for t in range(len(instructions), 0, -1):
             if instructions[t - 1] not in self.world.task.by_instruction:
                 return t
         return 0
 
     def _trimmings(self, made: Instantiation, situation: Situation, first: int) -> Iterator[Proposal]:
-        """I[t..] for every t from ``first`` on that is allowed."""
+        """Yield I[t..] for every allowed t from ``first`` on."""
         whole = made.instructions
         fixed = self.energy.of_template(made, situation.clause)
         names = self.world.mentions.meant(situation.clause, made.grounding.values(), situation.state)
@@ -154,36 +147,6 @@ class TemplateProposer(Proposer):
         for t in range(first, most + 1):
             raw = {**fixed, **self.energy.of_sequence(whole[t:], len(whole), names)}
             yield Proposal(made.template.source, whole[t:], names, raw, self.energy.total(raw))
-
-
-class SequenceModel(Protocol):
-    """A learned distribution over instruction sequences given the words of a clause."""
-
-    def knows(self, verb: str) -> bool:
-        """Whether it was learned from demonstrations with that verb."""
-        ...
-
-    def best(
-        self, clauses: Sequence[VerbClause], number: int, done: Sequence[Instruction], count: int
-    ) -> Sequence[tuple[float, Instructions]]:
-        """The ``count`` likeliest sequences for a clause of a text, each after its score, likeliest first."""
-        ...
-
-    def sample(
-        self, clauses: Sequence[VerbClause], count: int, random: np.random.Generator
-    ) -> Sequence[tuple[Instructions, ...]]:
-        """``count`` sequences for a whole text, drawn from the distribution, clause by clause."""
-        ...
-
-    def surprise(
-        self,
-        clauses: Sequence[VerbClause],
-        number: int,
-        done: Sequence[Instruction],
-        instructions: Sequence[Instruction],
-    ) -> float:
-        """The mean of -ln P over a sequence and its end, never negative."""
-        ...
 
 
 class PolicyProposer(Proposer):
@@ -199,9 +162,7 @@ class PolicyProposer(Proposer):
         config: The model.
     """
 
-    def __init__(
-        self, policy: SequenceModel, world: World, library: Library, energy: Energy, config: InferenceConfig
-    ) -> None:
+    def __init__(self, policy: Policy, world: World, library: Library, energy: Energy, config: InferenceConfig) -> None:
         self.policy = policy
         self.world = world
         self.library = library
@@ -211,7 +172,7 @@ class PolicyProposer(Proposer):
         self.trust = known / (known + config.few)
 
     def propose(self, situation: Situation) -> Iterator[Proposal]:
-        """The likeliest sequences, without what can never be done here."""
+        """Yield the likeliest sequences, without what can never be done here."""
         clause = situation.clause
         if not self._has_say(clause):
             return
@@ -224,7 +185,7 @@ class PolicyProposer(Proposer):
         yield from found.values()
 
     def judge(self, situation: Situation, instructions: Instructions, end: Bits) -> Factors:
-        """Δ_words."""
+        """Return Δ_words."""
         if not self._has_say(situation.clause):
             return {}
         surprise = self.policy.surprise(situation.clauses, situation.number, situation.done, instructions)
@@ -240,9 +201,9 @@ def proposers_of(
     world: World,
     library: Library,
     energy: Energy,
-    policy: SequenceModel | None = None,
+    policy: Policy | None = None,
 ) -> list[Proposer]:
-    """The proposers of a model; it has no policy where none is given."""
+    """Return the proposers of a model; it has no policy where none is given."""
     found: list[Proposer] = [TemplateProposer(world, library, energy, config)]
     if config.policy and policy is not None:
         found.append(PolicyProposer(policy, world, library, energy, config))

@@ -29,7 +29,7 @@ class PlanStep:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """What was chosen for one clause.
+    """The sequence that was chosen for one clause.
 
     Attributes:
         source: The demonstration whose template was used, or the name of another proposer; ``None`` where none could
@@ -59,12 +59,12 @@ class Path:
     choices: tuple[Choice, ...] = ()
 
     def extended(self, choice: Choice, end: Bits) -> Path:
-        """The way with a choice for the next clause, which ends in ``end``."""
+        """Return the way with a choice for the next clause, which ends in ``end``."""
         return Path(self.energy + choice.energy, end, (*self.choices, choice))
 
     @property
     def instructions(self) -> tuple[Instruction, ...]:
-        """What is done on it."""
+        """The instructions on it."""
         return tuple(step.instruction for choice in self.choices for step in choice.steps)
 
     @property
@@ -199,7 +199,7 @@ def _total(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:
 
 
 def why_lost(plan: RankedPlan, best: RankedPlan) -> str:
-    """The factor that cost ``plan`` most against ``best``, and in which clause the two part."""
+    """Return the factor that cost ``plan`` most against ``best``, and in which clause the two part."""
     gaps = {
         name: plan.factors.get(name, 0.0) - best.factors.get(name, 0.0)
         for name in sorted(plan.factors.keys() | best.factors.keys())

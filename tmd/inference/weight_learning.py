@@ -37,7 +37,7 @@ class Pool:
     _known: set[tuple[object, ...]] = field(default_factory=set)
 
     def add(self, vector: Vector, loss: float) -> None:
-        """Take up a plan, once."""
+        """Add a plan, once."""
         key = (*vector.tolist(), loss)
         if key not in self._known:
             self._known.add(key)
@@ -47,7 +47,7 @@ class Pool:
 
 @dataclass(frozen=True, slots=True)
 class Learned:
-    """What learning gives.
+    """The outcome of learning.
 
     Attributes:
         weights: The weights.
@@ -65,7 +65,7 @@ Propose = Callable[[int, Weights], Sequence[tuple[RankedPlan, float]]]
 
 
 def vector_of(plan: RankedPlan) -> Vector:
-    """The factors of a plan before they are weighed."""
+    """Return the factors of a plan before they are weighed."""
     raw = plan.raw
     return np.array([raw.get(name, 0.0) for name in NAMES])
 
@@ -143,10 +143,10 @@ def descend(
     rate: float,
     pull: float,
 ) -> Descent:
-    """Stochastic subgradient descent on the hinge over fixed pools.
+    """Descend along stochastic subgradients of the hinge over fixed pools.
 
-    What is returned is the mean of the iterates up to that epoch whose preferred plans have the least mean loss, the
-    start among them, the latest of equals: the hinge bounds the loss, but what is wanted is a small loss.
+    The result is the mean of the iterates up to the epoch whose preferred plans have the least mean loss, the start
+    included, the latest of equals: the hinge bounds the loss, but the aim is a small loss.
     """
     useful = [pool for pool in pools if len(pool.losses) > 1]
     if not useful:
@@ -185,7 +185,7 @@ def _with_fixed(learned: Weights, start: Weights, fixed: Mapping[str, float]) ->
 
 
 def _judge(tables: Sequence[tuple[Vector, Vector]], weights: Vector) -> tuple[float, float]:
-    """The mean loss of the plans that ``weights`` prefer, and the mean hinge."""
+    """Return the mean loss of the plans that ``weights`` prefer, and the mean hinge."""
     chosen, hinges = [], []
     for factors, losses in tables:
         energies = factors @ weights
@@ -196,13 +196,13 @@ def _judge(tables: Sequence[tuple[Vector, Vector]], weights: Vector) -> tuple[fl
 
 
 def _target(energies: Vector, losses: Vector) -> int:
-    """y*: among the plans of least loss the one of least energy."""
+    """Return y*: among the plans of least loss the one of least energy."""
     best = np.flatnonzero(losses == losses.min())
     return int(best[np.argmin(energies[best])])
 
 
 def _step(current: Vector, origin: Vector, factors: Vector, losses: Vector, step: float, pull: float) -> Vector:
-    """One subgradient step on one example; weights stay non-negative."""
+    """Take one subgradient step on one example; weights stay non-negative."""
     energies = factors @ current
     target = _target(energies, losses)
     violation = (losses - losses[target]) - (energies - energies[target])
@@ -215,7 +215,7 @@ def _step(current: Vector, origin: Vector, factors: Vector, losses: Vector, step
 
 
 def _spread(pools: Sequence[Pool]) -> Vector:
-    """The mean spread of each factor within the pools, so that a step means the same for each; 1 where it is none."""
+    """Return the mean spread of each factor within the pools, which scales its steps; 1 for no spread."""
     spreads = np.mean([np.std(np.array(pool.factors), axis=0) for pool in pools], axis=0)
     found: Vector = np.where(spreads > 1e-9, spreads, 1.0)
     return found
@@ -245,7 +245,7 @@ class Journal:
             self._load()
 
     def read(self, number: int, example: int) -> Proposed | None:
-        """What was proposed for an example in a round, if it was."""
+        """Return the plans that were proposed for an example in a round, if any."""
         return self._known.get((number, example))
 
     def write(self, number: int, example: int, proposed: Sequence[tuple[Vector, float]]) -> None:

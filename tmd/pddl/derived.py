@@ -1,12 +1,12 @@
-"""Derived predicates: in which order they follow from each other, and the same problem without them.
+"""Derived predicates: the order in which they follow from each other, and the same problem without them.
 
-A predicate is derived where ``(:derived (p ?x) condition)`` says when it holds (PDDL 2.2). What follows in a state
-is told by :func:`tmd.pddl.semantics.close`; planners that know nothing of it get :func:`unfolded`.
+A predicate is derived where ``(:derived (p ?x) condition)`` says when it holds (PDDL 2.2). The atoms that
+follow in a state are computed by :func:`tmd.pddl.semantics.close`; planners without axioms get :func:`unfolded`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from itertools import count
@@ -23,19 +23,19 @@ from tmd.pddl.model import (
     Exists,
     Forall,
     Formula,
-    Imply,
-    Not,
     Or,
     Problem,
     TypedName,
     TypeHierarchy,
     hierarchy,
+    signed_subformulas,
+    with_parts,
 )
 
 
 @lru_cache(maxsize=64)
 def strata(axioms: tuple[Axiom, ...]) -> tuple[tuple[Axiom, ...], ...] | None:
-    """``axioms`` in groups: what a condition negates is derived in an earlier group, all else no later.
+    """Group axioms: negated predicates are derived in an earlier group than their conditions, others no later.
 
     ``None`` where there is no such order, because a predicate depends on its own negation.
     """
@@ -44,8 +44,10 @@ def strata(axioms: tuple[Axiom, ...]) -> tuple[tuple[Axiom, ...], ...] | None:
         changed = False
         for axiom in axioms:
             head = axiom.head.predicate
-            for predicate, positive in _signed(axiom.condition, True):
-                least = level[predicate] + (not positive) if predicate in level else 0
+            for part, positive in signed_subformulas(axiom.condition):
+                if not isinstance(part, Atom) or part.predicate not in level:
+                    continue
+                least = level[part.predicate] + (not positive)
                 if least > level[head]:
                     level[head], changed = least, True
         if not changed:
@@ -54,27 +56,8 @@ def strata(axioms: tuple[Axiom, ...]) -> tuple[tuple[Axiom, ...], ...] | None:
     return None
 
 
-def _signed(formula: Formula, positive: bool) -> Iterator[tuple[str, bool]]:
-    """The predicates of ``formula``, each with whether it stands there unnegated."""
-    match formula:
-        case Atom(predicate):
-            yield predicate, positive
-        case Not(part):
-            yield from _signed(part, not positive)
-        case And(parts) | Or(parts):
-            for part in parts:
-                yield from _signed(part, positive)
-        case Imply(left, right):
-            yield from _signed(left, not positive)
-            yield from _signed(right, positive)
-        case Forall(_, part) | Exists(_, part):
-            yield from _signed(part, positive)
-        case Equals():
-            pass
-
-
 def unfolded(problem: Problem) -> Problem:
-    """``problem`` with what is derived written out where conditions ask for it; the same where nothing is.
+    """Write out the derived predicates in conditions; a problem without any is returned as it is.
 
     The predicates stay declared, and nothing asks for them any more.
 
@@ -103,7 +86,7 @@ def unfolded(problem: Problem) -> Problem:
 
 
 def unfolded_condition(formula: Formula, domain: Domain) -> Formula:
-    """``formula`` with what ``domain`` derives written out.
+    """Write out the derived predicates of ``domain`` in a formula.
 
     Raises:
         TmdError: As :func:`unfolded`.
@@ -112,7 +95,7 @@ def unfolded_condition(formula: Formula, domain: Domain) -> Formula:
 
 
 def without_derived(problem: Problem) -> Problem:
-    """:func:`unfolded`, and nothing is derived or declared as derived any more: for what does not know the word.
+    """Unfold a problem (:func:`unfolded`) and remove derived predicates, for planners that do not know them.
 
     Raises:
         TmdError: As :func:`unfolded`.
@@ -127,7 +110,7 @@ def without_derived(problem: Problem) -> Problem:
 
 
 def as_actions(domain: Domain) -> Domain:
-    """``domain`` with each rule as an action that adds what it derives: for what may ever hold, that is the same."""
+    """Turn each axiom into an action that adds its head: the atoms that may ever hold are the same."""
     rules = tuple(
         ActionSchema(f":derived {n}", axiom.parameters, axiom.condition, (Effect(axiom.head),))
         for n, axiom in enumerate(domain.derived)
@@ -148,19 +131,9 @@ class _Unfolding:
         self._fresh = count(1)
 
     def formula(self, formula: Formula) -> Formula:
-        match formula:
-            case Atom(predicate) if predicate in self._axioms:
-                return self._atom(formula)
-            case Not(part):
-                return replace(formula, part=self.formula(part))
-            case And(parts) | Or(parts):
-                return replace(formula, parts=tuple(map(self.formula, parts)))
-            case Imply(left, right):
-                return replace(formula, left=self.formula(left), right=self.formula(right))
-            case Forall(_, part) | Exists(_, part):
-                return replace(formula, part=self.formula(part))
-            case _:
-                return formula
+        if isinstance(formula, Atom) and formula.predicate in self._axioms:
+            return self._atom(formula)
+        return with_parts(formula, self.formula)
 
     def _atom(self, atom: Atom) -> Formula:
         axioms = self._axioms[atom.predicate]
@@ -177,7 +150,7 @@ class _Unfolding:
         return cases[0] if len(cases) == 1 else Or(cases, atom.location)
 
     def _case(self, axiom: Axiom, atom: Atom) -> Formula:
-        """The condition of ``axiom`` for ``atom``; a variable of its own where it is about fewer objects."""
+        """Return the condition of ``axiom`` for ``atom``; a variable of its own where it is about fewer objects."""
         binding: dict[str, str] = {}
         own: list[TypedName] = []
         equal: list[Formula] = []
@@ -196,19 +169,15 @@ class _Unfolding:
         return Exists(tuple(own), case) if own else case
 
     def _substituted(self, formula: Formula, binding: Mapping[str, str]) -> Formula:
-        """``formula`` with its variables replaced; those that it binds get new names, so that none is captured."""
+        """Replace variables; those that the formula binds get new names, so that none is captured."""
         match formula:
             case Atom(_, terms):
                 return replace(formula, terms=tuple(binding.get(t, t) for t in terms))
             case Equals(left, right):
                 return replace(formula, left=binding.get(left, left), right=binding.get(right, right))
-            case Not(part):
-                return replace(formula, part=self._substituted(part, binding))
-            case And(parts) | Or(parts):
-                return replace(formula, parts=tuple(self._substituted(part, binding) for part in parts))
-            case Imply(left, right):
-                return replace(formula, left=self._substituted(left, binding), right=self._substituted(right, binding))
             case Forall(parameters, part) | Exists(parameters, part):
                 renamed = {p.name: f"{p.name}-{next(self._fresh)}" for p in parameters}
                 named = tuple(replace(p, name=renamed[p.name]) for p in parameters)
                 return replace(formula, parameters=named, part=self._substituted(part, {**binding, **renamed}))
+            case _:
+                return with_parts(formula, lambda part: self._substituted(part, binding))

@@ -16,15 +16,15 @@ from tmd.pddl.model import OBJECT, Instruction, Or, Problem, State, TypedName, u
 from tmd.pddl.semantics import bind, schema_of
 from tmd.pddl.task import Bits, Cube, Operator, Task
 
+# Names of stand-ins for objects that do not exist begin so; no PDDL name can.
 _GHOST = "?nobody-"
-"""Names of stand-ins for objects that do not exist begin so; no PDDL name can."""
 
 _FALSE = Or()
 
 
 @dataclass(frozen=True, slots=True)
 class Rollout:
-    """What happened: the state at the start and after each instruction, as bits of ``task``.
+    """A forced execution: the state at the start and after each instruction, as bits of ``task``.
 
     Attributes:
         task: What the bits mean.
@@ -47,7 +47,7 @@ class Rollout:
         return self.failures[0] if self.failures else None
 
     def decoded(self) -> list[State]:
-        """The states as sets of atoms."""
+        """Return the states as sets of atoms."""
         return [self.task.decode(bits) for bits in self.states]
 
 
@@ -99,7 +99,7 @@ class ForcedExecution:
         return Rollout(self.task, tuple(states), tuple(failures))
 
     def step(self, state: Bits, instruction: Instruction) -> tuple[Bits, bool]:
-        """The state after a prepared instruction, and whether it was executable."""
+        """Return the state after a prepared instruction, and whether it was executable."""
         key = state, instruction
         found = self._steps.get(key)
         if found is None:
@@ -109,7 +109,7 @@ class ForcedExecution:
         return found
 
     def precondition(self, instruction: Instruction) -> tuple[Cube, ...]:
-        """A prepared instruction's precondition: one of these must hold; none if it can never be executed."""
+        """Return a prepared instruction's precondition: one of these must hold; none if it can never be executed."""
         return self._preconditions[instruction]
 
     def _ground(self) -> Task:
@@ -138,7 +138,7 @@ class ForcedExecution:
         return ground_condition(task, schema.precondition, bind(self.problem, instruction))
 
     def _bound(self, instruction: Instruction) -> Instruction | None:
-        """The instruction with stand-ins for objects that do not exist; nothing where it fits no action."""
+        """Return the instruction with stand-ins for objects that do not exist; nothing where it fits no action."""
         schema = next((a for a in self.problem.domain.actions if a.name == instruction.name), None)
         if schema is None or len(schema.parameters) != len(instruction.args):
             return None
@@ -158,7 +158,7 @@ class ForcedExecution:
 
 
 def _general_types(problem: Problem) -> frozenset[str]:
-    """The types right below the root that the problem has objects of; a relation word is no such thing."""
+    """Return the types right below the root that the problem has objects of; a relation word is no such thing."""
     known = universe(problem)
     declared = (known.hierarchy.ancestors(o.types[0])[-2:] for o in problem.objects)
     return frozenset({OBJECT, *(types[0] for types in declared)})
@@ -170,6 +170,6 @@ def rollout(problem: Problem, instructions: Sequence[Instruction]) -> Rollout:
 
 
 def _without(operator: Operator, real: Bits) -> Operator:
-    """The operator without what it says of things that do not exist."""
+    """Return the operator without what it says of things that do not exist."""
     conditional = tuple(effect._replace(add=effect.add & real) for effect in operator.conditional)
     return replace(operator, add=operator.add & real, conditional=conditional)

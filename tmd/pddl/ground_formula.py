@@ -27,8 +27,8 @@ from tmd.pddl.task import Bits, Cube, Task
 
 TRUE, FALSE = And(), Or()
 """The formulas that hold in every state, and in none."""
+# Limits on the alternatives of a disjunction, tried in turn where a formula has too many cases.
 _MOST_ALTERNATIVES = (8, 3, 1)
-"""Limits on the alternatives of a disjunction, tried in turn where a formula has too many cases."""
 
 
 def goal_cubes(task: Task, formula: Formula) -> tuple[Cube, ...]:
@@ -80,7 +80,7 @@ def _instantiated(formula: Formula, binding: Binding, task: Task, objects: Unive
         case Or(parts):
             return disjunction(map(inner, parts))
         case Imply(left, right):
-            return disjunction((negation(inner(left)), inner(right)))
+            return inner(Or((Not(left), right)))
         case Forall(parameters, part):
             return conjunction(inner(part, each) for each in bindings(parameters, objects, binding))
         case Exists(parameters, part):

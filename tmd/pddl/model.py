@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from heapq import heappop, heappush
 from typing import NamedTuple, TypeAlias
@@ -37,7 +37,7 @@ class Instruction(NamedTuple):
         return f"{self.name}({', '.join(self.args)})"
 
     def pddl(self) -> str:
-        """The instruction as a plan line: ``(keep mug1 counter1 on)``."""
+        """Return the instruction as a plan line: ``(keep mug1 counter1 on)``."""
         return f"({' '.join((self.name, *self.args))})"
 
 
@@ -207,8 +207,8 @@ class Problem:
     ``objects`` are the problem's own; :meth:`all_objects` adds the domain's constants. ``init`` holds every
     atom that is true at the start, static and derived ones included. ``function_values`` gives the values that cost
     expressions read. ``requirements`` are the problem's own, beside its domain's. ``init_locations`` tells
-    where each initial atom and function value was read, and ``init_denied`` which atoms are said not to hold: what
-    is not said to hold does not anyway, so they are kept only to be checked.
+    where each initial atom and function value was read, and ``init_denied`` holds the atoms that are denied: atoms
+    that are not stated do not hold anyway, so they are kept only to be checked.
     """
 
     name: str
@@ -225,20 +225,20 @@ class Problem:
     metric_location: Location | None = field(default=None, compare=False, repr=False)
 
     def all_objects(self) -> tuple[TypedName, ...]:
-        """The domain's constants, then the problem's objects, each once."""
+        """Return the domain's constants, then the problem's objects, each once."""
         own = {o.name for o in self.objects}
         return tuple(c for c in self.domain.constants if c.name not in own) + self.objects
 
 
 def conjuncts(formula: Formula) -> list[Formula]:
-    """The parts of a conjunction, however nested."""
+    """Return the parts of a conjunction, however nested."""
     if isinstance(formula, And):
         return [inner for part in formula.parts for inner in conjuncts(part)]
     return [formula]
 
 
 def signed_atoms(formula: Formula) -> tuple[tuple[Atom, int], ...] | None:
-    """The atoms of a conjunction of literals, 1 for negated ones; ``None`` for any other formula."""
+    """Return the atoms of a conjunction of literals, 1 for negated ones; ``None`` for any other formula."""
     found: list[tuple[Atom, int]] = []
     for part in conjuncts(formula):
         inner = part.part if isinstance(part, Not) else part
@@ -248,53 +248,77 @@ def signed_atoms(formula: Formula) -> tuple[tuple[Atom, int], ...] | None:
     return tuple(found)
 
 
-def predicates_of(formula: Formula) -> frozenset[str]:
-    """The predicates that ``formula`` speaks of."""
+def parts_of(formula: Formula) -> tuple[Formula, ...]:
+    """Return the direct parts of a formula."""
     match formula:
-        case Atom(predicate):
-            return frozenset((predicate,))
-        case Equals():
-            return frozenset()
-        case Not(part) | Forall(_, part) | Exists(_, part):
-            return predicates_of(part)
         case And(parts) | Or(parts):
-            return frozenset[str]().union(*(predicates_of(p) for p in parts))
+            return parts
+        case Not(part) | Forall(_, part) | Exists(_, part):
+            return (part,)
         case Imply(left, right):
-            return predicates_of(left) | predicates_of(right)
+            return left, right
+        case _:
+            return ()
+
+
+def with_parts(formula: Formula, change: Callable[[Formula], Formula]) -> Formula:
+    """Return a formula with each of its direct parts changed."""
+    match formula:
+        case And(parts) | Or(parts):
+            return replace(formula, parts=tuple(map(change, parts)))
+        case Not(part) | Forall(_, part) | Exists(_, part):
+            return replace(formula, part=change(part))
+        case Imply(left, right):
+            return replace(formula, left=change(left), right=change(right))
+        case _:
+            return formula
+
+
+def signed_subformulas(formula: Formula, positive: bool = True) -> Iterator[tuple[Formula, bool]]:
+    """Yield a formula and everything in it, outer formulas first, each with whether it is not negated."""
+    yield formula, positive
+    for place, part in enumerate(parts_of(formula)):
+        negated = isinstance(formula, Not) or (isinstance(formula, Imply) and place == 0)
+        yield from signed_subformulas(part, positive != negated)
+
+
+def subformulas(formula: Formula) -> Iterator[Formula]:
+    """Yield a formula and everything in it, outer formulas first."""
+    return (part for part, _ in signed_subformulas(formula))
+
+
+def predicates_of(formula: Formula) -> frozenset[str]:
+    """Return the predicates of a formula."""
+    return frozenset(part.predicate for part in subformulas(formula) if isinstance(part, Atom))
 
 
 def free_variables(formula: Formula) -> frozenset[str]:
-    """The variables of ``formula`` that no quantifier within it binds."""
+    """Return the variables of a formula that no quantifier within it binds."""
     if isinstance(formula, Atom):
         return frozenset(t for t in formula.terms if t.startswith("?"))
     if isinstance(formula, Equals):
         return frozenset(t for t in (formula.left, formula.right) if t.startswith("?"))
-    if isinstance(formula, Not):
-        return free_variables(formula.part)
-    if isinstance(formula, Imply):
-        return free_variables(formula.left) | free_variables(formula.right)
-    if isinstance(formula, Forall | Exists):
-        return free_variables(formula.part) - {p.name for p in formula.parameters}
-    return frozenset[str]().union(*(free_variables(p) for p in formula.parts))
+    bound = {p.name for p in formula.parameters} if isinstance(formula, Forall | Exists) else set()
+    return frozenset[str]().union(*map(free_variables, parts_of(formula))) - bound
 
 
 MOST_LEVELS = 200
-"""Types above one another; those of a longer chain are as good as unrelated, and told as a fault."""
+"""Maximum depth of the type hierarchy; types of a longer chain count as unrelated, and are a fault."""
 
 
 class TypeHierarchy:
-    """Which type is a kind of which."""
+    """The hierarchy of types."""
 
     def __init__(self, declarations: Iterable[TypeDeclaration]) -> None:
         self.parents: dict[str, str] = {d.name: d.parent for d in declarations if d.name != OBJECT}
         self._ancestors: dict[str, tuple[str, ...]] = {}
 
     def known(self, name: str) -> bool:
-        """Whether ``name`` is declared; ``object`` always is."""
+        """Return whether ``name`` is declared; ``object`` always is."""
         return name == OBJECT or name in self.parents
 
     def ancestors(self, name: str) -> tuple[str, ...]:
-        """``name``, its parent and so on up to ``object``; a cycle is walked once."""
+        """Return ``name``, its parent and so on up to ``object``; a cycle is walked once."""
         found = self._ancestors.get(name)
         if found is None:
             chain: dict[str, None] = {}
@@ -307,7 +331,7 @@ class TypeHierarchy:
         return found
 
     def accepts(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
-        """Whether everything of the types ``given`` (any of them) is also of one of ``wanted``."""
+        """Return whether everything of the types ``given`` (any of them) is also of one of ``wanted``."""
         return all(any(w in self.ancestors(g) for w in wanted) for g in given)
 
 
@@ -321,7 +345,7 @@ class Universe:
         self._is_a: dict[tuple[str, tuple[str, ...]], bool] = {}
 
     def is_a(self, name: str, types: Sequence[str]) -> bool:
-        """Whether the object ``name`` exists and is of one of ``types``."""
+        """Return whether the object ``name`` exists and is of one of ``types``."""
         key = name, tuple(types)
         known = self._is_a.get(key)
         if known is None:
@@ -330,7 +354,7 @@ class Universe:
         return known
 
     def of(self, types: tuple[str, ...]) -> tuple[str, ...]:
-        """The objects of any of ``types``."""
+        """Return the objects of any of ``types``."""
         found = self._of.get(types)
         if found is None:
             found = self._of[types] = tuple(name for name in self.types_of if self.is_a(name, types))
@@ -338,7 +362,7 @@ class Universe:
 
 
 def parents_first(declarations: Sequence[TypeDeclaration]) -> tuple[TypeDeclaration, ...]:
-    """``declarations`` with each parent before its children, otherwise in order: some readers insist."""
+    """Sort declarations: each parent before its children, as some readers need it, otherwise in order."""
     children: dict[str, list[int]] = {}
     for number, declared in enumerate(declarations):
         children.setdefault(declared.parent, []).append(number)
@@ -365,10 +389,10 @@ def _universe(declarations: tuple[TypeDeclaration, ...], objects: tuple[TypedNam
 
 
 def hierarchy(domain: Domain) -> TypeHierarchy:
-    """The type hierarchy of ``domain``."""
+    """Return the type hierarchy of ``domain``."""
     return _hierarchy(domain.types)
 
 
 def universe(problem: Problem) -> Universe:
-    """The objects of ``problem``, its domain's constants among them."""
+    """Return the objects of ``problem``, its domain's constants among them."""
     return _universe(problem.domain.types, problem.all_objects())

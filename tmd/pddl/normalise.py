@@ -14,28 +14,24 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import (
     OBJECT,
     ActionSchema,
-    And,
-    Atom,
     Domain,
-    Equals,
     Exists,
     Forall,
     Formula,
-    Imply,
-    Not,
-    Or,
     Predicate,
     Problem,
     TypeDeclaration,
     TypedName,
     TypeHierarchy,
     parents_first,
+    subformulas,
+    with_parts,
 )
 from tmd.pddl.reading.requirements import used_requirements
 
 
 def portable(problem: Problem) -> Problem:
-    """``problem`` with the same states, instructions and plans, in the form that other planners read.
+    """Return ``problem`` with the same states, instructions and plans, in the form that other planners read.
 
     Raises:
         TmdError: As :func:`without_either`.
@@ -46,7 +42,7 @@ def portable(problem: Problem) -> Problem:
 
 
 def _each_object_once(problem: Problem) -> Problem:
-    """``problem`` without the objects that are constants of its domain as well: not all readers let them pass."""
+    """Remove objects that are constants of the domain as well: some readers refuse them."""
     constants = {constant.name for constant in problem.domain.constants}
     if not any(named.name in constants for named in problem.objects):
         return problem
@@ -54,7 +50,7 @@ def _each_object_once(problem: Problem) -> Problem:
 
 
 def without_either(problem: Problem) -> Problem:
-    """``problem`` with a new parent type in place of each ``either``; the same where there is none.
+    """Replace each ``either`` by a new parent type; without any the problem is returned as it is.
 
     Raises:
         TmdError: The types of an ``either`` do not share their parent, or two of them overlap.
@@ -77,7 +73,7 @@ def without_either(problem: Problem) -> Problem:
 
 
 def _reduced(types: tuple[str, ...], hierarchy: TypeHierarchy) -> tuple[str, ...]:
-    """``types`` without those that another one of them covers; sorted."""
+    """Return ``types`` without those that another one of them covers; sorted."""
     own = set(types)
     return tuple(sorted(t for t in own if not own & set(hierarchy.ancestors(t)[1:])))
 
@@ -117,20 +113,9 @@ def _typed_names(problem: Problem) -> Iterator[TypedName]:
 
 
 def _quantified(formula: Formula) -> Iterator[TypedName]:
-    match formula:
-        case Atom() | Equals():
-            return
-        case Not(part):
-            yield from _quantified(part)
-        case Imply(left, right):
-            yield from _quantified(left)
-            yield from _quantified(right)
-        case And(parts) | Or(parts):
-            for inner in parts:
-                yield from _quantified(inner)
-        case Forall(parameters, part) | Exists(parameters, part):
-            yield from parameters
-            yield from _quantified(part)
+    for part in subformulas(formula):
+        if isinstance(part, Forall | Exists):
+            yield from part.parameters
 
 
 class _Rewriting:
@@ -178,14 +163,5 @@ class _Rewriting:
         )
 
     def formula(self, formula: Formula) -> Formula:
-        match formula:
-            case Atom() | Equals():
-                return formula
-            case Not(part):
-                return replace(formula, part=self.formula(part))
-            case Imply(left, right):
-                return replace(formula, left=self.formula(left), right=self.formula(right))
-            case And(parts) | Or(parts):
-                return replace(formula, parts=tuple(self.formula(p) for p in parts))
-            case Forall(parameters, part) | Exists(parameters, part):
-                return replace(formula, parameters=self.names(parameters), part=self.formula(part))
+        found = with_parts(formula, self.formula)
+        return replace(found, parameters=self.names(found.parameters)) if isinstance(found, Forall | Exists) else found

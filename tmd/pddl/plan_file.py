@@ -22,10 +22,10 @@ _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
 _STAMP = re.compile(r"([0-9.]+)\s*:\s*")
 _DURATION = re.compile(r"\s*\[\s*(?:D:)?\s*([0-9.]+)[^\]]*\]$", re.IGNORECASE)
+# What stands before a comment; LPG has a ``;`` within the brackets of a duration.
 _CODE = re.compile(r"[^;\[]*(?:\[[^\]]*\])?[^;]*")
-"""What stands before a comment; LPG has a ``;`` within the brackets of a duration."""
+# Times are printed with three decimals; what overlaps by less does not.
 _TOLERANCE = Decimal("0.001")
-"""Times are printed with three decimals; what overlaps by less does not."""
 _ANNOUNCED = re.compile(r"(?:;*\s*solution found.*|plan:)", re.IGNORECASE)
 
 
@@ -44,7 +44,7 @@ class Plan:
 
 
 def read_plan(path: str | Path) -> Plan:
-    """The plan in the file at ``path``.
+    """Return the plan in the file at ``path``.
 
     Raises:
         TmdError: The file cannot be read, or a line of it is not an instruction.
@@ -53,7 +53,7 @@ def read_plan(path: str | Path) -> Plan:
 
 
 def parse_plan(text: str, file: str = "<text>") -> Plan:
-    """The plan that ``text`` lists; ``file`` names it in errors.
+    """Return the plan that ``text`` lists; ``file`` names it in errors.
 
     Besides plan files of the planning competitions this takes plans with times: those that VAL reads
     (``0.000: (grasp mug1) [1.000]``), what the planner POPF prints (the last plan after ``Solution Found``), and what
@@ -91,7 +91,7 @@ class _Line:
 
 
 def _after_preamble(lines: Sequence[str]) -> int:
-    """Where the plan begins: behind the last line with which POPF or PlanSys2 announce one, else at the start."""
+    """Return the start of the plan: behind the last line with which POPF or PlanSys2 announce one."""
     found = 0
     for number, line in enumerate(lines, start=1):
         if _ANNOUNCED.fullmatch(line.strip()):
@@ -100,7 +100,7 @@ def _after_preamble(lines: Sequence[str]) -> int:
 
 
 def _in_time(steps: list[_Line]) -> list[_Line]:
-    """The lines in the order of their times; as they are where there are none."""
+    """Return the lines in the order of their times; as they are where there are none."""
     timed = [step for step in steps if step.start is not None]
     if not timed:
         return steps
@@ -113,7 +113,7 @@ def _in_time(steps: list[_Line]) -> list[_Line]:
 
 
 def _overlap(steps: Sequence[_Line]) -> Location | None:
-    """Where the first instruction stands that starts before the one before it has ended."""
+    """Return the place of the first instruction that starts before its predecessor ends."""
     for before, after in pairwise(steps):
         if before.end is not None and after.start is not None and after.start < before.end - _TOLERANCE:
             return after.place
@@ -172,7 +172,7 @@ def _parse_instruction(code: str, place: Location, line: str) -> Instruction:
 
 
 def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
-    """The text of a plan file.
+    """Return the text of a plan file.
 
     Args:
         instructions: The plan.
@@ -186,7 +186,7 @@ def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *,
 
 
 def parse_instruction(text: str, *, file: str = "<text>", line: int = 1) -> Instruction:
-    """The instruction written as ``keep(mug1, counter1, on)``; ``str`` of it gives the text back.
+    """Return the instruction written as ``keep(mug1, counter1, on)``; ``str`` of it gives the text back.
 
     Args:
         text: What to read.

@@ -1,4 +1,4 @@
-"""What PDDL means: when a condition holds, what an instruction does (Φ), its inverse, and getConstraints."""
+"""The meaning of PDDL: conditions, the effect of an instruction (Φ) and its inverse, and getConstraints."""
 
 from __future__ import annotations
 
@@ -31,6 +31,7 @@ from tmd.pddl.model import (
     Universe,
     conjuncts,
     free_variables,
+    parts_of,
     universe,
 )
 from tmd.pddl.reading.syntax import nearest
@@ -75,19 +76,19 @@ class Broken:
 
 
 def instantiate(atom: Atom, binding: Binding) -> GroundAtom:
-    """The ground atom of ``atom`` under ``binding``."""
+    """Return the ground atom of ``atom`` under ``binding``."""
     return GroundAtom(atom.predicate, tuple([binding.get(t, t) for t in atom.terms]))
 
 
 def bindings(parameters: tuple[TypedName, ...], objects: Universe, outer: Binding) -> Iterator[Binding]:
-    """``outer`` extended by every choice of objects for ``parameters``."""
+    """Yield ``outer`` extended by every choice of objects for ``parameters``."""
     names = [p.name for p in parameters]
     for choice in product(*(objects.of(p.types) for p in parameters)):
         yield {**outer, **dict(zip(names, choice, strict=True))}
 
 
 def holds(formula: Formula, state: State, objects: Problem | Universe, binding: Binding | None = None) -> bool:
-    """Whether ``formula`` holds in ``state``; quantifiers range over ``objects``."""
+    """Return whether ``formula`` holds in ``state``; quantifiers range over ``objects``."""
     known = universe(objects) if isinstance(objects, Problem) else objects
     return _holds(formula, state, known, binding or {})
 
@@ -113,22 +114,18 @@ def _holds(formula: Formula, state: State, objects: Universe, binding: Binding) 
 
 
 def size(formula: Formula, objects: Universe) -> int:
-    """How many atoms and equations ``formula`` has when its quantifiers are spread out: what it costs at most."""
+    """Return the number of atoms and equations of ``formula`` when its quantifiers are spread out."""
     match formula:
         case Atom() | Equals():
             return 1
-        case Not(part):
-            return size(part, objects)
-        case And(parts) | Or(parts):
-            return sum(size(part, objects) for part in parts)
-        case Imply(left, right):
-            return size(left, objects) + size(right, objects)
         case Forall(parameters, part) | Exists(parameters, part):
             return prod(len(objects.of(p.types)) for p in parameters) * max(1, size(part, objects))
+        case _:
+            return sum(size(part, objects) for part in parts_of(formula))
 
 
 def schema_of(problem: Problem, instruction: Instruction) -> ActionSchema:
-    """The action that ``instruction`` names.
+    """Return the action that ``instruction`` names.
 
     Raises:
         TmdError: There is no such action.
@@ -141,7 +138,7 @@ def schema_of(problem: Problem, instruction: Instruction) -> ActionSchema:
 
 
 def bind(problem: Problem, instruction: Instruction) -> dict[str, str]:
-    """The object of each parameter of the instruction's action.
+    """Return the object of each parameter of the instruction's action.
 
     Raises:
         TmdError: Unknown action or object, wrong number or wrong type of arguments.
@@ -168,7 +165,7 @@ def bind(problem: Problem, instruction: Instruction) -> dict[str, str]:
 
 
 def applicable(instruction: Instruction, state: State, problem: Problem) -> bool:
-    """Whether the instruction's precondition holds in ``state``.
+    """Return whether the instruction's precondition holds in ``state``.
 
     Raises:
         TmdError: As :func:`bind`.
@@ -178,7 +175,7 @@ def applicable(instruction: Instruction, state: State, problem: Problem) -> bool
 
 
 def apply(instruction: Instruction, state: State, problem: Problem) -> State:
-    """Φ: the state after ``instruction``. Its precondition is not read, so execution can be forced.
+    """Return Φ, the state after ``instruction``. Its precondition is not read, so execution can be forced.
 
     Raises:
         TmdError: As :func:`bind`.
@@ -194,7 +191,7 @@ def apply(instruction: Instruction, state: State, problem: Problem) -> State:
 
 
 def close(state: State, problem: Problem) -> State:
-    """``state`` with what the domain derives from it, and without what it derives no more."""
+    """Return ``state`` with exactly the derived atoms that follow from it."""
     axioms = problem.domain.derived
     if not axioms:
         return state
@@ -212,7 +209,7 @@ def close(state: State, problem: Problem) -> State:
 
 
 def _satisfying(effect: Effect, state: State, objects: Universe, outer: Binding) -> list[Binding]:
-    """The bindings of the effect's parameters under which its condition holds.
+    """Return the bindings of the effect's parameters under which its condition holds.
 
     Each conjunct is tested as soon as its variables are bound, which spares most combinations of objects.
     """
@@ -226,7 +223,7 @@ def _satisfying(effect: Effect, state: State, objects: Universe, outer: Binding)
 
 @lru_cache(maxsize=4096)
 def _stages(effect: Effect) -> tuple[tuple[TypedName | None, tuple[Formula, ...]], ...]:
-    """The effect's parameters, each with the conjuncts that can be tested once it is bound; first those before."""
+    """Return the effect's parameters, each with the conjuncts that it completes; first those without parameters."""
     own = {p.name for p in effect.parameters}
     waiting = [(free_variables(part) & own, part) for part in conjuncts(effect.condition)]
     stages: list[tuple[TypedName | None, tuple[Formula, ...]]] = []
@@ -240,7 +237,7 @@ def _stages(effect: Effect) -> tuple[tuple[TypedName | None, tuple[Formula, ...]
 
 
 def cost(instruction: Instruction, problem: Problem) -> int:
-    """What ``instruction`` adds to the cost of a plan: 1 each, unless the problem minimises total-cost.
+    """Return the cost of ``instruction``: 1 each, unless the problem minimises total-cost.
 
     Where it does, an action that says nothing about costs is free, as other planners have it.
 
@@ -251,7 +248,7 @@ def cost(instruction: Instruction, problem: Problem) -> int:
 
 
 def action_cost(problem: Problem, action: ActionSchema, binding: Binding) -> int:
-    """What ``action`` costs under ``binding``; see :func:`cost`."""
+    """Return the cost of ``action`` under ``binding``; see :func:`cost`."""
     if not problem.minimize_cost:
         return 1
     if not isinstance(action.cost, Atom):
@@ -264,7 +261,7 @@ def action_cost(problem: Problem, action: ActionSchema, binding: Binding) -> int
 
 
 def first_broken(instruction: Instruction, state: State, problem: Problem) -> Broken | None:
-    """The first part of the instruction's precondition that fails in ``state``; ``None`` if all hold.
+    """Return the first part of the instruction's precondition that fails in ``state``; ``None`` if all hold.
 
     Raises:
         TmdError: As :func:`bind`.
@@ -276,13 +273,13 @@ def first_broken(instruction: Instruction, state: State, problem: Problem) -> Br
 def first_false(
     formula: Formula, state: State, objects: Problem | Universe, binding: Binding | None = None
 ) -> Broken | None:
-    """The first part of ``formula``, in reading order, that fails in ``state``; a literal if possible."""
+    """Return the first part of ``formula``, in reading order, that fails in ``state``; a literal if possible."""
     known = universe(objects) if isinstance(objects, Problem) else objects
     return _first_false(formula, state, known, binding or {}, True)
 
 
 def _first_false(formula: Formula, state: State, objects: Universe, binding: Binding, wanted: bool) -> Broken | None:
-    """The first part for which ``formula`` is not ``wanted``."""
+    """Return the first part for which ``formula`` is not ``wanted``."""
     if isinstance(formula, Not):
         return _first_false(formula.part, state, objects, binding, not wanted)
     if isinstance(formula, And if wanted else Or):
@@ -299,7 +296,7 @@ def _first_false(formula: Formula, state: State, objects: Universe, binding: Bin
 
 
 def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
-    """The weakest precondition of ``cube`` under ``operator``, exactly, the operator's own included.
+    """Return the weakest precondition of ``cube`` under ``operator``, exactly, the operator's own included.
 
     ``operator`` applies in a state and leads to one that satisfies ``cube`` if and only if one of the
     returned cubes holds in that state. No returned cube contradicts itself or is implied by another. They
@@ -323,7 +320,7 @@ def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
 
 
 def _conditional_clauses(positive: Bits, negative: Bits, operator: Operator) -> tuple[Bits, Bits, list[Sequence[Cube]]]:
-    """Literals that must hold before, and disjunctions of which one must, where effects have conditions."""
+    """Return literals that must hold before, and disjunctions of which one must, where effects have conditions."""
     clauses: list[Sequence[Cube]] = []
     wanted = positive & ~operator.add
     unwanted = negative & ~operator.delete
@@ -344,7 +341,7 @@ def _conditional_clauses(positive: Bits, negative: Bits, operator: Operator) -> 
 
 
 def _made_true(bit: Bits, operator: Operator) -> Sequence[Cube]:
-    """The ways in which the atom ``bit``, which is not added in any case, holds afterwards."""
+    """Return the ways in which the atom ``bit``, which is not added in any case, holds afterwards."""
     ways = [condition for condition, add, _ in operator.conditional if add & bit]
     if not operator.delete & bit:
         threats = [_opposite(c) for c, add, delete in operator.conditional if delete & bit and not add & bit]
@@ -354,12 +351,12 @@ def _made_true(bit: Bits, operator: Operator) -> Sequence[Cube]:
 
 @lru_cache(maxsize=65536)
 def _opposite(cube: Cube) -> tuple[Cube, ...]:
-    """The negation of ``cube``, as a disjunction of single literals."""
+    """Return the negation of ``cube``, as a disjunction of single literals."""
     return (*(Cube(0, b) for b in _bits(cube.positive)), *(Cube(b, 0) for b in _bits(cube.negative)))
 
 
 def _conjoin(start: Cube, clauses: Iterable[Sequence[Cube]]) -> tuple[Cube, ...]:
-    """The conjunction of ``start`` and of ``clauses`` (disjunctions), as a minimal disjunction of cubes."""
+    """Return the conjunction of ``start`` and of ``clauses`` (disjunctions), as a minimal disjunction of cubes."""
     if start.positive & start.negative:
         return ()
     found = [start]
@@ -380,7 +377,7 @@ def _conjoin(start: Cube, clauses: Iterable[Sequence[Cube]]) -> tuple[Cube, ...]
 
 
 def minimal(cubes: Iterable[Cube]) -> list[Cube]:
-    """``cubes`` without those that another one of them implies, the shortest first."""
+    """Return ``cubes`` without those that another one of them implies, the shortest first."""
     kept: list[Cube] = []
     for cube in sorted(cubes, key=lambda c: (c.positive.bit_count() + c.negative.bit_count(), c)):
         if not any(k.positive & ~cube.positive == 0 and k.negative & ~cube.negative == 0 for k in kept):
@@ -401,7 +398,7 @@ are only roundabout ways to make the sequence executable; every cube kept is exa
 
 
 def get_constraints(operators: Sequence[Operator]) -> list[tuple[Cube, ...]]:
-    """For each t the constraints of ``operators[t:]``, as a disjunction of cubes; the last entry is "true".
+    """Return for each t the constraints of ``operators[t:]``, as a disjunction of cubes; the last one is "true".
 
     A sequence begun in a state that satisfies one of the cubes can be executed to its end. An empty
     disjunction means that it never can.
@@ -424,7 +421,7 @@ class Constraints:
         self._known: dict[tuple[Instruction, ...], tuple[Cube, ...]] = {}
 
     def of(self, instructions: tuple[Instruction, ...]) -> tuple[Cube, ...]:
-        """The constraints of a sequence; those of its tails are kept as well, since tails are asked for next."""
+        """Return the constraints of a sequence; those of its tails are kept as well, since tails are asked for next."""
         if instructions not in self._known:
             operators = [self._task.by_instruction[i] for i in instructions]
             for t, cubes in enumerate(get_constraints(operators)):

@@ -24,7 +24,7 @@ class Cube(NamedTuple):
     negative: Bits = 0
 
     def holds(self, state: Bits) -> bool:
-        """Whether ``state`` satisfies every literal."""
+        """Return whether ``state`` satisfies every literal."""
         return state & self.positive == self.positive and not state & self.negative
 
 
@@ -54,14 +54,14 @@ class Operator:
     cost: int = 1
 
     def applicable(self, state: Bits) -> bool:
-        """Whether the precondition holds in ``state``."""
+        """Return whether the precondition holds in ``state``."""
         positive, negative = self.precondition
         if state & positive != positive or state & negative:
             return False
         return not any(cube.holds(state) for cube in self.forbidden)
 
     def apply(self, state: Bits) -> Bits:
-        """The state after this operator (the paper's Φ for one instruction); preconditions are not read."""
+        """Return the state after this operator (the paper's Φ for one instruction); preconditions are not read."""
         add, delete = self.add, self.delete
         for (positive, negative), also_add, also_delete in self.conditional:
             if state & positive == positive and not state & negative:
@@ -95,7 +95,7 @@ class Task:
     by_instruction: Mapping[Instruction, Operator] = field(repr=False)
 
     def encode(self, state: State) -> Bits:
-        """The bits of ``state``; atoms that are not fluent here are left out."""
+        """Return the bits of ``state``; atoms that are not fluent here are left out."""
         bits = 0
         for atom in state:
             number = self.index.get(atom)
@@ -104,11 +104,11 @@ class Task:
         return bits
 
     def decode(self, bits: Bits) -> State:
-        """The full state (static atoms included) of ``bits``."""
+        """Return the full state (static atoms included) of ``bits``."""
         return self.static | frozenset(self.names(bits))
 
     def names(self, bits: Bits) -> list[GroundAtom]:
-        """The atoms of ``bits``, sorted."""
+        """Return the atoms of ``bits``, sorted."""
         found = []
         while bits:
             low = bits & -bits

@@ -1,4 +1,4 @@
-"""Whether a plan works, and if not, the first reason why: the step, the instruction and the literal."""
+"""Validation of plans; the first reason of failure is a step, its instruction and a literal."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from tmd.pddl.semantics import Broken
 
 
 class Status(StrEnum):
-    """How validating ended."""
+    """The outcome of validation."""
 
     VALID = "valid"
     BAD_INSTRUCTION = "bad-instruction"
@@ -24,7 +24,7 @@ class Status(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What validating found.
+    """The result of validation.
 
     Attributes:
         valid: Whether every instruction applies in turn and the goal holds at the end.
@@ -51,9 +51,9 @@ def validate(problem: Problem, plan: Iterable[Instruction], *, trace: bool = Fal
     """Execute ``plan`` from the problem's initial state and look for the goal.
 
     Args:
-        problem: Where it starts and what is wanted.
+        problem: The initial state and the goal.
         plan: The instructions.
-        trace: Whether the verdict shall hold the states that were passed.
+        trace: Whether the verdict holds the states that were passed.
 
     Raises:
         TmdError: The problem gives no value for an instruction's cost.
@@ -69,7 +69,7 @@ def validate(problem: Problem, plan: Iterable[Instruction], *, trace: bool = Fal
             reason = f"step {step}, {instruction}: {error}"
             return Verdict(False, Status.BAD_INSTRUCTION, step, instruction, None, reason, seen, total)
         if broken:
-            reason = f"step {step}, {instruction}: {_needs(broken)}"
+            reason = f"step {step}, {instruction}: its precondition {broken.text} does not hold"
             status = Status.BROKEN_PRECONDITION
             return Verdict(False, status, step, instruction, broken, reason, seen, total)
         total += semantics.cost(instruction, problem)
@@ -82,7 +82,3 @@ def validate(problem: Problem, plan: Iterable[Instruction], *, trace: bool = Fal
         reason = f"at the end the goal {missing.text} does not hold"
         return Verdict(False, Status.GOAL_NOT_REACHED, None, None, missing, reason, seen, total)
     return Verdict(True, Status.VALID, trace=seen, cost=total)
-
-
-def _needs(broken: Broken) -> str:
-    return f"its precondition {broken.text} does not hold"

@@ -8,6 +8,7 @@ of a predicate stands beside it.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import groupby
 
 from tmd.pddl.model import (
     OBJECT,
@@ -37,7 +38,7 @@ _WIDTH = 100
 
 
 def format_domain(domain: Domain) -> str:
-    """``domain`` as text; reading it gives an equal domain."""
+    """Format ``domain`` as text; reading it gives an equal domain."""
     typed = bool(domain.types)
     sections = [f"(define (domain {domain.name})"]
     if domain.requirements:
@@ -56,7 +57,7 @@ def format_domain(domain: Domain) -> str:
 
 
 def format_problem(problem: Problem) -> str:
-    """``problem`` as text; reading it with the same domain gives an equal problem."""
+    """Format ``problem`` as text; reading it with the same domain gives an equal problem."""
     typed = bool(problem.domain.types)
     sections = [f"(define (problem {problem.name})\n  (:domain {problem.domain.name})"]
     if problem.requirements:
@@ -76,7 +77,7 @@ def format_problem(problem: Problem) -> str:
 
 
 def format_formula(formula: Formula, binding: Mapping[str, str] | None = None, *, typed: bool = False) -> str:
-    """``formula`` on one line, with the variables of ``binding`` replaced.
+    """Format ``formula`` on one line, with the variables of ``binding`` replaced.
 
     ``typed`` writes the type ``object`` as well, which VAL insists on in domains with types.
     """
@@ -110,7 +111,7 @@ def _within(parameters: Sequence[TypedName], part: Formula, bound: Mapping[str, 
 
 
 def format_effect(effect: Effect, *, typed: bool = False) -> str:
-    """``effect`` on one line; ``typed`` as for :func:`format_formula`."""
+    """Format ``effect`` on one line; ``typed`` as for :func:`format_formula`."""
     text = format_formula(effect.atom)
     if not effect.positive:
         text = f"(not {text})"
@@ -125,29 +126,19 @@ def _section(name: str, lines: Iterable[str]) -> str:
     return "\n".join([f"  (:{name}", *(f"    {line}" for line in lines), "  )"])
 
 
-def _type_text(types: Sequence[str]) -> str:
-    return types[0] if len(types) == 1 else f"(either {' '.join(types)})"
-
-
-def _runs(names: Iterable[TypedName]) -> list[tuple[tuple[str, ...], list[str]]]:
-    """Neighbours of the same types together; order is kept."""
-    runs: list[tuple[tuple[str, ...], list[str]]] = []
-    for name in names:
-        if not runs or runs[-1][0] != name.types:
-            runs.append((name.types, []))
-        runs[-1][1].append(name.name)
-    return runs
-
-
 def _typed(names: Sequence[TypedName], typed: bool) -> str:
     return " ".join(_listed(names, typed))
 
 
 def _listed(names: Sequence[TypedName], typed: bool) -> list[str]:
-    """Names with their types. Where no type is said anywhere, none is written, so STRIPS stays STRIPS."""
+    """Format names with their types. Where no type is declared, none is written, so STRIPS stays STRIPS."""
     if not typed and all(name.types == (OBJECT,) for name in names):
         return [" ".join(name.name for name in names)]
-    return [f"{' '.join(run)} - {_type_text(types)}" for types, run in _runs(names)]
+    listed = []
+    for types, run in groupby(names, key=lambda name: name.types):
+        either = types[0] if len(types) == 1 else f"(either {' '.join(types)})"
+        listed.append(f"{' '.join(name.name for name in run)} - {either}")
+    return listed
 
 
 def _signature(predicate: Predicate, typed: bool) -> str:
@@ -184,7 +175,7 @@ def _action(action: ActionSchema, typed: bool) -> str:
 
 
 def _laid_out(formula: Formula, indent: int, typed: bool) -> str:
-    """``formula``; a conjunction that is too long for one line gets a line for each part."""
+    """Return ``formula``; a conjunction that is too long for one line gets a line for each part."""
     line = format_formula(formula, typed=typed)
     if len(line) + indent <= _WIDTH or not isinstance(formula, And):
         return line

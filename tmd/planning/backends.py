@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 from tmd.diagnostics import MissingToolError, PlannerError, TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import nearest
-from tmd.planning.downward_process import DownwardProcess
-from tmd.planning.fast_downward import FastDownward, FirstPlan
+from tmd.planning.fast_downward import FirstPlan, fast_downward
 from tmd.planning.processes import Deadline, memory_limit
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved
 
@@ -35,16 +34,13 @@ AUTO = "auto"
 """For whole problems: kairos where any plan will do, then Fast Downward, or else the search of this package."""
 
 UP_PREFIX = "up:"
-"""What stands before the name of any other engine of unified-planning."""
+"""Prefix of the names of all other engines of unified-planning."""
 
-
+# Generated states up to which the greedy search's plans are about as cheap as Fast Downward's first ones.
 SOON = 2_000
-"""Generated states up to which the greedy search's plans are about as cheap as Fast Downward's first ones."""
-
+# Share of the time, and seconds, that kairos gets before Fast Downward: nearly all that it solves, it solves sooner.
 FIRST_SHARE = 0.5
-"""The share of the time that kairos gets at most before Fast Downward."""
 FIRST_SECONDS = 30.0
-"""Seconds that it gets at most: nearly all that it solves, it solves sooner."""
 
 TIME_LIMIT = 300.0
 """Seconds for a whole problem: an impossible goal can keep a planner busy for ever."""
@@ -54,30 +50,26 @@ PLAN_CAP = 1_000_000
 
 
 def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
-    """The planner ``name`` for ``task``.
+    """Return the planner ``name`` for the gaps of ``task``.
 
     Args:
         name: The planner.
-        task: The ground problem.
+        task: The instantiated problem.
         cap: Generated states after which the in-process search gives up; the usual cap for gaps by default.
 
     Raises:
         TmdError: There is no such planner, or it refuses the problem.
         MissingToolError: The planner is not installed.
     """
-    if name == IN_PROCESS:
+    if name in (IN_PROCESS, IN_PROCESS_FIRST):
         from tmd.planning.gap_filler import GapFiller
-        from tmd.planning.search.in_process import DEFAULT_CAP
-
-        return GapFiller(task, cap=DEFAULT_CAP if cap is None else cap)
-    if name == IN_PROCESS_FIRST:
         from tmd.planning.search.in_process import DEFAULT_CAP, FirstSearch
 
-        return FirstSearch(task, cap=DEFAULT_CAP if cap is None else cap)
+        return (GapFiller if name == IN_PROCESS else FirstSearch)(task, cap=DEFAULT_CAP if cap is None else cap)
     if name == FAST_DOWNWARD:
-        from tmd.planning.up_planners import fast_downward
+        from tmd.planning.up_planners import fast_downward_for_gaps
 
-        return fast_downward(task)
+        return fast_downward_for_gaps(task)
     if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):
         from tmd.planning.up_planners import EngineSpec, UnifiedPlanner
 
@@ -90,10 +82,10 @@ def _unknown(name: str, known: Sequence[str]) -> TmdError:
 
 
 def last_resort(task: Task) -> Planner:
-    """Who is asked for what the optimal search gave up on, content with any plan.
+    """Return the planner, content with any plan, for the goals that the optimal search gave up on.
 
-    We first: a plan that our greedy search comes upon soon is about as good as one of Fast Downward, and there at
-    once. What it has to search long for is worse, so that is for Fast Downward, where it is installed.
+    A plan that our greedy search finds soon is about as good as one of Fast Downward, and there at once. A plan that it
+    finds late is worse, so then Fast Downward is asked, where it is installed.
     """
     if find_spec("up_fast_downward") is None:
         return make(IN_PROCESS_FIRST, task)
@@ -134,20 +126,20 @@ class TaskPlanners:
 class EachAlone:
     """A planner that is asked for each alternative of a goal by itself, for the cheapest of its plans.
 
-    What leads to one alternative leads away from another: of all at once, a first plan is about none of them.
+    The way to one alternative leads away from another: a greedy search for all at once approaches none of them.
 
     Args:
-        planner: Who is asked.
+        planner: The planner that is asked.
     """
 
+    # Maximum number of alternatives that are asked for one by one.
     MOST = 8
-    """Maximum number of alternatives that are asked for one by one."""
 
     def __init__(self, planner: Planner) -> None:
         self._planner = planner
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """The cheapest plan, the first one among equals; without any, why there is none, or that it gave up."""
+        """Return the cheapest plan, the first one among equals; without any, the reason or the limit."""
         if len(goal) > self.MOST or any(cube.holds(state) for cube in goal):
             return self._planner.fill(state, goal)
         answers = [self._planner.fill(state, (cube,)) for cube in goal]
@@ -162,14 +154,14 @@ class InTurn:
     """Planners that are asked one after another, until one does not give up.
 
     Args:
-        planners: Who is asked, the first one first.
+        planners: The planners in this order.
     """
 
     def __init__(self, planners: Sequence[Planner]) -> None:
         self._planners = planners
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """The first answer that says something, or what the last planner gave up at."""
+        """Return the first plan or proof, or the limit of the last planner."""
         answer: Answer = GaveUp("no planner")
         for planner in self._planners:
             answer = planner.fill(state, goal)
@@ -185,44 +177,41 @@ def solve(
     optimal: bool = False,
     seconds: float | None = None,
     memory: int | None = None,
-    started: DownwardProcess | None = None,
 ) -> Solution:
-    """A plan for a whole PDDL problem, from its initial state to its goal.
+    """Solve a whole PDDL problem, from its initial state to its goal.
 
     Args:
         problem: The problem.
         planner: ``auto``, ``fast-downward``, ``kairos``, ``in-process`` or ``up:ENGINE``.
         optimal: Whether a plan counts only if it is proven that none is cheaper; otherwise the first one does.
         seconds: The limit of time, :data:`TIME_LIMIT` by default. The search in this process has a cap of states too.
-        memory: The limit in bytes, for each process that plans, and for what the search in this process takes beside
-            what is there already; ``None`` for most of what the machine has.
-        started: Fast Downward, if it was started while the problem was read.
+        memory: The limit in bytes, for each planner process, and for the search in this process beyond the memory that
+            it has already; ``None`` for most of the machine's memory.
 
     Raises:
-        TmdError: There is no such planner, it does not take the problem, or (in this process) that cannot be ground.
+        TmdError: There is no such planner, it does not take the problem, or (in this process) that cannot be
+            instantiated.
         MissingToolError: The planner is not installed.
-        PlannerError: The planner died, or what it gave is no plan.
+        PlannerError: The planner died, or its plan is not valid.
     """
-    answer = _solution(problem, planner, optimal, Deadline(TIME_LIMIT if seconds is None else seconds, memory), started)
+    answer = _solution(problem, planner, optimal, Deadline(TIME_LIMIT if seconds is None else seconds, memory))
     if optimal and isinstance(answer, Solved) and not answer.optimal:
         return GaveUp(f"a plan of cost {answer.cost} that {planner} did not prove to be optimal")
     return answer
 
 
-def _solution(
-    problem: Problem, planner: str, optimal: bool, deadline: Deadline, started: DownwardProcess | None
-) -> Solution:
+def _solution(problem: Problem, planner: str, optimal: bool, deadline: Deadline) -> Solution:
     name = planner
     if planner == AUTO:
         if not optimal and find_spec("kairos"):
             first = deadline.at_most(min(FIRST_SECONDS, FIRST_SHARE * deadline.seconds))
             with suppress(PlannerError, MissingToolError):
-                found = _solution(problem, KAIROS, optimal, first, None)
+                found = _solution(problem, KAIROS, optimal, first)
                 if isinstance(found, Solved):  # it was replayed; that there is no plan is for others to confirm
                     return found
         name = FAST_DOWNWARD if find_spec("up_fast_downward") else IN_PROCESS
     if name == FAST_DOWNWARD:
-        return FastDownward(problem, optimal=optimal, deadline=deadline).solve(started)
+        return fast_downward(problem, optimal=optimal, deadline=deadline)
     if name == KAIROS:
         from tmd.planning.kairos import kairos
 
@@ -237,9 +226,9 @@ def _solution(
 
 
 def _in_time(search: Callable[[], Solution], deadline: Deadline) -> Solution:
-    """What ``search`` answers by the deadline.
+    """Return the answer of ``search``, if there is one by the deadline.
 
-    It runs in a thread, because Python hears of no signal while compiled code runs in the main one. A search that is
+    It runs in a thread, because Python handles no signals while compiled code runs in the main one. A search that is
     given up goes on until its cap of states, or until the program ends.
     """
     answers: list[Solution] = []
@@ -260,7 +249,7 @@ def _in_time(search: Callable[[], Solution], deadline: Deadline) -> Solution:
 
 
 def _in_process(problem: Problem, deadline: Deadline) -> Solution:
-    """By the search of this package."""
+    """Solve a problem with the search of this package."""
     from tmd.pddl.grounding.ground_task import ground
     from tmd.planning.search.in_process import OptimalSearch, chosen
 
@@ -272,5 +261,5 @@ def _in_process(problem: Problem, deadline: Deadline) -> Solution:
         with memory_limit(deadline.memory):
             answer = make(IN_PROCESS, task, cap=PLAN_CAP).fill(task.init, task.goal)
     except MemoryError:
-        return GaveUp(deadline.memory_of("this process"))
+        return GaveUp(f"{deadline.memory_limit()} of this process")
     return Solved(answer.plan, answer.cost, optimal=True) if isinstance(answer, Filled) else answer

@@ -8,149 +8,221 @@ from __future__ import annotations
 
 import re
 import signal
+import sys
 from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
+from importlib.util import find_spec
+from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import LimitError, MissingToolError, TmdError
 from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
 from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.downward_process import FIRST, NAME, OPTIMAL, DownwardProcess, search_command
-from tmd.planning.processes import Deadline, PlannerProcess, died, unnamed_file
-from tmd.planning.prover import EXPLAINING, SOON, Prover
-from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
+from tmd.planning.processes import Deadline, PlannerProcess, ending, unnamed_file
+from tmd.planning.prover import EXPLAINING, Prover
+from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable, filled
 
 if TYPE_CHECKING:
     from tmd.pddl.task import Bits, Cube, Task
 
-OPTIMAL_WITH_CONDITIONS = "astar(hmax())"
-"""Optimal with conditional effects; under axioms (from universal preconditions) hmax may overestimate."""
-OPTIMAL_WITH_AXIOMS = "astar(blind())"
+NAME = "Fast Downward"
 
-_OPTIMAL = (OPTIMAL, OPTIMAL_WITH_CONDITIONS, OPTIMAL_WITH_AXIOMS)
-
+# The first iteration of LAMA, which Fast Downward calls lama-first.
+FIRST = (
+    "let(hlm,eval_modify_costs(landmark_sum(lm_factory=lm_reasonable_orders_hps(lm_rhw()),pref=false),cost_type=one),"
+    "let(hff,eval_modify_costs(ff(),cost_type=one),"
+    "lazy_greedy([hff,hlm],preferred=[hff,hlm],cost_type=one,reopen_closed=false)))"
+)
+# Slower than FIRST, with shorter plans: nobody asked for what fills a gap. FF alone does not see that a full hand takes
+# nothing more: of a goal that clears a table of four things it evaluates two million states in vain, with landmarks
+# beside it 1,700. On the bundled problems the plans are as long.
 FIRST_OF_A_GAP = (
     "let(hff,ff(),let(hlm,landmark_sum(lm_reasonable_orders_hps(lm_rhw())),eager_greedy([hff,hlm],preferred=[hff])))"
 )
-"""Slower than :data:`~tmd.planning.downward_process.FIRST`, with shorter plans: nobody asked for what is left unsaid.
+# The best admissible heuristic that needs no preparation. It takes neither conditional effects nor axioms.
+OPTIMAL = "astar(lmcut())"
+# Under axioms (from universal preconditions) hmax may overestimate.
+OPTIMAL_WITH_CONDITIONS = "astar(hmax())"
+OPTIMAL_WITH_AXIOMS = "astar(blind())"
+_OPTIMAL = (OPTIMAL, OPTIMAL_WITH_CONDITIONS, OPTIMAL_WITH_AXIOMS)
 
-FF alone does not see that a full hand takes nothing more: of a goal that clears a table of four things it evaluates two
-million states in vain, with landmarks beside it 1,700. On the bundled problems the plans are as long.
+# The translator makes so many small objects that looking for cycles among them every 700 of them takes a quarter of the
+# time of a large task. It becomes the search in the same process, without Fast Downward's driver.
+_TRANSLATE_AND_SEARCH = """
+import gc, os, runpy, sys
+gc.set_threshold(100_000)
+sas, *search = sys.argv[3:]
+sys.argv[3:] = ["--sas-file", f"/dev/fd/{sas}"]
+runpy.run_module("fast_downward.translate", run_name="__main__", alter_sys=True)
+print(flush=True)
+if search:
+    os.lseek(int(sas), 0, os.SEEK_SET)
+    os.dup2(int(sas), 0)
+    os.execv(search[0], search)
 """
 
 _UNSOLVABLE = (10, 11)
 _INCOMPLETE = 12
 _NO_MEMORY = (20, 22, 24)
 _NO_TIME = (21, 23, -signal.SIGXCPU)
+# How the translator may end where it should end with a code for no memory.
 _PYTHON_WITHOUT_MEMORY = ("MemoryError", "SystemError: error return without exception set")
-"""How the translator may end where it should end with one of those codes."""
 _UNSUPPORTED = 34
-_AT_MOST = 6
-"""A process that has had so many times its seconds of the processor by the clock is given up."""
 _EXHAUSTED = "Completely explored state space"
 _AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
+# Seconds by the clock that a process may take for each of its seconds of the processor.
+_PATIENCE = 6
+# Seconds after which the translator alone is stopped: a guard, not part of the result.
+_TRANSLATION = 600.0
 
 
-class FastDownward:
-    """Fast Downward for one whole problem.
+def binaries() -> Path:
+    """Return the directory with Fast Downward's translator and search.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
+    spec = find_spec("up_fast_downward")
+    if spec is None or spec.origin is None:
+        raise MissingToolError("Fast Downward is not installed", hint="pip install up-fast-downward")
+    return Path(spec.origin).parent / "downward" / "builds" / "release" / "bin"
+
+
+class _Downward:
+    """The files of one problem that Fast Downward works on; a ``with`` block closes them."""
+
+    def __init__(self, problem: Problem, deadline: Deadline) -> None:
+        self._binaries = binaries()
+        self._deadline = deadline
+        self._texts = [unnamed_file(text) for text in texts_for_planners(problem)]
+        self.sas, self.plan = unnamed_file(), unnamed_file()
+
+    def __enter__(self) -> _Downward:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        for file in (*self._texts, self.sas, self.plan):
+            file.close()
+
+    def translate(self, search: str | None) -> PlannerProcess:
+        """Start the translator, which becomes the search with this configuration."""
+        command = [sys.executable, "-S", "-c", _TRANSLATE_AND_SEARCH, *map(path_of, self._texts)]
+        command += [str(self.sas.fileno()), *(self._command(search) if search else ())]
+        passed = (*self._texts, self.sas, self.plan)
+        paths = {"PYTHONPATH": str(self._binaries)}
+        return PlannerProcess(NAME, command, self._deadline, passed=passed, environment=paths)
+
+    def search(self, configuration: str) -> PlannerProcess:
+        """Start another search of what is translated already."""
+        self.sas.seek(0)
+        return PlannerProcess(NAME, self._command(configuration), self._deadline, stdin=self.sas, passed=(self.plan,))
+
+    def _command(self, search: str) -> list[str]:
+        return [str(self._binaries / "downward"), "--search", search, "--internal-plan-file", path_of(self.plan)]
+
+
+def fast_downward(
+    problem: Problem, *, optimal: bool, deadline: Deadline, search: str | None = None, prove: bool = True
+) -> Solution:
+    """Solve a whole problem with Fast Downward.
 
     Args:
         problem: The problem.
-        optimal: Whether the plan shall be optimal; otherwise it is the first that is found.
-        deadline: Until when.
+        optimal: Whether the plan must be optimal; otherwise it is the first that is found.
+        deadline: The limits.
+        search: The configuration that is asked first; by default the usual one.
         prove: Whether to look for the reason where there seems to be no plan.
-        search: The configuration that is asked first; by default the usual one for what is asked.
+
+    Raises:
+        MissingToolError: Fast Downward is not installed.
+        PlannerError: It died, or its plan is not valid.
+        TmdError: It does not take the problem.
     """
-
-    def __init__(
-        self, problem: Problem, *, optimal: bool, deadline: Deadline, prove: bool = True, search: str | None = None
-    ) -> None:
-        self.problem = problem
-        self.deadline = deadline
-        self.search = search or (OPTIMAL if optimal else FIRST)
-        self._prover = Prover(problem, deadline.memory) if prove else None
-
-    def solve(self, started: DownwardProcess | None = None) -> Solution:
-        """A plan, or why there is none.
-
-        Args:
-            started: One that was started earlier.
-
-        Raises:
-            MissingToolError: Fast Downward is not installed.
-            PlannerError: It died, or what it gave is no plan.
-            TmdError: It does not take the problem.
-        """
-        memory, processor = self.deadline.memory, self.deadline.processor
-        with self._prover or nullcontext(), started or DownwardProcess(self.search, memory, processor) as running:
-            running.give(texts_for_planners(self.problem), self.deadline)
-            from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
-
-            while running.process.wait(self.deadline.at_most(SOON)) is None and not running.translated():
-                if not self.deadline.left():
-                    break
-            answer = self._answer(running.process, self.search, running.plan)
+    first = search or (OPTIMAL if optimal else FIRST)
+    with _Downward(problem, deadline) as files, Prover(problem, deadline) if prove else nullcontext() as prover:
+        with files.translate(first) as process:
+            answer = _answer(problem, process, first, files.plan, prover, deadline)
             if answer is not None:
                 return answer
-            axioms = _AXIOMS.search(running.process.said())
-            exhaustive = OPTIMAL_WITH_CONDITIONS if axioms and axioms[1] == "0" else OPTIMAL_WITH_AXIOMS
-            return self._again(running.sas, exhaustive)
+            axioms = _AXIOMS.search(process.output())
+        exhaustive = OPTIMAL_WITH_CONDITIONS if axioms and axioms[1] == "0" else OPTIMAL_WITH_AXIOMS
+        with files.search(exhaustive) as process:
+            answer = _answer(problem, process, exhaustive, files.plan, prover, deadline)
+            if answer is None:
+                raise process.failed("ended without a plan and without a proof")
+            return answer
 
-    def _again(self, sas: IO[bytes], search: str) -> Solution:
-        """Another search on what is translated already."""
-        sas.seek(0)
-        with unnamed_file() as plan:
-            command = search_command(search, plan)
-            memory, processor = self.deadline.memory, self.deadline.processor
-            with PlannerProcess(
-                NAME, command, stdin=sas, passed=(plan.fileno(),), memory=memory, processor=processor
-            ) as process:
-                answer = self._answer(process, search, plan)
-                if answer is None:
-                    raise process.failed("ended without a plan and without a proof")
-                return answer
 
-    def _answer(self, process: PlannerProcess, search: str, plan: IO[bytes]) -> Solution | None:
-        """What one search answers; ``None`` where an exhaustive one has to be asked."""
-        reason = self._awaited(process)
-        code = process.poll()
-        if reason is not None:
-            return Unreachable(reason)
-        if code is None:
-            return GaveUp(f"{self.deadline.seconds:g} s of {NAME}")
-        if code in _NO_TIME and self.deadline.processor is not None:
-            return GaveUp(f"{self.deadline.processor} s of {NAME}")
-        if code == 0:
-            plan.seek(0)
-            return checked(self.problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL)
-        if code in _NO_MEMORY or (code == 1 and any(word in process.said() for word in _PYTHON_WITHOUT_MEMORY)):
-            return GaveUp(self.deadline.memory_of(NAME))
-        exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.said()
-        if code in _UNSOLVABLE or exhausted:  # the dead ends of other searches are no proof
-            return Unreachable(self._reason())
-        if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search not in _OPTIMAL):
-            return None
-        raise process.failed(died(code))
-
-    def _awaited(self, search: PlannerProcess) -> str | None:
-        """Wait for a search; a reason that there is no plan, where that is found first."""
-        if self._prover is not None:
-            return self._prover.awaited(search, self.deadline)
-        search.wait(self.deadline)
+def _answer(
+    problem: Problem,
+    process: PlannerProcess,
+    search: str,
+    plan: IO[bytes],
+    prover: Prover | None,
+    deadline: Deadline,
+) -> Solution | None:
+    """Wait for one search and return its answer; ``None`` where an exhaustive one has to be asked."""
+    reason = prover.watch(process, deadline) if prover else None
+    if reason is not None:
+        return Unreachable(reason)
+    code = process.wait(deadline)
+    if code == 0:
+        plan.seek(0)
+        return checked(problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL)
+    limit = _limit(code, process, deadline)
+    if limit is not None:
+        return GaveUp(f"{limit} of {NAME}")
+    # the dead ends of searches that are not optimal prove nothing
+    exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.output()
+    if code in _UNSOLVABLE or exhausted:
+        reason = prover.reason(deadline.at_most(EXPLAINING)) if prover else None
+        return Unreachable(reason or f"{NAME} looked at every state that can be reached, and the goal holds in none")
+    if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search not in _OPTIMAL):
         return None
+    raise process.failed(ending(code or 0))
 
-    def _reason(self) -> str:
-        """Why there is no plan, which is certain."""
-        found = self._prover.reason(self.deadline.at_most(EXPLAINING)) if self._prover else None
-        return found or f"{NAME} looked at every state that can be reached, and the goal holds in none"
+
+def _limit(code: int | None, process: PlannerProcess, deadline: Deadline) -> str | None:
+    """Return the limit of time or memory at which a process ended; ``None`` where it ended otherwise."""
+    if code is None:
+        return f"{deadline.seconds:g} s"
+    if code in _NO_TIME and deadline.processor is not None:
+        return f"{deadline.processor} s"
+    without_memory = code == 1 and any(text in process.log() for text in _PYTHON_WITHOUT_MEMORY)
+    return deadline.memory_limit() if code in _NO_MEMORY or without_memory else None
+
+
+def translated(problem: Problem) -> str:
+    """Translate a problem to SAS+.
+
+    Raises:
+        MissingToolError: Fast Downward is not installed.
+        PlannerError: The translator refuses the problem, or died.
+        LimitError: It did not end.
+    """
+    deadline = Deadline(_TRANSLATION)
+    with _Downward(problem, deadline) as files, files.translate(None) as process:
+        code = process.wait(deadline)
+        if code is None:
+            hint = "use a smaller problem"
+            raise LimitError(f"Fast Downward's translator did not end within {_TRANSLATION:g} s", hint=hint)
+        if code:
+            raise process.failed(f"did not translate the problem: it {ending(code)}")
+        files.sas.seek(0)
+        return files.sas.read().decode()
+
+
+def path_of(file: IO[bytes]) -> str:
+    """Return the path by which a process opens a file that it inherits."""
+    return f"/dev/fd/{file.fileno()}"
 
 
 def texts_for_planners(problem: Problem) -> tuple[str, str]:
-    """Domain and problem as text for planners that read PDDL themselves.
+    """Return domain and problem as text for planners that read PDDL themselves.
 
-    Where there is no way to do without ``either`` it stays: they take it in the declaration of a predicate.
+    Where ``either`` cannot be rewritten it stays: they take it in the declaration of a predicate.
     """
     try:
         plain = portable(problem)
@@ -160,10 +232,10 @@ def texts_for_planners(problem: Problem) -> tuple[str, str]:
 
 
 def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool) -> Solved:
-    """The plan that a planner wrote, executed.
+    """Read and execute the plan that a planner wrote.
 
     Raises:
-        PlannerError: It is no plan, or does not work.
+        PlannerError: It cannot be read, or does not work.
     """
     from tmd.pddl.plan_file import parse_plan
     from tmd.pddl.validator import validate
@@ -182,9 +254,9 @@ class FirstPlan:
     """The first plan of Fast Downward for the gaps of a task that nothing else fills.
 
     Args:
-        task: The ground problem.
-        seconds: The limit for one question, in seconds of the processor: what else the machine does, or that it
-            slept, shall not decide what the answer is. A clock's limit is a multiple of it, in case it hangs.
+        task: The instantiated problem.
+        seconds: The limit for one question, in seconds of the processor: neither the other work of the machine nor
+            its sleep decides the answer. The limit by the clock is a multiple of it, in case the process hangs.
     """
 
     def __init__(self, task: Task, seconds: int = 20) -> None:
@@ -192,23 +264,20 @@ class FirstPlan:
         self.seconds = seconds
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """Instructions from ``state`` to any cube of ``goal``.
+        """Return instructions from ``state`` to any cube of ``goal``.
 
         Raises:
-            MissingToolError, PlannerError, TmdError: As :meth:`FastDownward.solve`.
+            MissingToolError, PlannerError, TmdError: As :func:`fast_downward`.
         """
         if any(cube.holds(state) for cube in goal):
             return Filled((), state, 0)
         cubes = [_formula(self.task, cube) for cube in goal if not cube.positive & cube.negative]
         wanted = cubes[0] if len(cubes) == 1 else Or(tuple(cubes))  # a disjunction becomes an axiom
         problem = replace(self.task.problem, init=self.task.decode(state), goal=wanted)
-        deadline = Deadline(_AT_MOST * self.seconds, processor=self.seconds)
-        asked = FastDownward(problem, optimal=False, deadline=deadline, prove=False, search=FIRST_OF_A_GAP)
-        answer = asked.solve()
+        deadline = Deadline(_PATIENCE * self.seconds, processor=self.seconds)
+        answer = fast_downward(problem, optimal=False, deadline=deadline, search=FIRST_OF_A_GAP, prove=False)
         if isinstance(answer, Solved):
-            for operator in map(self.task.by_instruction.__getitem__, answer.plan):
-                state = operator.apply(state)
-            return Filled(answer.plan, state, answer.cost)
+            return filled(state, [self.task.by_instruction[step] for step in answer.plan])
         if isinstance(answer, Unreachable):
             from tmd.planning.unsolvable import unreachable_reason  # imports numpy, which whole problems do not need
 

@@ -1,7 +1,7 @@
 """The gap filler of inference: the cheapest instructions between two that somebody asked for.
 
 This is the planner call of section IV-B of the paper. One utterance asks for thousands of such gaps, so the order
-of work is: what holds already, what is remembered, a short search, the proof that a goal is impossible, a long
+of work is: goals that hold already, remembered answers, a short search, the proof that a goal is impossible, a long
 search.
 """
 
@@ -11,24 +11,23 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from tmd.pddl.model import Instruction
-from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
-from tmd.planning.search.in_process import DEFAULT_CAP, Backend, OptimalSearch, replayed
+from tmd.planning.search.in_process import DEFAULT_CAP, Backend, OptimalSearch
 from tmd.planning.unsolvable import Impossible
 
 BRIEF = 100
 """Generated states after which a search stops to ask whether its goal is impossible."""
 QUICK = 2_000
-"""A filler with no greater cap does not look further for the reason when it gives up."""
+"""Cap up to which a filler does not look further for the reason when it gives up."""
 
 
 @dataclass
 class Counters:
-    """How many questions a filler answered, and by what means."""
+    """Number of questions that a filler answered, by the means, and of states that it generated."""
 
     held: int = 0
     exact: int = 0
-    generalised: int = 0
     searched: int = 0
     generated: int = 0
 
@@ -36,184 +35,66 @@ class Counters:
 class GapFiller:
     """Fills gaps of plans for one task.
 
-    Every answer depends on the question alone: the canonical cheapest plan. With ``generalise`` that is given up
-    for speed: an answer may be a plan remembered from another state. It is valid, may be dearer than necessary, and
-    may depend on what was asked before (see :meth:`forget`).
+    Every answer depends on the question alone: the canonical cheapest plan.
 
     Args:
-        task: The ground problem. States may be any that its operators reach from where it was ground.
+        task: The instantiated problem. States may be any that its operators reach from where it was instantiated.
         backend: The form of the search kernel: ``"auto"``, ``"numba"`` or ``"python"``; plans are the same.
-        memo: Whether answers are remembered.
-        generalise: Whether remembered plans are used in other states that meet their needs.
+        memo: Whether answers are remembered, failures too.
         cap: Give up after this many generated states.
 
     Attributes:
-        counters: What was asked and how it was answered.
+        counters: How questions were answered.
 
     Raises:
         MissingToolError: ``backend`` is ``"numba"`` and numba is not installed.
         TmdError: There is no such back-end, or the cap is not positive.
     """
 
-    def __init__(
-        self,
-        task: Task,
-        *,
-        backend: Backend = "auto",
-        memo: bool = True,
-        generalise: bool = False,
-        cap: int = DEFAULT_CAP,
-    ) -> None:
+    def __init__(self, task: Task, *, backend: Backend = "auto", memo: bool = True, cap: int = DEFAULT_CAP) -> None:
         self.task = task
         self.counters = Counters()
         self._search = OptimalSearch(task, backend=backend, cap=cap)
         self._impossible = Impossible(task)
-        self._memo = Memo(task.operators, generalise) if memo else None
+        self._memo: dict[tuple[Bits, tuple[Cube, ...]], Answer] | None = {} if memo else None
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """The missing instructions from ``state`` to any cube of ``goal``."""
+        """Return the missing instructions from ``state`` to any cube of ``goal``."""
         cubes = tuple(goal)
         if any(cube.holds(state) for cube in cubes):
             self.counters.held += 1
             return Filled((), state, 0)
         if self._memo is None:
-            return self._searched(state, cubes)[0]
-        known = self._memo.exact(state, cubes)
-        if known is not None:
+            return self._searched(state, cubes)
+        if (state, cubes) in self._memo:
             self.counters.exact += 1
-            return known
-        entry = self._memo.matching(state, cubes)
-        if entry is not None:
-            self.counters.generalised += 1
-            answer: Answer = replayed(self.task, state, entry.steps)
-            self._memo.store(state, cubes, answer)
-            return answer
-        answer, steps = self._searched(state, cubes)
-        self._memo.store(state, cubes, answer, steps)
-        return answer
+        else:
+            self._memo[state, cubes] = self._searched(state, cubes)
+        return self._memo[state, cubes]
 
     def forget(self) -> None:
-        """Empty the memo, so that later answers do not depend on earlier questions."""
+        """Empty the memo."""
         if self._memo is not None:
             self._memo.clear()
 
-    def _searched(self, state: Bits, goal: tuple[Cube, ...]) -> tuple[Answer, Sequence[int]]:
+    def _searched(self, state: Bits, goal: tuple[Cube, ...]) -> Answer:
         self.counters.searched += 1
         search = self._search
         answer = search.fill(state, goal, min(BRIEF, search.cap))
         self.counters.generated += search.generated
         if not isinstance(answer, GaveUp):
-            return answer, search.steps
+            return answer
         reason = self._impossible.reason(state, goal)
-        if reason is not None:
-            return Unreachable(reason), ()
-        if search.cap > BRIEF:
+        if reason is None and search.cap > BRIEF:
             answer = search.fill(state, goal)
             self.counters.generated += search.generated
-        if isinstance(answer, GaveUp) and search.cap > QUICK:
+        if reason is None and isinstance(answer, GaveUp) and search.cap > QUICK:
             reason = self._impossible.reason_from(state, goal)
-            if reason is not None:
-                return Unreachable(reason), ()
-        return answer, search.steps
-
-
-Goal = tuple[Cube, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class MemoEntry:
-    """A plan, and the states from which it reaches the goal."""
-
-    needs: Cube
-    steps: tuple[int, ...]
-    cost: int
-
-
-class Memo:
-    """What a filler remembers.
-
-    Args:
-        operators: The operators of the task; plans are remembered by their numbers.
-        generalise: Whether plans are carried over to other states.
-    """
-
-    def __init__(self, operators: Sequence[Operator], generalise: bool) -> None:
-        self._operators = operators
-        self._generalise = generalise
-        self._exact: dict[tuple[Bits, Goal], Answer] = {}
-        self._entries: dict[Goal, list[MemoEntry]] = {}
-
-    def exact(self, state: Bits, goal: Goal) -> Answer | None:
-        """The answer that was given for the very same question."""
-        return self._exact.get((state, goal))
-
-    def matching(self, state: Bits, goal: Goal) -> MemoEntry | None:
-        """The cheapest remembered plan that works from ``state``; the oldest among equals."""
-        for entry in self._entries.get(goal, ()):
-            if entry.needs.holds(state):
-                return entry
-        return None
-
-    def store(self, state: Bits, goal: Goal, answer: Answer, steps: Sequence[int] = ()) -> None:
-        """Remember an answer; ``steps`` is the plan of a new one by operator numbers."""
-        self._exact[state, goal] = answer
-        if self._generalise and isinstance(answer, Filled) and steps:
-            cube = next(cube for cube in goal if cube.holds(answer.state))
-            needs = needs_of([self._operators[step] for step in steps], state, cube)
-            entries = self._entries.setdefault(goal, [])
-            entries.append(MemoEntry(needs, tuple(steps), answer.cost))
-            entries.sort(key=lambda entry: entry.cost)
-
-    def clear(self) -> None:
-        """Forget everything."""
-        self._exact.clear()
-        self._entries.clear()
-
-
-def needs_of(plan: Sequence[Operator], state: Bits, goal: Cube) -> Cube:
-    """What must hold for ``plan`` to reach ``goal`` the way it does from ``state``."""
-    passed = []
-    for operator in plan:
-        passed.append(state)
-        state = operator.apply(state)
-    needs = goal
-    for operator, before in zip(reversed(plan), reversed(passed), strict=True):
-        needs = needs_before(operator, before, needs)
-    return needs
-
-
-def needs_before(operator: Operator, state: Bits, goal: Cube) -> Cube:
-    """A cube that holds in ``state`` and from all of whose states ``operator`` leads into ``goal``.
-
-    ``operator`` must apply in ``state`` and lead from it into ``goal``.
-    """
-    fired = [effect for effect in operator.conditional if effect.condition.holds(state)]
-    positive, negative = operator.precondition
-    wanted, unwanted = goal.positive & ~operator.add, goal.negative & ~operator.delete
-    for effect in fired:
-        (true, false), add, delete = effect
-        if wanted & add or unwanted & delete:
-            positive, negative = positive | true, negative | false
-            wanted, unwanted = wanted & ~add, unwanted & ~delete
-    positive, negative = positive | wanted, negative | unwanted
-    silent = list(operator.forbidden)
-    for effect in operator.conditional:
-        (_, _), add, delete = effect
-        if not effect.condition.holds(state) and (add & goal.negative or delete & ~add & wanted):
-            silent.append(effect.condition)
-    for true, false in silent:
-        if true & negative or false & positive:
-            continue
-        absent, present = true & ~state, false & state
-        if absent:
-            negative |= absent & -absent
-        else:
-            positive |= present & -present
-    return Cube(positive, negative)
+        return answer if reason is None else Unreachable(reason)
 
 
 def eliminate(plan: Sequence[Instruction], task: Task, state: Bits, goal: Sequence[Cube]) -> tuple[Instruction, ...]:
-    """The plan without what it does not need to get from ``state`` to a cube of ``goal``."""
+    """Remove the instructions that a plan does not need to get from ``state`` to a cube of ``goal``."""
     kept = tuple(plan)
     place = 0
     while place < len(kept):
@@ -233,16 +114,16 @@ def untouched(
     counted: Bits,
     contents: Bits = 0,
 ) -> tuple[Instruction, ...]:
-    """The plan without the objects that it handles for nothing, and without what it changes for nothing.
+    """Remove the objects that a plan handles for nothing, and the instructions that change something for nothing.
 
     Args:
         plan: The plan.
-        task: The ground problem.
-        state: Where it starts.
-        reached: Whether a plan does what it is for.
-        counted: The atoms that count as changes; what is left out must not leave more of them changed.
-        contents: Those that count besides, if they become true, where a single instruction is left out: what is poured
-            somewhere for nothing; what was poured away was in the way.
+        task: The instantiated problem.
+        state: The state in which it starts.
+        reached: Returns whether a plan achieves its purpose.
+        counted: The atoms that count as changes; a shorter plan must not leave more of them changed.
+        contents: Atoms that count in addition, if they become true, where a single instruction is left out: a substance
+            that is poured somewhere for nothing. One that was poured away was in the way.
     """
     kept = tuple(plan)
     for name in dict.fromkeys(a for i in plan for a in i.args):
@@ -266,7 +147,7 @@ def untouched(
 
 
 def _executable(plan: Sequence[Instruction], task: Task, state: Bits) -> tuple[tuple[Instruction, ...], Bits]:
-    """What of ``plan`` can be executed in its order, and where it ends."""
+    """Return the instructions of ``plan`` that can be executed in its order, and the state in which they end."""
     done = []
     for instruction in plan:
         operator = task.by_instruction[instruction]

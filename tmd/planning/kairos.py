@@ -10,8 +10,8 @@ from pathlib import Path
 
 from tmd.diagnostics import MissingToolError
 from tmd.pddl.model import Problem
-from tmd.planning.fast_downward import checked, texts_for_planners
-from tmd.planning.processes import Deadline, PlannerProcess, died, unnamed_file
+from tmd.planning.fast_downward import checked, path_of, texts_for_planners
+from tmd.planning.processes import Deadline, PlannerProcess, ending, unnamed_file
 from tmd.planning.prover import EXPLAINING, Prover
 from tmd.planning.result import GaveUp, Solution, Unreachable
 
@@ -21,49 +21,46 @@ _PROVEN = "solved (proven optimal)"
 
 
 def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
-    """A plan of kairos; with ``optimal`` the best it finds by the deadline, and whether it proved that it is.
+    """Solve a whole problem with kairos; ``optimal`` asks for the best plan by the deadline and for its proof.
 
     Raises:
         MissingToolError: kairos is not installed.
-        PlannerError: It died, or what it gave is no plan.
+        PlannerError: It died, or its plan is not valid.
     """
-    with unnamed_file() as domain_file, unnamed_file() as problem_file:
-        for file, text in zip((domain_file, problem_file), texts_for_planners(problem), strict=True):
-            file.write(text.encode())
-            file.flush()
-        files = (domain_file.fileno(), problem_file.fileno())
+    domain, task = map(unnamed_file, texts_for_planners(problem))
+    with domain, task:
         command = [
-            *(program(), *(f"/dev/fd/{file}" for file in files), "--threads", "1", "-v"),  # one: the same plan again
+            *(program(), path_of(domain), path_of(task), "--threads", "1", "-v"),  # with one thread its plans repeat
             *("--timeout", f"{max(deadline.left(), 0.01):.3f}", "--anytime" if optimal else "--no-anytime"),
         ]
         with (
-            PlannerProcess(NAME, command, passed=files, keep_output=True, memory=deadline.memory) as process,
-            Prover(problem, deadline.memory) as prover,
+            PlannerProcess(NAME, command, deadline, passed=(domain, task)) as process,
+            Prover(problem, deadline) as prover,
         ):
-            # it knows the limit itself, and has a plan by then
-            reason = prover.awaited(process, Deadline(deadline.left() + 1.0))
+            later = Deadline(deadline.left() + 1.0)  # it knows the limit itself, and prints a plan by then
+            reason = prover.watch(process, later)
             if reason is not None:
                 return Unreachable(reason)
-            match process.poll():
+            match process.wait(later):
                 case 0:
                     last = _BETTER.split(process.output())[-1]
-                    return checked(problem, last, process, _PROVEN in process.said())
+                    return checked(problem, last, process, _PROVEN in process.log())
                 case None | 11:
                     return GaveUp(f"{deadline.seconds:g} s of {NAME}")
                 case 10:
                     return Unreachable(prover.reason(deadline.at_most(EXPLAINING)) or f"{NAME} proved it")
                 case 12:
-                    return GaveUp(deadline.memory_of(NAME))
+                    return GaveUp(f"{deadline.memory_limit()} of {NAME}")
                 case 14:
                     return GaveUp(f"the end of what {NAME} can search")
                 case 13:
                     raise process.failed("does not take this kind of problem")
                 case code:
-                    raise process.failed(died(code))
+                    raise process.failed(ending(code))
 
 
 def program() -> str:
-    """The path of kairos.
+    """Return the path of kairos.
 
     Raises:
         MissingToolError: It is not installed.

@@ -1,51 +1,51 @@
-"""Planners as processes: none outlives the program, and what a planner said last is told when it fails.
+"""Planner processes: start them, limit their time and memory, read what they print, and stop them.
 
-A process gets a group of its own, which is killed as a whole, and is killed by the kernel (Linux) when this program
-dies, even by SIGKILL. Its texts come through pipes and unnamed files, so there is no directory to be left behind.
+Each process gets a process group, which is killed as a whole. On Linux the kernel also kills it when this program
+dies, even by SIGKILL. Texts pass through files without names, so nothing is left on the disk.
 """
 
 from __future__ import annotations
 
 import os
-import selectors
+import resource
 import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
-from types import TracebackType
-from typing import IO
+from typing import IO, TYPE_CHECKING
 
 from tmd.diagnostics import PlannerError
-from tmd.files import lives, machine
 
-_TAIL = 4_096
-"""Bytes at the end of what a planner printed that are looked at when it fails."""
-_LINES = 3
-"""Lines of them that are told."""
-_LARGEST = 4 << 30
-"""Bytes of a file beyond which a planner is stopped: one that prints without end shall not fill the disk."""
-_PR_SET_PDEATHSIG = 1
+if TYPE_CHECKING:
+    import socket
+
 MEGABYTE = 1 << 20
-MARK = "TMD_PLANNER"
-"""The variable that marks the processes of a conversation."""
-
+# A planner that prints without end must not fill the disk.
+_LARGEST_FILE = 4 << 30
+# Bytes at the end of the output, and lines of them, that are quoted when a planner fails.
+_TAIL = 4_096
+_LINES = 3
+_PR_SET_PDEATHSIG = 1
+# Seconds between two looks at a running process. Popen.wait looks every 50 ms, longer than a small search takes.
+_PAUSE = 0.002
 
 PROGRAM = "TMD_PROGRAM"
-"""The variable that marks what a program started."""
+"""Environment variable that marks all processes that a program started."""
+PLANNER = "TMD_PLANNER"
+"""Environment variable that marks a planner and all processes that it started."""
 
 
 class Deadline:
-    """A time limit for several processes one after another, and what memory each of them may take.
+    """A time limit for several processes one after another, with the memory that each of them may take.
 
     Args:
-        seconds: How long from now.
-        memory: Bytes for each process; ``None`` for most of what the machine has.
-        processor: Seconds of the processor for each process, which do not pass while others use it or the machine
-            sleeps; ``None`` for no such limit.
+        seconds: Time limit, from now.
+        memory: Bytes for each process; ``None`` for most of the machine's memory.
+        processor: Seconds of processor time for each process; ``None`` for no limit.
     """
 
     def __init__(self, seconds: float, memory: int | None = None, processor: int | None = None) -> None:
@@ -55,33 +55,31 @@ class Deadline:
         self._end = time.monotonic() + seconds
 
     def left(self) -> float:
-        """Seconds that are left, at least 0."""
+        """Return the seconds that are left, at least 0."""
         return max(0.0, self._end - time.monotonic())
 
-    def memory_of(self, name: str) -> str:
-        """The limit of memory that the process ``name`` came to, in words."""
-        return f"the memory of {name}" if self.memory is None else f"{self.memory // MEGABYTE} MB of {name}"
+    def memory_limit(self) -> str:
+        """Describe the memory limit."""
+        return "the memory" if self.memory is None else f"{self.memory // MEGABYTE} MB"
 
     def at_most(self, seconds: float) -> Deadline:
-        """This deadline, or one in ``seconds`` if that is earlier."""
+        """Return this deadline, or one in ``seconds`` if that is earlier."""
         return Deadline(min(seconds, self.left()), self.memory, self.processor)
 
 
 class PlannerProcess:
-    """A planner that runs; leaving its ``with`` block kills what is left of it.
+    """A running planner; leaving its ``with`` block kills it and its process group.
 
     Args:
-        name: What people call it, for messages.
+        name: Name of the planner for messages.
         command: Program and arguments.
-        stdin: What it reads; nothing by default.
-        passed: File descriptors that it inherits under their numbers.
-        environment: Variables that are set besides those of this program.
-        keep_output: Whether standard output is a result, apart from what it says on standard error.
-        answers: The file descriptor that becomes its standard output, instead.
-        directory: Where it runs.
-        with_thread: Whether it dies with the thread that started it, and not only with the program.
-        memory: Bytes that it may take; ``None`` for most of what the machine has.
-        processor: Seconds of the processor after which it is stopped.
+        deadline: Memory and processor time that it may take. The caller watches the time limit.
+        stdin: Standard input; empty by default.
+        passed: Files that it inherits under their descriptors.
+        environment: Variables that are set in addition to those of this program.
+        channel: A socket that becomes standard input and output. The process then does not end with the thread that
+            started it, and must end by itself when the program dies.
+        directory: Working directory.
 
     Raises:
         PlannerError: It cannot be started.
@@ -91,228 +89,81 @@ class PlannerProcess:
         self,
         name: str,
         command: Sequence[str],
+        deadline: Deadline,
         *,
         stdin: IO[bytes] | None = None,
-        passed: Sequence[int] = (),
+        passed: Sequence[IO[bytes]] = (),
         environment: Mapping[str, str] | None = None,
-        keep_output: bool = False,
-        answers: int | None = None,
+        channel: socket.socket | None = None,
         directory: str | None = None,
-        with_thread: bool = True,
-        memory: int | None = None,
-        processor: int | None = None,
     ) -> None:
         self.name = name
-        self._files = ExitStack()
-        self._said = self._files.enter_context(unnamed_file())
-        self._output = self._files.enter_context(unnamed_file()) if keep_output else None
+        self._files = (unnamed_file(), unnamed_file())
+        ends = (
+            (stdin or subprocess.DEVNULL, self._files[0]) if channel is None else (channel.fileno(), channel.fileno())
+        )
         try:
             self._process = subprocess.Popen(
                 list(command),
-                stdin=stdin or subprocess.DEVNULL,
-                stdout=answers if answers is not None else self._output or self._said,
-                stderr=self._said,
-                pass_fds=tuple(passed),
+                stdin=ends[0],
+                stdout=ends[1],
+                stderr=self._files[1],
+                pass_fds=[file.fileno() for file in passed],
                 cwd=directory,
                 env={**os.environ, **(environment or {})},
-                preexec_fn=_bound(os.getpid() if with_thread else None, memory, processor),
+                preexec_fn=_limits(deadline, None if channel else os.getpid()),
                 process_group=0,
             )
         except OSError as error:
-            self._files.close()
+            self._close_files()
             raise PlannerError(f"{name} cannot be started: {error.strerror or error}") from error
 
     def __enter__(self) -> PlannerProcess:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *exception: object) -> None:
         self.kill()
-        self._files.close()
 
-    def wait(self, deadline: Deadline) -> int | None:
-        """Its exit code, negative for the signal that killed it; ``None`` where it still runs at the deadline."""
-        _until_ended((self._process,), deadline.left())
-        return self._process.poll()
+    def wait(self, deadline: Deadline, other: PlannerProcess | None = None) -> int | None:
+        """Wait until this process or the other one ends, or the deadline is reached; return this one's exit code.
 
-    def wait_with(self, other: PlannerProcess, deadline: Deadline) -> None:
-        """Wait until this or the other process ends, or the deadline is reached."""
-        _until_ended((self._process, other._process), deadline.left())
-
-    def poll(self) -> int | None:
-        """Its exit code; ``None`` while it runs."""
-        return self._process.poll()
+        The code is negative for the signal that killed the process, and ``None`` while it runs.
+        """
+        while (code := self._process.poll()) is None and (other is None or other._process.poll() is None):
+            if not deadline.left():
+                break
+            time.sleep(min(_PAUSE, deadline.left()))
+        return code
 
     def kill(self) -> None:
-        """Kill it and all that it started in its group."""
+        """Kill the process and its group, and forget its output."""
         with suppress(ProcessLookupError, PermissionError):
             os.killpg(self._process.pid, signal.SIGKILL)
         self._process.wait()
+        self._close_files()
 
     def output(self) -> str:
-        """Everything on standard output, of a process that was started with ``keep_output``."""
-        return "" if self._output is None else _read(self._output)
+        """Return everything on standard output."""
+        return _read(self._files[0])
 
-    def said(self) -> str:
-        """Everything else that it printed."""
-        return _read(self._said)
+    def log(self) -> str:
+        """Return everything on standard error."""
+        return _read(self._files[1])
 
     def failed(self, why: str) -> PlannerError:
-        """The error that says why it failed, with the last lines that it printed."""
-        lines = []
-        for file in filter(None, (self._output, self._said)):
-            size = file.seek(0, os.SEEK_END)
-            file.seek(max(0, size - _TAIL))
-            lines += file.read().decode(errors="replace").splitlines()
-        told = [" ".join(line.split()) for line in lines if any(c.isalnum() for c in line)][-_LINES:]
-        last = f"its last lines: {' / '.join(told)}" if told else "it said nothing"
-        return PlannerError(f"{self.name} {why}; {last}")
+        """Return the error that this process failed, which quotes its last lines."""
+        lines = [line for file in self._files for line in _read(file, _TAIL).splitlines()]
+        last = [" ".join(line.split()) for line in lines if any(c.isalnum() for c in line)][-_LINES:]
+        quoted = f"its last lines: {' / '.join(last)}" if last else "it printed nothing"
+        return PlannerError(f"{self.name} {why}; {quoted}")
+
+    def _close_files(self) -> None:
+        for file in self._files:
+            file.close()
 
 
-class Conversation:
-    """A process that answers each line with a line, in a directory of its own, which is its temporary one as well.
-
-    It and all that it started, even in groups of their own, carry a mark in their environment by which
-    :func:`end_marked` finds them. It must end by itself when the program dies: it is not bound to a thread.
-
-    Args:
-        name: What people call it.
-        command: Program and arguments.
-        environment: Variables that are set.
-    """
-
-    def __init__(self, name: str, command: Sequence[str], environment: Mapping[str, str]) -> None:
-        from tempfile import TemporaryDirectory
-
-        _remove_left_directories()
-        self._directory = TemporaryDirectory(prefix=f"{_DIRECTORY}{machine()}-{os.getpid()}-")
-        self._mark = Path(self._directory.name).name
-        questions, self._questions = os.pipe()
-        self._answers, answers = os.pipe()
-        self._open = True
-        self._pending = b""
-        try:
-            with os.fdopen(questions, "rb") as stdin:
-                self.process = PlannerProcess(
-                    name,
-                    command,
-                    stdin=stdin,
-                    answers=answers,
-                    directory=self._directory.name,
-                    environment={**environment, MARK: self._mark, "TMPDIR": self._directory.name},
-                    with_thread=False,
-                )
-        except BaseException:
-            os.close(self._questions)
-            os.close(self._answers)
-            self._directory.cleanup()
-            raise
-        finally:
-            os.close(answers)
-        os.set_blocking(self._questions, False)
-
-    def ask(self, line: str, deadline: Deadline) -> str | None:
-        """The line that answers ``line``; ``None`` where there is none by the deadline.
-
-        Raises:
-            PlannerError: It ended.
-        """
-        data = memoryview(f"{line}\n".encode())
-        with selectors.DefaultSelector() as selector:
-            selector.register(self._answers, selectors.EVENT_READ)
-            selector.register(self._questions, selectors.EVENT_WRITE)
-            while b"\n" not in self._pending:
-                ready = [key.fd for key, _ in selector.select(deadline.left())]
-                if not ready:
-                    return None
-                if self._questions in ready:
-                    with suppress(BrokenPipeError):  # the end of the answers tells the rest
-                        data = data[os.write(self._questions, data) :]
-                    if not data or self.process.poll() is not None:
-                        selector.unregister(self._questions)
-                if self._answers in ready:
-                    piece = os.read(self._answers, 1 << 16)
-                    if not piece:
-                        code = self.process.wait(Deadline(1.0))
-                        raise self.process.failed("closed its output" if code is None else died(code))
-                    self._pending += piece
-        answer, _, self._pending = self._pending.partition(b"\n")
-        return answer.decode(errors="replace")
-
-    def close(self) -> None:
-        """End it and all that it started, and remove its directory."""
-        if self._open:
-            self._open = False
-            end_marked(self._mark)
-            self.process.__exit__(None, None, None)
-            end_marked(self._mark)
-            os.close(self._questions)
-            os.close(self._answers)
-            self._directory.cleanup()
-
-
-_DIRECTORY = "tmd-planner-"
-
-
-def _remove_left_directories() -> None:
-    """Remove what programs left that were killed before their worker could do so."""
-    from shutil import rmtree
-    from tempfile import gettempdir
-
-    for path in Path(gettempdir()).glob(f"{_DIRECTORY}{machine()}-*-*"):
-        number = path.name.split("-")[3]
-        if number.isdecimal() and not lives(int(number)):
-            rmtree(path, ignore_errors=True)
-
-
-def end_marked(mark: str) -> None:
-    """Kill every process but this one whose environment has the mark."""
-    wanted = f"{MARK}={mark}".encode()
-    for path in Path("/proc").glob("[0-9]*/environ"):
-        with suppress(OSError):
-            if int(path.parent.name) != os.getpid() and wanted in path.read_bytes().split(b"\0"):
-                os.kill(int(path.parent.name), signal.SIGKILL)
-
-
-_GUARD = f"""
-import glob, os, signal, sys
-sys.stdin.buffer.read()
-wanted = f"{PROGRAM}={{sys.argv[1]}}".encode()
-for path in glob.glob("/proc/[0-9]*/environ"):
-    try:
-        number = int(path.split("/")[2])
-        with open(path, "rb") as file:
-            if number != os.getpid() and wanted in file.read().split(b"\\0"):
-                os.kill(number, signal.SIGKILL)
-    except OSError:
-        pass
-"""
-
-
-@cache
-def end_with_program() -> subprocess.Popen[bytes] | None:
-    """Let whatever is started from now on end with this program, even when it is killed before it can say so.
-
-    A process waits for the end of a pipe that only this program holds, and then kills what carries this program's mark
-    in its environment. Libraries start worker processes in ways of their own, so each cannot be bound to us.
-    """
-    if sys.platform != "linux":
-        return None
-    name = f"{os.getpid()}-{time.monotonic_ns()}"
-    guard = subprocess.Popen(
-        [sys.executable, "-S", "-E", "-c", _GUARD, name],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-        start_new_session=True,  # whatever ends the others of our group, this one goes by the pipe
-    )
-    os.environ[PROGRAM] = name
-    return guard  # kept by the cache, and with it the pipe
-
-
-def died(code: int) -> str:
-    """How a process ended that was not meant to: by a signal or by an exit code of its own."""
+def ending(code: int) -> str:
+    """Describe an exit code that was not expected, or the signal that killed a process."""
     if code >= 0:
         return f"ended with the exit code {code}"
     try:
@@ -322,28 +173,15 @@ def died(code: int) -> str:
     return f"was killed by {name}{' (out of memory?)' if -code == signal.SIGKILL else ''}"
 
 
-def feed(descriptor: int, text: str, reader: PlannerProcess, deadline: Deadline) -> bool:
-    """Write a text into a pipe and close it; whether all was taken before the reader died or the deadline came."""
-    data = memoryview(text.encode())
-    os.set_blocking(descriptor, False)
-    try:
-        with selectors.DefaultSelector() as selector:
-            selector.register(descriptor, selectors.EVENT_WRITE)
-            while data and reader.poll() is None:
-                if not selector.select(min(deadline.left(), 1.0)):
-                    if not deadline.left():
-                        break
-                    continue
-                data = data[os.write(descriptor, data) :]
-    except BrokenPipeError:
-        pass  # how the reader ended tells the rest
-    finally:
-        os.close(descriptor)
-    return not data
+def unnamed_file(text: str = "") -> IO[bytes]:
+    """Return a temporary file without a name, at its beginning, with ``text`` in it."""
+    file = _unnamed()
+    file.write(text.encode())
+    file.seek(0)
+    return file
 
 
-def unnamed_file() -> IO[bytes]:
-    """A file without a name, which is gone when nobody has it open, in the directory for temporary ones."""
+def _unnamed() -> IO[bytes]:
     with suppress(AttributeError, OSError):  # as tempfile does on Linux, whose import takes as long as a small search
         directory = os.environ.get("TMPDIR") or "/tmp"
         return os.fdopen(os.open(directory, os.O_TMPFILE | os.O_RDWR, 0o600), "w+b")
@@ -352,74 +190,95 @@ def unnamed_file() -> IO[bytes]:
     return tempfile.TemporaryFile()
 
 
-def _read(file: IO[bytes]) -> str:
-    file.seek(0)
+def _read(file: IO[bytes], most: int | None = None) -> str:
+    """Return the text of a file, or its last ``most`` bytes."""
+    size = file.seek(0, os.SEEK_END)
+    file.seek(0 if most is None else max(0, size - most))
     return file.read().decode(errors="replace")
-
-
-def _until_ended(processes: Sequence[subprocess.Popen[bytes]], seconds: float) -> None:
-    """Wait until one of the processes ended, or ``seconds`` are over."""
-    if any(process.poll() is not None for process in processes):
-        return
-    if not hasattr(os, "pidfd_open"):  # not on Linux
-        end = time.monotonic() + seconds
-        while time.monotonic() < end and all(process.poll() is None for process in processes):
-            time.sleep(0.005)
-        return
-    with selectors.DefaultSelector() as selector:  # Popen.wait looks every 50 ms only
-        descriptors = [os.pidfd_open(process.pid) for process in processes]
-        try:
-            for descriptor in descriptors:
-                selector.register(descriptor, selectors.EVENT_READ)
-            selector.select(seconds)
-        finally:
-            for descriptor in descriptors:
-                os.close(descriptor)
 
 
 @contextmanager
 def memory_limit(memory: int | None) -> Iterator[None]:
-    """Let this process take no more than ``memory`` bytes beyond what it has; what needs more is a MemoryError."""
-    import resource
-
+    """Limit this process to ``memory`` bytes more than it has now; allocations beyond it raise MemoryError."""
     if memory is None or not Path("/proc/self/statm").exists():
         yield
         return
     taken = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
     before = resource.getrlimit(resource.RLIMIT_AS)
-    resource.setrlimit(resource.RLIMIT_AS, (_least(taken + memory, before[1]), before[1]))
+    _limit(resource.RLIMIT_AS, taken + memory)
     try:
         yield
     finally:
         resource.setrlimit(resource.RLIMIT_AS, before)
 
 
-def _least(limit: int, most: int) -> int:
-    """A limit that is not above the one that may not be raised."""
-    import resource
+def _limit(kind: int, most: int) -> None:
+    """Set a limit of this process, within the hard one, which may not be raised."""
+    hard = resource.getrlimit(kind)[1]
+    resource.setrlimit(kind, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
 
-    return limit if most == resource.RLIM_INFINITY else min(limit, most)
 
-
-def _bound(parent: int | None, most: int | None, processor: int | None = None) -> Callable[[], None]:
-    """What a new process does first: die with ``parent``, and neither fill the disk nor take all memory or time."""
+def _limits(deadline: Deadline, parent: int | None) -> Callable[[], None]:
+    """Return the function that a new process calls first, which sets its limits and lets it die with ``parent``."""
     import ctypes
-    import resource
 
     library = ctypes.CDLL(None)
-    memory = most or int(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * 0.8)
+    memory = deadline.memory or int(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * 0.8)
+    limits = [(resource.RLIMIT_AS, memory), (resource.RLIMIT_FSIZE, _LARGEST_FILE)]
+    if deadline.processor is not None:
+        limits.append((resource.RLIMIT_CPU, deadline.processor))
 
-    limits = [(resource.RLIMIT_AS, memory), (resource.RLIMIT_FSIZE, _LARGEST)]
-    if processor is not None:
-        limits.append((resource.RLIMIT_CPU, processor))
-
-    def bind() -> None:
+    def limit() -> None:
         if parent is not None and hasattr(library, "prctl"):
             library.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
             if os.getppid() != parent:
                 os._exit(1)
-        for kind, limit in limits:
-            _, hard = resource.getrlimit(kind)
-            resource.setrlimit(kind, (_least(limit, hard), hard))
+        for kind, most in limits:
+            _limit(kind, most)
 
-    return bind
+    return limit
+
+
+def kill_marked(variable: str, value: str) -> None:
+    """Kill every process, except this one, that has the environment variable with this value (Linux)."""
+    wanted = f"{variable}={value}".encode()
+    for path in Path("/proc").glob("[0-9]*/environ"):
+        with suppress(OSError):
+            if int(path.parent.name) != os.getpid() and wanted in path.read_bytes().split(b"\0"):
+                os.kill(int(path.parent.name), signal.SIGKILL)
+
+
+_GUARD = f"""
+import sys
+from tmd.planning.processes import kill_marked
+sys.stdin.buffer.read()
+kill_marked("{PROGRAM}", sys.argv[1])
+"""
+
+
+@cache
+def end_with_program() -> subprocess.Popen[bytes] | None:
+    """Let all processes that are started from now on end with this program, even if it is killed.
+
+    A guard process waits for the end of a pipe that only this program holds, and then kills the processes that carry
+    the mark of this program in their environment. Libraries start worker processes in various ways, so the kernel
+    cannot bind each of them to us.
+    """
+    if sys.platform != "linux":
+        return None
+    name = f"{os.getpid()}-{time.monotonic_ns()}"
+    guard = subprocess.Popen(
+        [sys.executable, "-c", _GUARD, name],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        env=python_environment(),
+        start_new_session=True,  # signals to our group must not end the guard
+    )
+    os.environ[PROGRAM] = name
+    return guard  # the cache keeps it, and with it the pipe
+
+
+def python_environment() -> dict[str, str]:
+    """Return the environment in which another Python finds the modules that this one finds."""
+    return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}

@@ -1,105 +1,91 @@
-"""Why a whole problem has no plan, looked for in a process of its own: ``python -m tmd.planning.prover``.
+"""Proofs that a whole problem has no plan, in a separate process: ``python -m tmd.planning.prover``.
 
 No search finds out that a mug cannot be in two places; it runs to its limit. The proofs that do
-(:mod:`tmd.planning.unsolvable`) need the grounding of the problem, which takes long where the problem is large. So they
-run beside a search that has not ended soon, and end with it.
+(:mod:`tmd.planning.unsolvable`) need the instantiated problem, which takes long where the problem is large. So they run
+beside a search that has not ended soon, and end with it.
 """
 
 from __future__ import annotations
 
+import pickle
 import sys
 from typing import TYPE_CHECKING
 
-from tmd.planning.processes import Deadline, PlannerProcess, unnamed_file
+from tmd.planning.processes import Deadline, PlannerProcess, python_environment, unnamed_file
 
 if TYPE_CHECKING:
-    from types import TracebackType
-
     from tmd.pddl.model import Problem
 
+# Seconds of search after which proofs are looked for.
 SOON = 1.0
-"""Seconds of search after which proofs are looked for beside it."""
+# Seconds in which the reason is looked for when it is known that there is no plan.
 EXPLAINING = 20.0
-"""Seconds in which the reason is looked for when it is known that there is no plan."""
-
-
-def reason_of(problem: Problem) -> str | None:
-    """Why ``problem`` has no plan; ``None`` where that is not known.
-
-    Raises:
-        TmdError: It cannot be ground.
-    """
-    from tmd.pddl.grounding.ground_task import ground  # the process only: who starts it needs nothing of these
-    from tmd.planning.unsolvable import Impossible, relaxed_literals, unreachable_reason
-
-    task = ground(problem)
-    true, false = relaxed_literals(task, task.init)
-    if not any(not positive & ~true and not negative & ~false for positive, negative in task.goal):
-        return unreachable_reason(task, task.init, task.goal)
-    return Impossible(task).reason(task.init, task.goal)
 
 
 class Prover:
-    """The process that looks for the reason, from when it is first needed; a ``with`` block ends it.
+    """The process that looks for a proof, from when it is first needed; a ``with`` block ends it.
 
     Args:
         problem: The problem.
-        memory: Bytes that it may take.
+        deadline: The memory that the process may take.
     """
 
-    def __init__(self, problem: Problem, memory: int | None = None) -> None:
+    def __init__(self, problem: Problem, deadline: Deadline) -> None:
         self._problem = problem
-        self._memory = memory
+        self._deadline = deadline
         self._process: PlannerProcess | None = None
 
     def __enter__(self) -> Prover:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def __exit__(self, *exception: object) -> None:
         if self._process is not None:
-            self._process.__exit__(kind, error, trace)
+            self._process.kill()
 
     def reason(self, deadline: Deadline) -> str | None:
-        """The reason; ``None`` where there is none by the deadline."""
+        """Return why the problem has no plan; ``None`` where that is not known by the deadline."""
         process = self._started()
         return (process.output().strip() or None) if process.wait(deadline) == 0 else None
 
-    def awaited(self, search: PlannerProcess, deadline: Deadline) -> str | None:
-        """Wait for a search, from :data:`SOON` on beside it; a reason that there is no plan, where that comes first."""
-        if search.wait(deadline.at_most(SOON)) is None:
-            search.wait_with(self._started(), deadline)
-            if search.poll() is None:
-                reason = self.reason(Deadline(0))
-                if reason is not None:
-                    return reason
-                search.wait(deadline)
+    def watch(self, search: PlannerProcess, deadline: Deadline) -> str | None:
+        """Wait until a search ends or there is a proof, and return the proof.
+
+        ``None`` means that the search ended or that the deadline was reached.
+        """
+        if search.wait(deadline.at_most(SOON)) is None and search.wait(deadline, self._started()) is None:
+            reason = self.reason(Deadline(0))
+            if reason is not None:
+                return reason
+            search.wait(deadline)
         return None
 
     def _started(self) -> PlannerProcess:
         if self._process is None:
-            import pickle  # most searches have ended before this is needed
-
             with unnamed_file() as question:
                 pickle.dump(self._problem, question)
                 question.seek(0)
+                command = [sys.executable, "-m", "tmd.planning.prover"]
                 self._process = PlannerProcess(
-                    "the search for a proof",
-                    [sys.executable, "-m", "tmd.planning.prover"],
-                    stdin=question,
-                    environment={"PYTHONPATH": ":".join(filter(None, sys.path))},
-                    keep_output=True,
-                    memory=self._memory,
+                    "the search for a proof", command, self._deadline, stdin=question, environment=python_environment()
                 )
         return self._process
 
 
 def main() -> int:
-    """Read a problem from standard input and print the reason, if there is one."""
-    import pickle
+    """Read a problem from standard input and print why it has no plan, if that can be proven.
 
-    reason = reason_of(pickle.load(sys.stdin.buffer))
+    Raises:
+        TmdError: It cannot be instantiated.
+    """
+    from tmd.pddl.grounding.ground_task import ground  # the process only: its parent needs none of these
+    from tmd.planning.unsolvable import Impossible, relaxed_literals, unreachable_reason
+
+    task = ground(pickle.load(sys.stdin.buffer))
+    true, false = relaxed_literals(task, task.init)
+    if any(not cube.positive & ~true and not cube.negative & ~false for cube in task.goal):
+        reason = Impossible(task).reason(task.init, task.goal)
+    else:
+        reason = unreachable_reason(task, task.init, task.goal)
     print(reason or "", end="")
     return 0
 

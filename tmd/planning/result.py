@@ -1,4 +1,4 @@
-"""What a planner may answer: a plan, a proof that there is none, or the limit at which it stopped.
+"""Answers of planners: a plan, a proof that there is none, or the limit at which the search stopped.
 
 "No plan" is never ``None``: callers must be able to tell an impossible goal from a search that ended early,
 because the first removes a candidate for good and the second only for this limit.
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 if TYPE_CHECKING:
     from tmd.pddl.model import Instruction
-    from tmd.pddl.task import Bits, Cube
+    from tmd.pddl.task import Bits, Cube, Operator
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,16 +30,23 @@ class Filled:
     cost: int
 
 
+def filled(state: Bits, operators: Sequence[Operator]) -> Filled:
+    """Return the plan of ``operators``, executed from ``state``."""
+    for operator in operators:
+        state = operator.apply(state)
+    return Filled(tuple(o.instruction for o in operators), state, sum(o.cost for o in operators))
+
+
 @dataclass(frozen=True, slots=True)
 class Unreachable:
-    """It is proven that no plan exists; ``reason`` names what cannot be reached."""
+    """A proof that no plan exists; ``reason`` names the atoms that cannot be reached."""
 
     reason: str
 
 
 @dataclass(frozen=True, slots=True)
 class GaveUp:
-    """The search ended at ``limit``; nothing is proven."""
+    """The end of a search at ``limit``; nothing is proven."""
 
     limit: str
 
@@ -70,15 +77,15 @@ class Planner(Protocol):
     """Anything that fills gaps: the in-process search and every engine of unified-planning."""
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """The missing instructions from ``state`` to any cube of ``goal``."""
+        """Return the missing instructions from ``state`` to any cube of ``goal``."""
         ...
 
 
 class NoPlanner:
-    """A planner that never plans: what does not hold already is out of its reach."""
+    """A planner that never plans: goals that do not hold already are out of its reach."""
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """Nothing, where the goal holds."""
+        """Return the empty plan where the goal holds."""
         if any(cube.holds(state) for cube in goal):
             return Filled((), state, 0)
         return Unreachable("it would need instructions that nobody said")

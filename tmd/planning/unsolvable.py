@@ -15,7 +15,7 @@ from tmd.planning.search.flat_task import ones
 
 
 def relaxed_literals(task: Task, state: Bits) -> Cube:
-    """The atoms that may come to hold and those that may come not to hold, where nothing is ever lost."""
+    """Return the atoms that may come to hold and those that may come not to hold, where nothing is ever lost."""
     everything = (1 << len(task.atoms)) - 1
     true, false = state, everything & ~state
     changed = True
@@ -38,7 +38,7 @@ def relaxed_literals(task: Task, state: Bits) -> Cube:
 
 
 def unreachable_reason(task: Task, state: Bits, goal: Sequence[Cube]) -> str:
-    """Why no plan from ``state`` reaches ``goal``, which is known to be out of reach."""
+    """Return the reason why no plan from ``state`` reaches ``goal``, which is known to be out of reach."""
     if not goal:
         return "no state can satisfy the goal: it contradicts itself or what never changes"
     true, false = relaxed_literals(task, state)
@@ -59,7 +59,7 @@ Literals = int
 
 @dataclass(frozen=True, slots=True)
 class _Effect:
-    """What happens under a condition. ``kills`` is what does not survive it, unless another effect makes it."""
+    """An effect under a condition. ``kills`` are literals that do not survive it, unless another effect makes them."""
 
     condition: Literals
     makes: Literals
@@ -95,11 +95,11 @@ class Mutexes:
         self._spread([self._action(operator) for operator in task.operators])
 
     def covers(self, state: Bits) -> bool:
-        """Whether no pair of literals of ``state`` is exclusive, so that what is proven here holds from there."""
+        """Return whether no pair of literals of ``state`` is exclusive, so that proofs from here hold from there."""
         return self._compatible(self._literals(Cube(state, self._all & ~state)))
 
     def clash(self, cube: Cube) -> str | None:
-        """A pair of literals of ``cube`` that exclude each other, in words; ``None`` if there is none."""
+        """Return a pair of literals of ``cube`` that exclude each other, in words; ``None`` if there is none."""
         wanted = self._literals(cube)
         for literal in ones(wanted):
             if not self._with[literal]:
@@ -109,7 +109,7 @@ class Mutexes:
         return None
 
     def exclusive(self, one: Cube, other: Cube) -> bool:
-        """Whether two cubes cannot hold together."""
+        """Return whether two cubes cannot hold together."""
         both = self._literals(Cube(one.positive | other.positive, one.negative | other.negative))
         return not self._compatible(both)
 
@@ -127,7 +127,7 @@ class Mutexes:
         return all(not literals & ~self._with[literal] for literal in ones(literals))
 
     def _action(self, operator: Operator) -> _Action:
-        """An operator as effects under conditions; unconditional ones first, under none."""
+        """Return an operator as effects under conditions; unconditional ones first, under none."""
         merged: dict[Literals, tuple[Bits, Bits]] = {0: (operator.add, operator.delete)}
         for effect in operator.conditional:
             condition = self._literals(effect.condition) & ~self._literals(operator.precondition)
@@ -142,7 +142,7 @@ class Mutexes:
         return _Action(precondition, tuple(effects), lost)
 
     def _context(self, literals: Literals, within: Literals) -> Literals:
-        """What may hold together with all of ``literals``; 0 where they exclude each other."""
+        """Return the literals that may hold together with all of ``literals``; 0 where they exclude each other."""
         for literal in ones(literals):
             within &= self._with[literal]
         return within if not literals & ~within else 0
@@ -193,7 +193,7 @@ class Mutexes:
         return new
 
     def _record(self, made: Literals, after: Literals) -> bool:
-        """Every literal of ``made`` may now hold together with every one of ``after``."""
+        """Return every literal of ``made`` may now hold together with every one of ``after``."""
         new = False
         for literal in ones(made):
             fresh = after & ~self._with[literal] & ~self._opposite(1 << literal)
@@ -207,7 +207,7 @@ class Mutexes:
 
 
 def _lost(effects: Sequence[_Effect], given: Literals) -> Literals:
-    """The literals that cannot survive an action with ``effects`` where ``given`` holds."""
+    """Return the literals that cannot survive an action with ``effects`` where ``given`` holds."""
     lost = 0
     for effect in effects:
         missing = effect.condition & ~given
@@ -288,7 +288,7 @@ class Counts:
         self.laws = [self._law(vector) for vector in vectors]
 
     def clash(self, cube: Cube) -> str | None:
-        """The law that a goal breaks, in words; ``None`` if it breaks none."""
+        """Return the law that a goal breaks, in words; ``None`` if it breaks none."""
         bounds = self._bounds(cube)
         for law, vector in zip(self.laws, self._vectors, strict=True):
             if not self._feasible(vector, bounds):
@@ -303,11 +303,11 @@ class Counts:
         return Law(pairs, self._total(vector))
 
     def _bounds(self, cube: Cube) -> tuple[tuple[int, int], ...]:
-        """The least and the most atoms of each predicate in a state that satisfies ``cube``."""
+        """Return the least and the most atoms of each predicate in a state that satisfies ``cube``."""
         return tuple(((cube.positive & mask).bit_count(), (mask & ~cube.negative).bit_count()) for mask in self._masks)
 
     def _cases(self, operator: Operator) -> Iterator[_Case]:
-        """The ways in which ``operator`` may change the counts."""
+        """Yield the ways in which ``operator`` may change the counts."""
         unknown = 0
         for mask in self._masks:
             unknown |= _unknown(operator, mask)
@@ -320,7 +320,7 @@ class Counts:
                 yield _Case(change, self._bounds(case))
 
     def _feasible(self, vector: Sequence[int], bounds: Sequence[tuple[int, int]]) -> bool:
-        """Whether counts within ``bounds`` may keep a law."""
+        """Return whether counts within ``bounds`` may keep a law."""
         low = high = 0
         flags: list[int] = []
         for number, weight in enumerate(vector):
@@ -344,7 +344,7 @@ class Counts:
 
 
 def _unknown(operator: Operator, mask: Bits) -> Bits:
-    """The atoms that decide by how much ``operator`` changes the count of the atoms in ``mask``."""
+    """Return the atoms that decide by how much ``operator`` changes the count of the atoms in ``mask``."""
     found = (operator.add | operator.delete) & mask
     for (positive, negative), add, delete in operator.conditional:
         changed = (add | delete) & mask
@@ -354,7 +354,7 @@ def _unknown(operator: Operator, mask: Bits) -> Bits:
 
 
 def _wild(operators: Sequence[Operator], masks: Mapping[str, Bits]) -> set[str]:
-    """The predicates to leave out, those with the most unknown atoms first, so that few atoms are unknown."""
+    """Return the predicates to leave out, those with the most unknown atoms first, so that few atoms are unknown."""
     wild: set[str] = set()
     for operator in operators:
         unknown = {name: _unknown(operator, mask) for name, mask in masks.items() if name not in wild}
@@ -366,19 +366,19 @@ def _wild(operators: Sequence[Operator], masks: Mapping[str, Bits]) -> set[str]:
 
 
 def union(sets: Iterable[Bits]) -> Bits:
-    """All bits that are in any of ``sets``."""
+    """Return all bits that are in any of ``sets``."""
     return reduce(or_, sets, 0)
 
 
 def subsets(bits: Bits) -> Iterator[Bits]:
-    """Every subset of ``bits``."""
+    """Yield every subset of ``bits``."""
     parts = [1 << number for number in ones(bits)]
     for choice in product((0, 1), repeat=len(parts)):
         yield sum(part for part, taken in zip(parts, choice, strict=True) if taken)
 
 
 def null_space(rows: Sequence[Sequence[int]], width: int) -> list[list[int]]:
-    """Integer vectors that span everything orthogonal to ``rows``."""
+    """Return integer vectors that span everything orthogonal to ``rows``."""
     matrix = [[Fraction(value) for value in row] for row in rows]
     pivots: list[int] = []
     for column in range(width):
@@ -405,7 +405,7 @@ def null_space(rows: Sequence[Sequence[int]], width: int) -> list[list[int]]:
 
 
 def with_combinations(basis: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
-    """``basis``, and every pair of its vectors with a shared entry eliminated: sparser laws refute more."""
+    """Add every pair of vectors with a shared entry eliminated: sparser laws refute more."""
     found = dict.fromkeys(_signed(vector) for vector in basis)
     for one, other in combinations(basis, 2):
         for a, b in zip(one, other, strict=True):
@@ -416,21 +416,21 @@ def with_combinations(basis: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
 
 
 def _signed(vector: Sequence[int]) -> tuple[int, ...]:
-    """The vector or its opposite, so that the first entry that counts is positive."""
+    """Return the vector or its opposite, so that the first entry that counts is positive."""
     lead = next((value for value in vector if value), 1)
     return tuple(value if lead > 0 else -value for value in vector)
 
 
 def _integers(vector: Sequence[Fraction]) -> list[int]:
-    """The shortest integer vector in the direction of ``vector``."""
+    """Return the shortest integer vector in the direction of ``vector``."""
     scale = lcm(*(value.denominator for value in vector))
     whole = [int(value * scale) for value in vector]
     shared = gcd(*whole) or 1
     return [value // shared for value in whole]
 
 
+# Pairs of effects, over all operators, that are looked at: a few seconds' work. A kitchen of 20 things has 40,000.
 _MOST_PAIRS = 2_000_000
-"""Pairs of effects, over all operators, that are looked at: a few seconds' work. A kitchen of 20 things has 40,000."""
 
 
 class Impossible:
@@ -449,7 +449,7 @@ class Impossible:
         self._too_large = sum((1 + len(o.conditional)) ** 2 for o in task.operators) > _MOST_PAIRS
 
     def reason(self, state: Bits, goal: Sequence[Cube]) -> str | None:
-        """Why ``goal`` cannot be reached from ``state``; ``None`` where that is not known."""
+        """Return the reason why ``goal`` cannot be reached from ``state``; ``None`` where that is not known."""
         if self._too_large:
             return None
         if self._general is None:
@@ -458,19 +458,19 @@ class Impossible:
         return derived.reason(state, goal)
 
     def reason_from(self, state: Bits, goal: Sequence[Cube]) -> str | None:
-        """As :meth:`reason`, derived from ``state`` itself: slower, and it sees more (what is used up)."""
+        """Return the reason as derived from ``state`` itself: slower, and it sees more (what is used up)."""
         return None if self._too_large else _Derived(self.task, state).reason(state, goal)
 
 
 class _Derived:
-    """What is derived from one state."""
+    """The proofs that are derived from one state."""
 
     def __init__(self, task: Task, start: Bits) -> None:
         self.mutexes = Mutexes(task, start)
         self.counts = Counts(task, self.mutexes, start)
 
     def reason(self, state: Bits, goal: Sequence[Cube]) -> str | None:
-        """Why every cube is out of reach, or ``None``."""
+        """Return the reason why every cube is out of reach, or ``None``."""
         reasons = [self.mutexes.clash(cube) or self.counts.clash(cube) for cube in goal]
         known = [reason for reason in reasons if reason is not None]
         return "; ".join(dict.fromkeys(known)) if known and len(known) == len(goal) else None

@@ -20,7 +20,7 @@ from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import GoalTable
 from tmd.ground import Ask, ground
 from tmd.grounded import Grounded
-from tmd.inference.policy import Reward
+from tmd.inference.policy.model import Reward
 from tmd.knowledge import (
     Knowledge,
     digest,

@@ -40,21 +40,18 @@ def command(
     or just found. Ends with 0 for a plan, 10 where it is proven that there is none, 20 where the planner gave up at
     its limit, and 35 where it failed.
     """
-    from tmd.planning.downward_process import early_start
+    from tmd.cli.show.answer import answer_json, exit_code, plan_text, why_none
+    from tmd.pddl.reading.reader import read_problem
+    from tmd.planning.backends import AUTO, solve
+    from tmd.planning.result import Solved
 
-    with early_start(planner, optimal=optimal, memory=memory) as started:  # it starts while we import and read the rest
-        from tmd.cli.show.answer import answer_json, exit_code, plan_text, why_none
-        from tmd.pddl.reading.reader import read_problem
-        from tmd.planning.backends import AUTO, solve
-        from tmd.planning.result import Solved
+    name = planner or AUTO
+    wanted = read_problem(problem, roots.domain(domain))
+    answer = solve(wanted, name, optimal=optimal, seconds=seconds, memory=memory)
+    if isinstance(answer, Solved) and output:
+        from tmd.files import write_text
 
-        name = planner or AUTO
-        wanted = read_problem(problem, roots.domain(domain))
-        answer = solve(wanted, name, optimal=optimal, seconds=seconds, memory=memory, started=started)
-        if isinstance(answer, Solved) and output:
-            from tmd.files import write_text
-
-            write_text(output, plan_text(answer, wanted.domain))
+        write_text(output, plan_text(answer, wanted.domain))
     if as_json:
         emit_json(answer_json(answer, name))
     elif isinstance(answer, Solved) and not output:

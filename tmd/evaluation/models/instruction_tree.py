@@ -9,7 +9,8 @@ import numpy as np
 
 from tmd.evaluation.models.prediction import Prediction, by_clause
 from tmd.evaluation.runs.dataset import Example, Worlds
-from tmd.inference.policy import Policy, Reward, learn_policy
+from tmd.inference.policy.learning import learn_policy
+from tmd.inference.policy.model import Policy, Reward
 from tmd.language import Clause, parse
 from tmd.pddl.model import Instruction
 
@@ -18,7 +19,7 @@ class InstructionTree:
     """A log-linear reward searches over the sequence of instructions for every clause.
 
     P(next instruction | words of the clause, sequence so far) ∝ exp(θ·φ) over what the syntactical constraints
-    (:mod:`tmd.inference.policy`) allow; φ is in :mod:`tmd.inference.policy`. The reward of
+    (:func:`~tmd.inference.policy.features.learn_syntax`) allow; φ is in :mod:`tmd.inference.policy.menu`. The reward of
     a sequence is its log-probability and a bonus for its length; a beam search finds the best one, clause by clause.
     Which objects there are is known, in which state they are is not: neither states nor preconditions are read.
 

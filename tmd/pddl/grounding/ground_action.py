@@ -29,14 +29,14 @@ TOO_MANY_CASES = "too-many-cases"
 
 
 def cases(formula: Formula, objects: Universe, positive: bool = True) -> tuple[int, int]:
-    """At most how many clauses and how many cubes ``formula`` (or its negation) has when written out."""
+    """Return upper bounds of the clauses and cubes of ``formula`` (or its negation) when written out."""
     match formula:
         case Not(part):
             return cases(part, objects, not positive)
+        case Imply(left, right):
+            return cases(Or((Not(left), right)), objects, positive)
         case And(parts) | Or(parts):
             found = [cases(part, objects, positive) for part in parts]
-        case Imply(left, right):
-            found = [cases(left, objects, not positive), cases(right, objects, positive)]
         case Forall(parameters, part) | Exists(parameters, part):
             many = prod(len(objects.of(p.types)) for p in parameters)
             clauses, cubes = cases(part, objects, positive)
@@ -53,12 +53,12 @@ def cases(formula: Formula, objects: Universe, positive: bool = True) -> tuple[i
 
 
 def _capped(base: int, exponent: int) -> int:
-    """The power, or a number beyond :data:`_MOST` that it exceeds."""
+    """Return the power, or a number beyond :data:`_MOST` that it exceeds."""
     return base**exponent if base < 2 or exponent * base.bit_length() < 64 else _MOST + 1
 
 
 def may_be_too_large(formula: Formula, objects: Universe) -> bool:
-    """Whether writing ``formula`` out as clauses might fail; it does where this says so and nothing in it is static."""
+    """Return whether writing ``formula`` out as clauses might fail; it does if nothing in it is static."""
     return cases(formula, objects)[0] > _MOST
 
 
@@ -68,7 +68,7 @@ MOST_WORK = 5_000_000
 
 @dataclass(slots=True)
 class Work:
-    """How much one grounding has still left to do; what is too large is told before it is done.
+    """The work that one instantiation may still do; too large a part is refused before it is done.
 
     Attributes:
         left: Values and atoms of conditions that may still be written down.
@@ -77,7 +77,7 @@ class Work:
     left: int = MOST_WORK
 
     def spend(self, amount: int, what: str) -> None:
-        """Take ``amount`` off.
+        """Subtract ``amount``.
 
         Raises:
             LimitError: There is not so much left; ``what`` says what asks for it.
@@ -91,7 +91,7 @@ class Work:
 
 
 def expand(formula: Formula, binding: Binding, objects: Universe, lookup: Lookup, positive: bool = True) -> Tree:
-    """``formula`` (or its negation) over literals: quantifiers spread out, constants gone."""
+    """Write ``formula`` (or its negation) over literals: quantifiers spread out, constants gone."""
     match formula:
         case Atom():
             found = lookup(instantiate(formula, binding))
@@ -104,24 +104,13 @@ def expand(formula: Formula, binding: Binding, objects: Universe, lookup: Lookup
             return TRUE if (binding.get(left, left) == binding.get(right, right)) == positive else FALSE
         case Not(part):
             return expand(part, binding, objects, lookup, not positive)
-        case And(parts):
-            found_parts = (expand(p, binding, objects, lookup, positive) for p in parts)
-            return _combine("and" if positive else "or", found_parts)
-        case Or(parts):
-            found_parts = (expand(p, binding, objects, lookup, positive) for p in parts)
-            return _combine("or" if positive else "and", found_parts)
         case Imply(left, right):
-            sides = (
-                expand(left, binding, objects, lookup, not positive),
-                expand(right, binding, objects, lookup, positive),
-            )
-            return _combine("or" if positive else "and", sides)
-        case Forall(parameters, part):
+            return expand(Or((Not(left), right)), binding, objects, lookup, positive)
+        case And(parts) | Or(parts):
+            inner = (expand(p, binding, objects, lookup, positive) for p in parts)
+        case Forall(parameters, part) | Exists(parameters, part):
             inner = (expand(part, b, objects, lookup, positive) for b in bindings(parameters, objects, binding))
-            return _combine("and" if positive else "or", inner)
-        case Exists(parameters, part):
-            inner = (expand(part, b, objects, lookup, positive) for b in bindings(parameters, objects, binding))
-            return _combine("or" if positive else "and", inner)
+    return _combine("and" if isinstance(formula, And | Forall) == positive else "or", inner)
 
 
 def _combine(word: str, parts: Iterable[Tree]) -> Tree:
@@ -140,7 +129,7 @@ def _combine(word: str, parts: Iterable[Tree]) -> Tree:
 
 
 def conjunctive(tree: Tree, what: str) -> list[Literals]:
-    """``tree`` as clauses, all of which must hold; an empty clause is false.
+    """Return ``tree`` as clauses, all of which must hold; an empty clause is false.
 
     Raises:
         TmdError: It has too many clauses; ``what`` says whose condition it is.
@@ -149,7 +138,7 @@ def conjunctive(tree: Tree, what: str) -> list[Literals]:
 
 
 def disjunctive(tree: Tree, what: str) -> list[Literals]:
-    """``tree`` as cubes, one of which must hold; an empty cube is true.
+    """Return ``tree`` as cubes, one of which must hold; an empty cube is true.
 
     Raises:
         TmdError: It has too many cubes; ``what`` says whose condition it is.
@@ -181,7 +170,7 @@ def _normal(tree: Tree, outer: str, what: str) -> list[Literals]:
 
 
 def _absorb(clauses: set[Literals]) -> list[Literals]:
-    """Without clauses that contain another one; sorted."""
+    """Return clauses without those that contain another one, sorted."""
     if len(clauses) < 2:
         return list(clauses)
     kept: list[Literals] = []
@@ -197,7 +186,7 @@ Tag: TypeAlias = tuple[int, int]
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """When every clause can hold, so can the literals ``heads``, and the rules ``then`` come into being."""
+    """A rule: when every clause can hold, so can the literals ``heads``, and the rules ``then`` are added."""
 
     tag: Tag
     clauses: Sequence[Literals]
@@ -225,7 +214,7 @@ class Reachability:
         self._reach(literals)
 
     def holds(self, literal: int) -> bool:
-        """Whether ``literal`` can hold, as far as is known now."""
+        """Return whether ``literal`` can hold, as far as is known now."""
         return literal in self.reached or bool(literal & 1 and self._starts_false(literal >> 1))
 
     def add(self, rule: Rule) -> None:
@@ -285,7 +274,7 @@ class Conditional(NamedTuple):
     delete: frozenset[int]
 
     def literals(self) -> tuple[int, ...]:
-        """The literals that come about, sorted."""
+        """Return the literals that come about, sorted."""
         return (*sorted(2 * atom for atom in self.add), *sorted(2 * atom + 1 for atom in self.delete))
 
 
@@ -300,7 +289,7 @@ class GroundAction:
     forced: bool = False
 
     def rule(self, number: int) -> Rule:
-        """What this action means for reachability: one rule for it, and one within for each condition."""
+        """Return the reachability rule of this action, with one within for each condition."""
         inner = tuple(
             Rule((number, place), [frozenset((literal,)) for literal in effect.condition], effect.literals())
             for place, effect in enumerate(self.effects)
@@ -308,13 +297,13 @@ class GroundAction:
         return Rule((number, -1), () if self.forced else self.clauses, (), inner)
 
     def flat(self) -> Iterator[GroundEffect]:
-        """The effects, one literal each."""
+        """Yield the effects, one literal each."""
         for effect in self.effects:
             yield from (GroundEffect(effect.condition, literal) for literal in effect.literals())
 
 
 def grouped(effects: Iterable[GroundEffect]) -> tuple[Conditional, ...]:
-    """``effects`` by condition, without those that change nothing; adding wins over deleting throughout.
+    """Return ``effects`` by condition, without those that change nothing; adding wins over deleting throughout.
 
     Deleting an atom where it does not hold changes nothing, and deleting it where it holds is deleting it.
     """

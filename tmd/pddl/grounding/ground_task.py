@@ -31,12 +31,12 @@ from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State, uni
 from tmd.pddl.semantics import Binding, bind, size
 from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
 
+# A forbidden cube that holds in every state.
 _NEVER = Cube(0, 0)
-"""A forbidden cube that holds in every state."""
 
 
 def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Sequence[Instruction] = ()) -> Task:
-    """The ground task of ``problem``.
+    """Return the ground task of ``problem``.
 
     The task is exact for every state that its operators reach from the problem's initial state, from any of
     ``initial_states``, and by the ``forced`` instructions, which may be executed although their precondition
@@ -63,7 +63,7 @@ def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Seque
 
 @contextmanager
 def _collector_paused() -> Iterator[None]:
-    """Grounding makes many small objects and no cycles; looking for cycles among them takes half the time."""
+    """Pause the garbage collector: instantiation makes many small objects and no cycles, which it would look for."""
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -74,7 +74,7 @@ def _collector_paused() -> Iterator[None]:
 
 
 def ground_condition(task: Task, formula: Formula, binding: Binding | None = None) -> tuple[Cube, ...]:
-    """``formula`` over the task's atoms, as a disjunction of cubes; empty where no state satisfies it.
+    """Compile a formula to cubes over the task's atoms; empty where no state satisfies it.
 
     Atoms that are neither fluent nor static in ``task`` count as false.
 
@@ -96,7 +96,7 @@ def ground_condition(task: Task, formula: Formula, binding: Binding | None = Non
 
 
 def _number(problem: Problem, instances: Instances, pruned: Pruned) -> Task:
-    """The task over the fluent atoms, which are numbered in sorted order."""
+    """Return the task over the fluent atoms, which are numbered in sorted order."""
     names = instances.atoms
     fluent = sorted(pruned.fluent, key=lambda number: names[number])
     bit = {number: place for place, number in enumerate(fluent)}
@@ -128,7 +128,7 @@ def _cube(literals: Iterable[int]) -> Cube:
 
 
 def _operator(action: GroundAction, bit: dict[int, int]) -> Operator:
-    """``action`` over bits: single-literal clauses are the precondition, others become forbidden cubes."""
+    """Encode an action: single-literal clauses are the precondition, others become forbidden cubes."""
     units = [_renumber(c, bit) for c in action.clauses if len(c) == 1]
     wider = [_renumber(c, bit) for c in action.clauses if len(c) != 1]
     forbidden = [_cube(literal ^ 1 for literal in clause) for clause in wider]
@@ -166,7 +166,7 @@ def _bits(atoms: Iterable[int], bit: dict[int, int]) -> Bits:
 
 @dataclass(frozen=True, slots=True)
 class Pruned:
-    """What is left: the actions, the atoms that change, and those that hold always."""
+    """The remaining actions, the atoms that change, and those that hold always."""
 
     actions: tuple[GroundAction, ...]
     fluent: frozenset[int]
@@ -194,7 +194,7 @@ class _Known:
     always: frozenset[int]
 
     def truth(self, literal: int) -> bool | None:
-        """The value of ``literal``; ``None`` where it changes."""
+        """Return the value of ``literal``; ``None`` where it changes."""
         if literal >> 1 in self.fluent:
             return None
         return (literal >> 1 in self.always) != bool(literal & 1)

@@ -48,10 +48,10 @@ from tmd.pddl.semantics import Binding, action_cost, holds, instantiate, size
 Row: TypeAlias = tuple[str, ...]
 
 _MOST_ROWS = 500_000
+# Atoms that a check of a static condition looks at, in all rows together: some 30 s.
 _MOST_CHECKED = 50_000_000
-"""Atoms that a check of a static condition looks at, in all rows together: some 30 s."""
+# The size a relation is taken to have that is still to grow.
 _UNKNOWN = 1_000_000
-"""The size a relation is taken to have that is still to grow."""
 
 
 class JoinRelation:
@@ -68,7 +68,7 @@ class JoinRelation:
             index.setdefault(tuple(row[p] for p in places), []).append(row)
 
     def matching(self, places: tuple[int, ...], key: Row) -> Collection[Row]:
-        """The rows that hold ``key`` at ``places``, in the order in which they were added."""
+        """Return the rows that hold ``key`` at ``places``, in the order in which they were added."""
         if not places:
             return self.rows
         index = self._indexes.get(places)
@@ -91,7 +91,7 @@ class Check:
 
 @dataclass(frozen=True, slots=True)
 class JoinQuery:
-    """What to find: values for ``variables`` (each from its list) such that all atoms and checks hold.
+    """A query for values of ``variables`` (each from its list) such that all atoms and checks hold.
 
     ``atoms`` are matched against ``relations``. ``given`` variables have their values already.
     """
@@ -173,7 +173,7 @@ class Join:
     steps: list[_Match | _Enumerate | _Filter] = field(default_factory=list)
 
     def run(self, start: Iterable[Row]) -> list[Row]:
-        """All bindings that extend the rows of ``start`` (values of the given variables)."""
+        """Return all bindings that extend the rows of ``start`` (values of the given variables)."""
         rows = list(start)
         for step in self.steps:
             if not rows:
@@ -212,7 +212,7 @@ def _effort(atom: Atom, bound: set[str], query: JoinQuery) -> tuple[int, int, in
 
 
 def _match(atom: Atom, query: JoinQuery, order: list[str]) -> _Match:
-    """The step for ``atom``; its new variables join ``order``."""
+    """Return the step for ``atom``; its new variables join ``order``."""
     places: list[int] = []
     key: list[int | str] = []
     new: dict[str, int] = {}
@@ -247,7 +247,7 @@ class Instances:
 
 
 def instantiate_actions(problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]) -> Instances:
-    """Every instance that relaxed reachability from the union of ``initial_states`` admits."""
+    """Return every instance that relaxed reachability from the union of ``initial_states`` admits."""
     return _Instantiation(problem, initial_states, forced).run()
 
 
@@ -313,7 +313,7 @@ class _Instantiation:
         return found
 
     def lookup(self, atom: GroundAtom) -> Tree:
-        """Atoms of static predicates are known; others get their literal."""
+        """Return the value of an atom of a static predicate, and the literal of any other."""
         if atom.predicate in self.changing:
             return 2 * self.number(atom)
         return TRUE if atom in self.static else FALSE
@@ -345,7 +345,7 @@ class _Instantiation:
                     self.instantiate(plan, join.order, join.run(start))
 
     def unify(self, plan: _ActionPlan, atom: Atom, rows: Iterable[Row]) -> list[Row]:
-        """The values that matching ``atom`` with each of ``rows`` gives to its variables."""
+        """Return the values that matching ``atom`` with each of ``rows`` gives to its variables."""
         types = {p.name: p.types for p in plan.action.parameters}
         found: list[Row] = []
         for row in rows:
@@ -428,7 +428,7 @@ class _Instantiation:
             self.actions[instruction] = ground
 
     def ground(self, plan: _ActionPlan, instruction: Instruction, binding: Binding) -> GroundAction | None:
-        """The ground action, or ``None`` where its precondition contradicts itself or what never changes."""
+        """Return the ground action, or ``None`` where its precondition contradicts itself or what never changes."""
         forced = instruction in self.forced
         what = str(instruction)
         precondition = plan.action.precondition if forced else plan.rest
@@ -443,7 +443,7 @@ class _Instantiation:
         return GroundAction(instruction, tuple(dict.fromkeys(clauses)), effects, cost, forced)
 
     def clauses(self, precondition: Formula, binding: Binding, what: str) -> list[Literals]:
-        """``precondition`` as clauses.
+        """Return ``precondition`` as clauses.
 
         Raises:
             TmdError: It has too many; with the place of the part that has.
@@ -472,7 +472,7 @@ class _Instantiation:
                     yield GroundEffect(cube, literal)
 
     def cubes(self, plan: _EffectPlan, binding: Binding, what: str) -> Sequence[Literals]:
-        """The condition of an effect as cubes; most are plain conjunctions, and quick."""
+        """Return the condition of an effect as cubes; most are plain conjunctions, and quick."""
         if plan.literals is None:
             self.work.spend(size(plan.rest, self.objects), f"an effect of {what}")
             return disjunctive(expand(plan.rest, binding, self.objects, self.lookup), what)

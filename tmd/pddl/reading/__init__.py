@@ -1,4 +1,4 @@
-"""Reading PDDL with every fault told at its place: tokens, nested groups, sections, and what the checks find.
+"""Reading PDDL, with every fault at its place: tokens, nested groups, sections, and what the checks find.
 
 Begin with :mod:`tmd.pddl.reading.reader`.
 """

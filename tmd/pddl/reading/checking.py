@@ -15,7 +15,6 @@ from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
     ActionSchema,
-    And,
     Atom,
     Domain,
     Effect,
@@ -23,13 +22,11 @@ from tmd.pddl.model import (
     Exists,
     Forall,
     Formula,
-    Imply,
-    Not,
-    Or,
     Predicate,
     Problem,
     TypedName,
     TypeHierarchy,
+    parts_of,
 )
 from tmd.pddl.reading.requirements import missing_requirements
 from tmd.pddl.reading.syntax import Source, nearest
@@ -39,7 +36,7 @@ MOST_FAULTS = 250
 
 
 def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]:
-    """Every fault of ``domain``, in order of appearance; empty where there is none.
+    """Return every fault of ``domain``, in order of appearance; empty where there is none.
 
     The faults carry their source lines where ``source``, the text that was read, is given.
     """
@@ -53,7 +50,7 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
 
 
 def check_problem(problem: Problem, source: Source | None = None) -> list[TmdError]:
-    """The faults of ``problem`` itself (its domain is taken as checked), as :func:`check_domain` lists them.
+    """Return the faults of ``problem`` itself (its domain is taken as checked), as :func:`check_domain` lists them.
 
     Of a hopeless problem they are the first ones only, some :data:`MOST_FAULTS`.
     """
@@ -75,7 +72,7 @@ def check_problem(problem: Problem, source: Source | None = None) -> list[TmdErr
 def check_condition(
     condition: Formula, variables: Iterable[str], domain: Domain, source: Source | None = None
 ) -> list[TmdError]:
-    """Every fault of a condition over ``variables``, which may be of any type.
+    """Return every fault of a condition over ``variables``, which may be of any type.
 
     An argument of a wider type than the predicate takes is let pass: the condition holds of some of what it stands for.
     """
@@ -85,7 +82,7 @@ def check_condition(
 
 
 def _in_order(faults: list[TmdError], source: Source | None) -> list[TmdError]:
-    """By place; faults without one come last, as they were found."""
+    """Sort faults by place; those without one come last, as they were found."""
     for fault in faults:
         fault.source = source.line(fault.location) if source else None
     placed = sorted((f for f in faults if f.location), key=lambda f: f.location or Location("", 0, 0))
@@ -107,14 +104,14 @@ class _Check:
         self.cyclic: set[str] = set()
         self.two_of_one_name = False
         self.deepest_type: str | None = None
-        """The first type with too many ancestors: it is told of once."""
+        """The first type with too many ancestors, which is reported once."""
 
     def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
         """Note a fault at ``location``."""
         self.faults.append(TmdError(message, location=location, hint=hint, code=code))
 
     def declarations(self) -> None:
-        """Types, constants, predicates and functions."""
+        """Check types, constants, predicates and functions."""
         domain = self.domain
         self.unique(domain.types, "type")
         self.unique(domain.predicates, "predicate")
@@ -148,7 +145,7 @@ class _Check:
             seen.add(name)
 
     def type_known(self, name: str, location: Location | None) -> None:
-        """``location`` is that of the name the type belongs to."""
+        """Check that a type is declared; ``location`` is that of the name with this type."""
         if not self.hierarchy.known(name):
             names = [OBJECT, *self.hierarchy.parents]
             place = self.source.type_of(location, name)
@@ -182,7 +179,7 @@ class _Check:
     def parameters(
         self, parameters: Sequence[TypedName], scope: Mapping[str, tuple[str, ...]]
     ) -> dict[str, tuple[str, ...]]:
-        """``scope`` with ``parameters`` in it."""
+        """Return ``scope`` with ``parameters`` in it."""
         inner = dict(scope)
         for parameter in parameters:
             for name in parameter.types:
@@ -213,7 +210,7 @@ class _Check:
         self.underived(effect.atom, "by an effect")
 
     def axioms(self) -> None:
-        """What is derived, and that it does not follow from its own negation."""
+        """Check the axioms, and that nothing follows from its own negation."""
         for axiom in self.domain.derived:
             scope = self.parameters(axiom.parameters, {})
             self.atom(axiom.head, scope, self.predicates, "predicate")
@@ -225,7 +222,7 @@ class _Check:
             self.fault(message, first.location, hint, "wrongly-derived")
 
     def underived(self, atom: Atom, when: str) -> None:
-        """``atom`` is said to hold or not to hold, so nothing may derive it."""
+        """Check that an atom that is made true or false is not derived."""
         if atom.predicate in self.derived:
             message = f'"{atom.predicate}" is derived, so it cannot be made true or false {when}'
             hint = "remove this, or the (:derived ...) of the predicate"
@@ -237,21 +234,15 @@ class _Check:
         elif isinstance(formula, Equals):
             for number, term in enumerate((formula.left, formula.right), start=1):
                 self.term(term, scope, formula.location, number)
-        elif isinstance(formula, Not):
-            self.formula(formula.part, scope)
-        elif isinstance(formula, And | Or):
-            for part in formula.parts:
-                self.formula(part, scope)
-        elif isinstance(formula, Imply):
-            self.formula(formula.left, scope)
-            self.formula(formula.right, scope)
-        elif isinstance(formula, Forall | Exists):
-            self.formula(formula.part, self.parameters(formula.parameters, scope))
+        else:
+            inner = self.parameters(formula.parameters, scope) if isinstance(formula, Forall | Exists) else scope
+            for part in parts_of(formula):
+                self.formula(part, inner)
 
     def atom(
         self, atom: Atom, scope: Mapping[str, tuple[str, ...]], signatures: Mapping[str, Predicate], what: str
     ) -> None:
-        """Predicate or function, number of arguments, and the type of each."""
+        """Check predicate or function, number of arguments, and the type of each."""
         signature = signatures.get(atom.predicate)
         if signature is None:
             hint = nearest(atom.predicate, list(signatures), what=f"{what}s")
@@ -289,7 +280,7 @@ class _Check:
             )
 
     def may_fit(self, parameter: TypedName, given: Sequence[str] | None) -> bool:
-        """Whether a term of the types ``given`` may stand for ``parameter``; what is not declared is told elsewhere."""
+        """Return whether a term of the types ``given`` fits ``parameter``; unknown types are reported elsewhere."""
         above = self.hierarchy.ancestors
         named = (*(given or ()), *parameter.types)
         known = given is not None and all(self.hierarchy.known(a) for t in named for a in above(t))
@@ -298,7 +289,7 @@ class _Check:
     def swapped(
         self, signature: Predicate, types: Sequence[Sequence[str] | None], wrong: Sequence[int]
     ) -> tuple[int, int] | None:
-        """The two places that must change their arguments for all of them to fit, one of ``wrong`` first."""
+        """Return the two places that must change their arguments for all of them to fit, one of ``wrong`` first."""
         if not wrong or None in types:
             return None
         for one in wrong:
@@ -310,17 +301,17 @@ class _Check:
         return None
 
     def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
-        """Whether an argument of the types ``given`` may stand where ``wanted`` is asked for."""
+        """Return whether an argument of the types ``given`` may stand where ``wanted`` is asked for."""
         return self.hierarchy.accepts(wanted, given)
 
     def word(self, atom: Atom, number: int) -> Location | None:
-        """Where the predicate (0) or an argument of ``atom`` stands."""
+        """Return the place of the predicate (0) or of an argument of ``atom``."""
         return self.source.word(atom.location, number)
 
     def term(
         self, term: str, scope: Mapping[str, tuple[str, ...]], location: Location | None, number: int
     ) -> tuple[str, ...] | None:
-        """The types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault)."""
+        """Return the types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault)."""
         if term.startswith("?"):
             if term not in scope and not self.two_of_one_name:  # else it is what one of the two should be called
                 hint = nearest(term, list(scope), what="variables here")
@@ -334,7 +325,7 @@ class _Check:
         return self.known_objects.get(term)
 
     def objects(self, problem: Problem) -> None:
-        """The problem's objects. A constant may be listed again with the same type."""
+        """Return the problem's objects. A constant may be listed again with the same type."""
         self.unique(problem.objects, "object")
         constants = {c.name: c.types for c in problem.domain.constants}
         for declared in problem.objects:
@@ -344,7 +335,7 @@ class _Check:
                 self.fault(message, declared.location, "rename the object", "duplicate-name")
 
     def values(self, problem: Problem) -> None:
-        """The values of cost functions, and that there is a cost to minimise."""
+        """Return the values of cost functions, and that there is a cost to minimise."""
         for function in sorted(problem.function_values):
             place = problem.init_locations.get(function)
             self.atom(Atom(function.predicate, function.args, place), {}, self.functions, "function")

@@ -32,8 +32,8 @@ from tmd.pddl.model import (
 from tmd.pddl.reading.syntax import Group, Node, Source, Word
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
+# What planners take for a name although PDDL does not.
 _ODD_NAME = re.compile(r"[a-z0-9_][!-~]*")
-"""What planners take for a name although PDDL does not."""
 _VARIABLE = re.compile(r"\?[a-z][a-z0-9_-]*")
 _ODD_VARIABLE = re.compile(r"\?[a-z0-9_][!-~]*")
 _NUMBER = re.compile(r"([0-9]{1,15})(\.0*)?")
@@ -42,17 +42,17 @@ RESERVED = frozenset({"and", "or", "not", "imply", "forall", "exists", "when", "
 
 
 def is_variable(term: str) -> bool:
-    """Whether a term is a variable."""
+    """Return whether a term is a variable."""
     return term.startswith("?")
 
 
 def unsupported(source: Source, what: str, name: str, location: Location, hint: str | None = None) -> TmdError:
-    """The error for a construct of PDDL that is outside the supported part."""
+    """Return the error for a construct of PDDL that is outside the supported part."""
     return source.error(f'not supported: {what}: "{name}"', location, hint, "not-supported")
 
 
 def read_name(node: Node, source: Source, what: str) -> Word:
-    """A name such as ``mug1``."""
+    """Return a name such as ``mug1``."""
     if isinstance(node, Group):
         raise source.error(f"expected {what}, found a parenthesis", node.location)
     if not _NAME.fullmatch(node.text):
@@ -63,7 +63,7 @@ def read_name(node: Node, source: Source, what: str) -> Word:
 
 
 def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], hint: str) -> None:
-    """A name that PDDL does not have: let pass where planners do.
+    """Return a name that PDDL does not have: let pass where planners do.
 
     Raises:
         TmdError: It is none.
@@ -84,22 +84,22 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
 
 
 def look_alike(letter: str) -> str | None:
-    """A hint with the ASCII character that ``letter`` looks like."""
+    """Return a hint with the ASCII character that ``letter`` looks like."""
     plain = _LOOK_ALIKES.get(letter) or unicodedata.normalize("NFKD", letter)[0]
     return f'write "{plain}"' if plain.isascii() and plain.isprintable() else None
 
 
+# Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like.
 _LOOK_ALIKES = {
     **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe63\uff0d", "-"),
     **dict(zip("\u0430\u0435\u043e\u0440\u0441\u0443\u0445\u0456\u0458\u0455", "aeopcyxijs", strict=True)),
     **dict(zip("\u03b1\u03bf\u03c1\u03bd\u03b9", "aopvi", strict=True)),
     **dict.fromkeys("\u2018\u2019\u201c\u201d", "'"),
 }
-"""Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like."""
 
 
 def read_term(node: Node, source: Source) -> str:
-    """A variable, constant or object."""
+    """Return a variable, constant or object."""
     if isinstance(node, Group):
         raise unsupported(
             source,
@@ -116,7 +116,7 @@ def read_term(node: Node, source: Source) -> str:
 
 
 def read_number(node: Node, source: Source) -> int | None:
-    """A whole number that is not negative; ``None`` where ``node`` is not a number at all."""
+    """Return a whole number that is not negative; ``None`` where ``node`` is not a number at all."""
     if isinstance(node, Group) or not re.fullmatch(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?", node.text):
         return None
     whole = _NUMBER.fullmatch(node.text)
@@ -128,7 +128,7 @@ def read_number(node: Node, source: Source) -> int | None:
 
 
 def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, what: str) -> tuple[TypedName, ...]:
-    """``a b - t c - (either t u)``: names (or variables) with their types."""
+    """Read ``a b - t c - (either t u)``: names (or variables) with their types."""
     found: list[TypedName] = []
     waiting: list[Word] = []
     rest = list(reversed(nodes))
@@ -153,7 +153,7 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
 
 
 def _after_dash(node: Word, source: Source) -> Word:
-    """The type in ``-type``, which wants a space."""
+    """Return the type in ``-type``, which wants a space."""
     message = f'some tools want a space between "-" and "{node.text[1:]}"'
     source.warn(message, node.location, f'write "- {node.text[1:]}"', "glued-dash")
     place = node.location
@@ -166,7 +166,7 @@ def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...
 
 
 def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list[Word]:
-    """The name at ``node``; nothing where it is none and faults are collected."""
+    """Return the name at ``node``; nothing where it is none and faults are collected."""
     if not variables:
         return source.recover([], lambda: [read_name(node, source, f"the name of {what}")])
     if isinstance(node, Group):
@@ -190,7 +190,7 @@ def _read_types(node: Node | None, dash: Location, source: Source) -> tuple[str,
 
 
 def read_parameters(node: Node, source: Source) -> tuple[TypedName, ...]:
-    """The parameter list of an action or quantifier."""
+    """Return the parameter list of an action or quantifier."""
     if isinstance(node, Word):
         raise source.error(f'expected a list of parameters, found "{node.text}"', node.location, "write (?x - type)")
     return read_typed_list(node.parts, source, variables=True, what="a variable")
@@ -212,8 +212,8 @@ _UNSUPPORTED_CONDITIONS = {
         "trajectory constraints",
     ),
 }  # fmt: skip
+# The others may be names of predicates as well, and then have no conditions in them.
 _NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
-"""The others may be names of predicates as well, and then have no conditions in them."""
 _UNSUPPORTED_EFFECTS = {
     "assign": "numeric and object fluents",
     "change": "numeric and object fluents",
@@ -227,7 +227,7 @@ _ONLY_COSTS = "of numeric fluents only total-cost is supported"
 
 
 def read_condition(node: Node, source: Source) -> Formula:
-    """A precondition, goal or condition of an effect.
+    """Return a precondition, goal or condition of an effect.
 
     Raises:
         TmdError: It is not a formula, or it holds something that is not supported.
@@ -269,7 +269,7 @@ def _read_parts(parts: Sequence[Node], source: Source) -> tuple[Formula, ...]:
 
 
 def read_atom(node: Group, source: Source) -> Atom:
-    """A predicate or function applied to terms."""
+    """Return a predicate or function applied to terms."""
     if not node.parts:
         raise source.error("expected (predicate term ...), found ()", node.location)
     name = read_name(node.parts[0], source, "the name of a predicate")
@@ -283,7 +283,7 @@ def _expect(node: Group, count: int, form: str, source: Source) -> None:
 
 @dataclass(slots=True)
 class Effects:
-    """What :func:`read_effects` collects."""
+    """The result of :func:`read_effects`."""
 
     flat: list[Effect] = field(default_factory=list)
     cost: int | Atom | None = None
@@ -303,7 +303,7 @@ class _Around:
 
 
 def read_effects(node: Node, source: Source) -> Effects:
-    """The effects of an action, flattened, and its cost.
+    """Return the effects of an action, flattened, and its cost.
 
     Raises:
         TmdError: It is not an effect, or it holds something that is not supported.
@@ -348,7 +348,7 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
 
 
 def _quantified(node: Group, source: Source, around: _Around) -> _Around:
-    """``around`` with the quantifier of ``node``; a condition outside it must not be captured."""
+    """Return ``around`` with the quantifier of ``node``; a condition outside it must not be captured."""
     parameters = read_parameters(node.parts[1], source)
     outside = frozenset[str]().union(*(free_variables(c) for c in around.conditions))
     for parameter in parameters:

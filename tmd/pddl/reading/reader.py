@@ -48,7 +48,7 @@ from tmd.pddl.semantics import close
 
 
 def only_part(group: Group, source: Source) -> Node:
-    """The one part that ``group`` must have."""
+    """Return the one part that ``group`` must have."""
     if len(group.parts) != 2:
         raise source.error(
             f'"{group.head}" takes one part, found {len(group.parts) - 1}', group.location, "use (and ...)"
@@ -57,7 +57,7 @@ def only_part(group: Group, source: Source) -> Node:
 
 
 def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
-    """``(:requirements ...)``, each once."""
+    """Read ``(:requirements ...)``, each once."""
     names: list[str] = []
     for node in group.parts[1:]:
         if isinstance(node, Group) or not node.text.startswith(":"):
@@ -125,7 +125,7 @@ _UNSUPPORTED_REQUIREMENTS = {
 
 
 def read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
-    """``(:types ...)``, parents before children."""
+    """Read ``(:types ...)``, parents before children."""
     found = []
     for typed in read_typed_list(group.parts[1:], source, variables=False, what="a type"):
         if len(typed.types) > 1:
@@ -143,7 +143,7 @@ def read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
 
 
 def _each_once(found: list[TypeDeclaration], source: Source) -> list[TypeDeclaration]:
-    """Each type with its last parent that is not ``object``: planning competitions declare some types twice."""
+    """Return each type with its last parent that is not ``object``: planning competitions declare some types twice."""
     kept: dict[str, TypeDeclaration] = {}
     for declared in found:
         before = kept.get(declared.name)
@@ -159,7 +159,7 @@ def _each_once(found: list[TypeDeclaration], source: Source) -> list[TypeDeclara
 
 
 def _with_undeclared_parents(found: list[TypeDeclaration], source: Source) -> list[TypeDeclaration]:
-    """``found`` and their parents that are not declared: all common planners take them as declared.
+    """Add the undeclared parents of types: all common planners take them as declared.
 
     A parent that differs from a declared type by a letter or so is left out: that is a slip, and an error.
     """
@@ -176,12 +176,12 @@ def _with_undeclared_parents(found: list[TypeDeclaration], source: Source) -> li
     return [*found, *added.values()]
 
 
+# The likeness (of :mod:`difflib`) of two names of four letters or more that differ by one.
 _ONE_SLIP = 0.85
-"""The likeness (of :mod:`difflib`) of two names of four letters or more that differ by one."""
 
 
 def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> None:
-    """Some readers want every parent before its children."""
+    """Return some readers want every parent before its children."""
     later = {declared.name: place for place, declared in enumerate(found)}
     early = [declared for place, declared in enumerate(found) if later.get(declared.parent, 0) > place]
     if early:
@@ -195,7 +195,7 @@ def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> Non
 
 
 def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
-    """``(:predicates ...)``, each with the comment that stands beside it."""
+    """Read ``(:predicates ...)``, each with the comment that stands beside it."""
     declared = group.parts[1:]
     following = [*(n.location.line for n in declared[1:]), group.end.line + 1][: len(declared)]
     found: list[Predicate] = []
@@ -224,7 +224,7 @@ def _read_signature(node: Group, document: Document, comment: str = "") -> Predi
 
 
 def _each_named(parameters: tuple[TypedName, ...], source: Source) -> tuple[TypedName, ...]:
-    """``parameters``, the second of one name renamed: in a declaration only their number and types count."""
+    """Rename the second parameter of one name: in a declaration only their number and types count."""
     named: dict[str, TypedName] = {}
     for parameter in parameters:
         name = parameter.name
@@ -238,7 +238,7 @@ def _each_named(parameters: tuple[TypedName, ...], source: Source) -> tuple[Type
 
 
 def read_functions(group: Group, document: Document) -> tuple[Predicate, ...]:
-    """``(:functions ...)``, which are numbers, all of them."""
+    """Read ``(:functions ...)``, which are numbers, all of them."""
     source = document.source
     found: list[Predicate] = []
     nodes = list(group.parts[1:])
@@ -262,7 +262,7 @@ def _read_function(node: Group, document: Document) -> tuple[Predicate]:
 
 
 def read_action(group: Group, source: Source) -> ActionSchema:
-    """``(:action name ...)``; what is left out is empty."""
+    """Read ``(:action name ...)``; what is left out is empty."""
     if len(group.parts) < 2:
         raise source.error("this action has no name", group.location)
     name = read_name(group.parts[1], source, "the name of an action")
@@ -276,14 +276,14 @@ def read_action(group: Group, source: Source) -> ActionSchema:
         precondition = source.recover(TRUE, read_condition, parts[":precondition"], source)
     if ":parameters" in parts:
         parameters = source.recover((), read_parameters, parts[":parameters"], source)
-    if ":vars" in parts:  # not supported, which is told; its variables are known so that they are not told as well
+    if ":vars" in parts:  # not supported, which is reported once: its variables are known
         parameters += source.recover((), read_parameters, parts[":vars"], source)
     comment = _comment_above(group, source)
     return ActionSchema(name.text, parameters, precondition, tuple(effects.flat), effects.cost, name.location, comment)
 
 
 def _comment_above(group: Group, source: Source) -> str:
-    """The comment in the lines right above a group."""
+    """Return the comment in the lines right above a group."""
     number = group.location.line - 1
     found: list[str] = []
     while 0 < number <= len(source.lines) and (line := source.lines[number - 1].strip()).startswith(";"):
@@ -293,7 +293,7 @@ def _comment_above(group: Group, source: Source) -> str:
 
 
 def read_axiom(group: Group, source: Source) -> Axiom:
-    """``(:derived (predicate ?parameter ...) condition)``."""
+    """Read ``(:derived (predicate ?parameter ...) condition)``."""
     if len(group.parts) != 3 or not isinstance(group.parts[1], Group) or not group.parts[1].parts:
         hint = "write (:derived (predicate ?x) (condition ?x))"
         raise source.error("expected a predicate and its condition", group.location, hint)
@@ -307,7 +307,7 @@ def read_axiom(group: Group, source: Source) -> Axiom:
 
 
 def _with_declared_types(axiom: Axiom, predicates: Mapping[str, Predicate]) -> Axiom:
-    """``axiom``, of which parameters without a type are of that which their predicate is declared with."""
+    """Give the parameters of an axiom without a type that of the declaration of their predicate."""
     declared = predicates.get(axiom.head.predicate)
     if declared is None or len(declared.parameters) != len(axiom.head.terms):
         return axiom
@@ -329,7 +329,7 @@ _UNSUPPORTED_PARTS = {
 
 
 def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Node]:
-    """What follows each keyword of an action."""
+    """Return the node after each keyword of an action."""
     parts: dict[str, Node] = {}
     nodes = list(group.parts[2:])
     while nodes:
@@ -343,7 +343,7 @@ def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Nod
             source.fault(source.error(f'nothing follows "{keyword.text}"', keyword.location))
             continue
         source.recover(None, _known_part, keyword, action, parts, source)
-        meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # what it holds is not told as missing as well
+        meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # its value is not reported as missing as well
         parts.setdefault(keyword.text if keyword.text in _UNSUPPORTED_PARTS or not meant else meant[0], nodes.pop(0))
     return parts
 
@@ -361,7 +361,7 @@ def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Sourc
 
 
 def read_domain_name(group: Group, domain: Domain, source: Source) -> str:
-    """``(:domain name)``, which must name ``domain``."""
+    """Read ``(:domain name)``, which must name ``domain``."""
     name = read_name(only_part(group, source), source, "the name of a domain")
     if name.text != domain.name:
         source.fault(
@@ -376,7 +376,7 @@ def read_domain_name(group: Group, domain: Domain, source: Source) -> str:
 
 
 def read_metric(group: Group, source: Source) -> bool:
-    """``(:metric minimize (total-cost))``, the one that is supported."""
+    """Read ``(:metric minimize (total-cost))``, the one that is supported."""
     words = [n.head if isinstance(n, Group) else n.text for n in group.parts[1:]]
     if words == ["minimize", TOTAL_COST]:
         return True
@@ -405,7 +405,7 @@ _UNSUPPORTED_SECTIONS = {
 
 
 def read_domain(path: str | Path) -> Domain:
-    """The domain in the file at ``path``.
+    """Return the domain in the file at ``path``.
 
     Raises:
         TmdError: The file cannot be read, is not PDDL, or has a fault.
@@ -414,7 +414,7 @@ def read_domain(path: str | Path) -> Domain:
 
 
 def read_problem(path: str | Path, domain: Domain) -> Problem:
-    """The problem in the file at ``path``.
+    """Return the problem in the file at ``path``.
 
     Raises:
         TmdError: The file cannot be read, is not PDDL, has a fault, or belongs to another domain.
@@ -423,34 +423,34 @@ def read_problem(path: str | Path, domain: Domain) -> Problem:
 
 
 def parse_domain(text: str, file: str = "<text>") -> Domain:
-    """The domain that ``text`` describes; ``file`` names it in errors."""
+    """Return the domain that ``text`` describes; ``file`` names it in errors."""
     return _faultless_domain(text, file)
 
 
 @lru_cache(maxsize=8)
 def _faultless_domain(text: str, file: str) -> Domain:
-    """The same, kept: compiling, checking and grounding read the same domain in one run."""
+    """Return the same, kept: compiling, checking and grounding read the same domain in one run."""
     domain, source = parse_domain_unchecked(text, file)
     _raise_first(check_domain(domain, source))
     return domain
 
 
 def parse_problem(text: str, domain: Domain, file: str = "<text>") -> Problem:
-    """The problem that ``text`` describes; ``file`` names it in errors."""
+    """Return the problem that ``text`` describes; ``file`` names it in errors."""
     problem, source = parse_problem_unchecked(text, domain, file)
     _raise_first(check_problem(problem, source))
     return replace(problem, init=close(problem.init, problem)) if domain.derived else problem
 
 
 def _raise_first(faults: list[TmdError]) -> None:
-    """A requirement that is not declared is let pass: what needs it says so itself, and all planners accept that."""
+    """Raise the first fault. Undeclared requirements pass: all planners accept that."""
     for fault in faults:
         if fault.code != "missing-requirement":
             raise fault
 
 
 def parse_domain_unchecked(text: str, file: str = "<text>", report: Report | None = None) -> tuple[Domain, Source]:
-    """The domain that ``text`` describes, before its meaning is checked, and the text's lines.
+    """Return the domain that ``text`` describes, before its meaning is checked, and the text's lines.
 
     Where there is a ``report``, it gets every fault, and only a text without any domain is an error.
 
@@ -482,7 +482,7 @@ def parse_domain_unchecked(text: str, file: str = "<text>", report: Report | Non
 def parse_problem_unchecked(
     text: str, domain: Domain, file: str = "<text>", report: Report | None = None
 ) -> tuple[Problem, Source]:
-    """The problem that ``text`` describes, before its meaning is checked, and the text's lines.
+    """Return the problem that ``text`` describes, before its meaning is checked, and the text's lines.
 
     Where there is a ``report``, it gets every fault, and only a text without any problem is an error.
 
@@ -541,7 +541,7 @@ def _read_sections(
 
 
 def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
-    """The name and sections of ``(define (kind name) section ...)``."""
+    """Return the name and sections of ``(define (kind name) section ...)``."""
     source = document.source
     if not document.groups:
         hint = f"write (define ({kind} name) ...)"
@@ -601,7 +601,7 @@ class InitReader:
         self.locations: dict[GroundAtom, Location] = {}
 
     def read(self, group: Group) -> None:
-        """Take in ``(:init ...)``.
+        """Read ``(:init ...)``.
 
         Raises:
             TmdError: An entry is not a ground atom or value, or contradicts another one.
@@ -610,7 +610,9 @@ class InitReader:
             self.source.recover(None, self._read_entry, node)
         for atom in self.denied:
             if atom in self.atoms:
-                self.source.fault(self._contradiction(atom))
+                message = f"{atom} is said to hold and not to hold"
+                hint = "remove one of the two"
+                self.source.fault(self.source.error(message, self.locations[atom], hint, "contradictory-init"))
         if self.twice:
             atom, place = self.twice[0]
             more = f", and so do {len(self.twice) - 1} more" if len(self.twice) > 1 else ""
@@ -665,13 +667,9 @@ class InitReader:
             raise self.source.error(f"the value of {function} is given twice", node.location)
         self.values[function] = number
 
-    def _contradiction(self, atom: GroundAtom) -> TmdError:
-        message = f"{atom} is said to hold and not to hold"
-        return self.source.error(message, self.locations[atom], "remove one of the two", "contradictory-init")
-
 
 def _spread(nodes: Iterable[Node]) -> list[Node]:
-    """``(and a b)`` in :init is the same as ``a b``."""
+    """Flatten :init, where ``(and a b)`` is the same as ``a b``."""
     found: list[Node] = []
     for node in nodes:
         found.extend(node.parts[1:] if isinstance(node, Group) and node.head == "and" else [node])
@@ -683,10 +681,10 @@ PLACE = "--goal"
 
 
 def with_goal(problem: Problem, text: str, file: str = PLACE) -> Problem:
-    """``problem`` with the goal that ``text`` states, such as ``(contains mug1 coffee)``; ``file`` names it in errors.
+    """Replace the goal by that of ``text``, such as ``(contains mug1 coffee)``; ``file`` names it in errors.
 
-    A goal may use ``exists``, ``forall`` and the like whatever the domain's ``:requirements`` say: what the domain does
-    not declare, the problem does.
+    A goal may use ``exists``, ``forall`` and the like with any ``:requirements`` of the domain: the problem declares
+    those that the domain does not.
 
     Raises:
         TmdError: It is not a condition, or speaks of what the problem does not have.
@@ -701,7 +699,7 @@ def with_goal(problem: Problem, text: str, file: str = PLACE) -> Problem:
 
 
 def aimed_at(problem: Problem, goal: Formula, source: Source | None = None) -> Problem:
-    """``problem`` with a goal, and with the requirements that this goal needs.
+    """Return ``problem`` with a goal, and with the requirements that this goal needs.
 
     Raises:
         TmdError: The goal speaks of what the problem does not have.

@@ -1,4 +1,4 @@
-"""Which ``:requirements`` a domain or problem uses, and which of them it does not declare."""
+"""The ``:requirements`` that a domain or problem uses, and those of them that it does not declare."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import (
     OBJECT,
     TRUE,
-    And,
     Atom,
     Domain,
     Equals,
@@ -20,6 +19,7 @@ from tmd.pddl.model import (
     Or,
     Problem,
     TypedName,
+    subformulas,
 )
 
 _QUANTIFIED = (":existential-preconditions", ":universal-preconditions")
@@ -39,18 +39,18 @@ _IMPLIED = {
     ),
 }
 
+# Needs :negative-preconditions to the letter. Most domains do without, so its lack is not a fault; we write it.
 _OTHER_NOT = '"not" around something else than an atom'
-"""Needs :negative-preconditions to the letter. Most domains do without, so its lack is not a fault; we write it."""
 
+# A requirement, the feature that needs it, and where that stands.
 _Use = tuple[str, str, Location | None]
-"""A requirement, the feature that needs it, and where that stands."""
 
 
 def missing_requirements(domain: Domain, problem: Problem | None = None) -> list[TmdError]:
-    """One fault for each requirement that is used and not declared, at its first use.
+    """Return a fault for each requirement that is used and not declared, at its first use.
 
-    Without ``problem`` the domain is looked at; with it, the problem, which inherits its domain's. What the domain
-    lacks itself is told there.
+    Without ``problem`` the domain is checked; with it, the problem, which inherits the requirements of its domain.
+    Those that the domain lacks itself are not repeated.
     """
     of_the_domain = {name for name, _, _ in _undeclared(domain, None)} if problem else set[str]()
     return [
@@ -66,7 +66,7 @@ def missing_requirements(domain: Domain, problem: Problem | None = None) -> list
 
 
 def undeclared_requirements(problem: Problem) -> tuple[str, ...]:
-    """The requirements that ``problem`` uses and neither it nor its domain declares."""
+    """Return the requirements that ``problem`` uses and neither it nor its domain declares."""
     return tuple(name for name, _, _ in _undeclared(problem.domain, problem))
 
 
@@ -85,7 +85,7 @@ def _undeclared(domain: Domain, problem: Problem | None) -> list[_Use]:
 
 
 def used_requirements(domain: Domain, problem: Problem | None = None) -> tuple[str, ...]:
-    """The requirements that ``domain`` (and ``problem``) use, each once, in the usual order."""
+    """Return the requirements that ``domain`` (and ``problem``) use, each once, in the usual order."""
     used = {requirement for requirement, _, _ in _domain_uses(domain)}
     if problem:
         used |= {requirement for requirement, _, _ in _problem_uses(problem)}
@@ -135,25 +135,19 @@ def _typed(names: Iterable[TypedName]) -> Iterator[_Use]:
 
 
 def _formula_uses(formula: Formula) -> Iterator[_Use]:
-    if isinstance(formula, Equals):
-        yield ":equality", '"="', formula.location
-    elif isinstance(formula, Not):
-        atomic = isinstance(formula.part, Atom)
-        yield ":negative-preconditions", '"not"' if atomic else _OTHER_NOT, formula.location
-        if not isinstance(formula.part, Atom | Equals):
-            yield ":disjunctive-preconditions", '"not" around a compound condition', formula.location
-        yield from _formula_uses(formula.part)
-    elif isinstance(formula, And | Or):
-        if isinstance(formula, Or):
-            yield ":disjunctive-preconditions", '"or"', formula.location
-        for part in formula.parts:
-            yield from _formula_uses(part)
-    elif isinstance(formula, Imply):
-        yield ":disjunctive-preconditions", '"imply"', formula.location
-        yield from _formula_uses(formula.left)
-        yield from _formula_uses(formula.right)
-    elif isinstance(formula, Forall | Exists):
-        kind, word = (":universal", "forall") if isinstance(formula, Forall) else (":existential", "exists")
-        yield f"{kind}-preconditions", f'"{word}"', formula.location
-        yield from _typed(formula.parameters)
-        yield from _formula_uses(formula.part)
+    for part in subformulas(formula):
+        match part:
+            case Equals():
+                yield ":equality", '"="', part.location
+            case Not(inner):
+                yield ":negative-preconditions", '"not"' if isinstance(inner, Atom) else _OTHER_NOT, part.location
+                if not isinstance(inner, Atom | Equals):
+                    yield ":disjunctive-preconditions", '"not" around a compound condition', part.location
+            case Or():
+                yield ":disjunctive-preconditions", '"or"', part.location
+            case Imply():
+                yield ":disjunctive-preconditions", '"imply"', part.location
+            case Forall(parameters) | Exists(parameters):
+                kind, word = (":universal", "forall") if isinstance(part, Forall) else (":existential", "exists")
+                yield f"{kind}-preconditions", f'"{word}"', part.location
+                yield from _typed(parameters)

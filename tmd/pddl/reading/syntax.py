@@ -2,7 +2,7 @@
 
 Nothing here recurses, so a text may nest as deeply as it likes. What the groups mean is
 :mod:`tmd.pddl.reading.reader`'s affair; :mod:`tmd.pddl.reading.syntax` makes the groups. A :class:`Source` either
-raises the first fault, or hands every fault to whoever collects them, and reading goes on behind it.
+raises the first fault, or reports every fault to a collector, and reading goes on behind it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from tmd.diagnostics import Location, TmdError
 from tmd.files import read_bytes
 
 TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+")
-"""Parentheses and words; a variable begins a word of its own, whatever it is glued to."""
+"""Parentheses and words; a variable always begins a new word."""
 _DEEPEST = 100
 _LONGEST_LIST_IN_HINT = 8
 _MOST_COMPARED = 500
@@ -38,7 +38,7 @@ class Word:
 
 @dataclass(frozen=True, slots=True)
 class Group:
-    """What stands between an opening parenthesis (at ``location``) and its closing one (at ``end``)."""
+    """The nodes between an opening parenthesis (at ``location``) and its closing one (at ``end``)."""
 
     parts: tuple[Node, ...]
     location: Location
@@ -71,13 +71,13 @@ class Source:
     report: Report | None = field(default=None, compare=False, repr=False)
 
     def line(self, location: Location | None) -> str | None:
-        """The source line at ``location``, if it lies in this text."""
+        """Return the source line at ``location``, if it lies in this text."""
         if location is None or location.file != self.file or not 0 < location.line <= len(self.lines):
             return None
         return self.lines[location.line - 1]
 
     def error(self, message: str, location: Location | None, hint: str | None = None, code: str = "syntax") -> TmdError:
-        """An error at ``location`` that carries its source line."""
+        """Return an error at ``location`` that carries its source line."""
         return TmdError(message, location=location, hint=hint, source=self.line(location), code=code)
 
     def fault(self, error: TmdError) -> None:
@@ -87,12 +87,12 @@ class Source:
         self.report(error)
 
     def warn(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
-        """Report what is not a fault but worth telling; nobody is told where faults are raised."""
+        """Report a warning; it is dropped where faults are raised."""
         if self.report is not None:
             self.report(self.error(message, location, hint, code))
 
     def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
-        """What ``read`` returns; where it fails and faults are reported, ``otherwise``."""
+        """Return the result of ``read``, or ``otherwise`` where it fails and faults are reported."""
         if self.report is None:
             return read(*arguments, **named)
         try:
@@ -102,7 +102,7 @@ class Source:
             return otherwise
 
     def word(self, location: Location | None, number: int) -> Location | None:
-        """Where the word ``number`` of the group at ``location`` stands (its head is 0); groups count as one."""
+        """Return the place of word ``number`` (0 for the head) of the group at ``location``; groups count as one."""
         place = None
         depth = count = 0
         for token, place in self.tokens(location):
@@ -116,7 +116,7 @@ class Source:
         return location
 
     def type_of(self, location: Location | None, name: str) -> Location | None:
-        """Where the type ``name`` of the typed name at ``location`` stands."""
+        """Return the place of the type ``name`` of the typed name at ``location``."""
         after_dash = False
         for token, place in self.tokens(location):
             if after_dash and token.lower() == name:
@@ -127,7 +127,7 @@ class Source:
         return location
 
     def tokens(self, location: Location | None) -> Iterator[tuple[str, Location]]:
-        """The tokens from ``location`` on, as they are written."""
+        """Yield the tokens from ``location`` on, as they are written."""
         if self.line(location) is None or location is None:
             return
         for number in range(location.line, len(self.lines) + 1):
@@ -158,7 +158,7 @@ class Document:
 
 
 def nearest(name: str, declared: Sequence[str], *, what: str = "declared") -> str | None:
-    """A hint that names the declared name closest to ``name``, or all of them where they are few."""
+    """Return a hint that names the declared name closest to ``name``, or all of them where they are few."""
     candidates = declared if len(declared) <= _MOST_COMPARED else _alike(name, declared)
     close = get_close_matches(name, candidates, n=1, cutoff=0.6)
     if close:
@@ -169,14 +169,14 @@ def nearest(name: str, declared: Sequence[str], *, what: str = "declared") -> st
 
 
 def _alike(name: str, declared: Sequence[str]) -> list[str]:
-    """Of many names those that may be near ``name``: comparing with all of them takes too long."""
+    """Keep, of many names, those that may be near ``name``: comparing with all of them takes too long."""
     ends = (name[:2], name[-2:])
     near = (d for d in declared if abs(len(d) - len(name)) <= 2 and (d.startswith(ends[0]) or d.endswith(ends[1])))
     return list(islice(near, _MOST_COMPARED))
 
 
 def read_text(path: str | Path) -> str:
-    """The text of a UTF-8 file, without byte order mark.
+    """Return the text of a UTF-8 file, without byte order mark.
 
     Raises:
         TmdError: The file is missing, unreadable, binary or not UTF-8.
@@ -206,7 +206,7 @@ def read_text(path: str | Path) -> str:
 
 
 def read_standard_input() -> str:
-    """The text of standard input.
+    """Return the text of standard input.
 
     Raises:
         TmdError: It cannot be read, is too large or not UTF-8.
@@ -220,7 +220,7 @@ def read_standard_input() -> str:
 
 
 def split_lines(text: str) -> tuple[str, ...]:
-    """The lines of ``text``, whatever ends them, without byte order mark."""
+    """Return the lines of ``text``, with any line ends, without byte order mark."""
     return tuple(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n").split("\n"))
 
 
@@ -229,17 +229,17 @@ ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]")
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 _CONNECTIVES = frozenset({"and", "or", "not", "imply", "forall", "exists", "when"})
 _PARTS = frozenset({":parameters", ":precondition", ":effect"})
+# Keywords that begin a section, and nothing else.
 _SECTIONS = frozenset(
     {
         ":requirements", ":types", ":constants", ":predicates", ":functions", ":action", ":durative-action",
         ":derived", ":process", ":event", ":domain", ":objects", ":init", ":goal", ":metric",
     }
 )  # fmt: skip
-"""Keywords that begin a section, and nothing else."""
+# The groups of longer texts, in characters, are not kept for the next reader.
 _MOST_KEPT = 200_000
-"""The groups of longer texts, in characters, are not kept for the next reader."""
+# Number of faults of parentheses after which the rest of a text tells nothing.
 _MOST_FAULTS = 100
-"""Number of faults of parentheses after which the rest of a text tells nothing."""
 
 
 @dataclass(slots=True)
@@ -271,14 +271,14 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
         try:
             document = _faultless(text, file)
         except TmdError:
-            pass  # read again, so that all faults are told
+            pass  # read again, to report all faults
         else:
             return _told(replace(document, source=replace(document.source, report=report)))
     return _told(_split(text, file, report))
 
 
 def _told(document: Document) -> Document:
-    """``document``, of which the warnings are reported."""
+    """Report the warnings of a document, and return it."""
     if document.source.report is not None:
         for warning in document.warnings:
             document.source.report(warning)
@@ -287,7 +287,7 @@ def _told(document: Document) -> Document:
 
 @lru_cache(maxsize=8)
 def _faultless(text: str, file: str) -> Document:
-    """The groups of a text without faults, kept: a domain is read several times while it is checked or compiled."""
+    """Cache the groups of a text without faults: a domain is read several times while it is checked or compiled."""
     return _split(text, file, None)
 
 
@@ -358,7 +358,7 @@ class _Parser:
         self.source.fault(self.source.error(message, location, hint, code))
 
     def look_at_indentation(self, token: str, location: Location) -> None:
-        """A line that begins left of the group it stands in shows that the group lacks its end."""
+        """Return a line that begins left of the group it stands in shows that the group lacks its end."""
         if self.suspect is not None or not self.stack or len(self.stack) == 1:
             return
         opened = self.stack[-1]
@@ -381,7 +381,7 @@ class _Parser:
             self.deepest = group
 
     def reopen(self, group: Group) -> _Open:
-        """``group``, which was closed too early, as an open one."""
+        """Open a group again that was closed too early."""
         return _Open(group.location, list(group.parts), False)
 
     def add_word(self, word: Word) -> None:
@@ -394,7 +394,7 @@ class _Parser:
         self.stack[-1].parts.append(word)
 
     def fix_unopened(self, word: Word) -> None:
-        """``:precondition and (...)``, which lacks the parenthesis that its end closes."""
+        """Repair ``:precondition and (...)``, which lacks the parenthesis that its end closes."""
         opened = self.stack[-1]
         last = opened.parts[-1] if opened.parts else None
         if isinstance(last, Word) and (last.text in _PARTS - {":parameters"} or last.text == opened.head == ":goal"):
@@ -403,7 +403,7 @@ class _Parser:
             self.stack.append(_Open(word.location, [], False))
 
     def reopen_last(self, word: Word) -> bool:
-        """A word outside all parentheses: the last group ended too early, if there is one."""
+        """Return a word outside all parentheses: the last group ended too early, if there is one."""
         if self.groups:
             self.closed_too_early(self.groups[-1])
             self.stack.append(self.reopen(self.groups.pop()))
@@ -414,10 +414,10 @@ class _Parser:
         return False
 
     def fix_misplaced(self, word: Word) -> None:
-        """A keyword deep inside another group shows which parenthesis was left open, or closed too early."""
+        """Return a keyword deep inside another group shows which parenthesis was left open, or closed too early."""
         opened = self.stack[-1]
         if not opened.parts and len(self.stack) == 2 and word.text in _SECTIONS:
-            self.suspect = None  # whatever the indentation of the sections before says, they are closed
+            self.suspect = None  # the sections before are closed, with any indentation
         if not opened.parts and len(self.stack) == 1 and self.groups:
             self.closed_too_early(self.groups[-1])
             self.stack.insert(0, self.reopen(self.groups.pop()))
@@ -431,7 +431,7 @@ class _Parser:
             self.fix_part(word)
 
     def fix_part(self, word: Word) -> None:
-        """``:effect`` outside its action: the action ended too early, or something in it did not end."""
+        """Repair ``:effect`` outside its action: the action ended too early, or something in it did not end."""
         opened = self.stack[-1]
         if opened.head == "define":
             hint = "a parenthesis before it is too many"

@@ -73,7 +73,7 @@ class Tables(NamedTuple):
 
 
 def words_of(bits: Bits, words: int) -> Ints:
-    """``bits`` as ``words`` words, lowest first."""
+    """Return ``bits`` as ``words`` words, lowest first."""
     if bits.bit_count() * FEW < words:  # most effects change an atom or two of thousands
         found = [0] * words
         for number in ones(bits):
@@ -84,7 +84,7 @@ def words_of(bits: Bits, words: int) -> Ints:
 
 
 def ones(bits: Bits) -> Ints:
-    """The numbers of the bits that are set, lowest first."""
+    """Return the numbers of the bits that are set, lowest first."""
     if bits.bit_count() > MANY:
         octets = np.frombuffer(bits.to_bytes((bits.bit_length() + 7) // 8, "little"), np.uint8)
         numbers: Ints = np.flatnonzero(np.unpackbits(octets, bitorder="little")).tolist()
@@ -98,12 +98,12 @@ def ones(bits: Bits) -> Ints:
 
 
 def literals(cube: Cube) -> Ints:
-    """The facts that a cube asks for, sorted."""
+    """Return the facts that a cube asks for, sorted."""
     return sorted([2 * i for i in ones(cube.positive)] + [2 * i + 1 for i in ones(cube.negative)])
 
 
 def effect_facts(add: Bits, delete: Bits) -> Ints:
-    """The facts that an effect makes true; add wins over delete."""
+    """Return the facts that an effect makes true; add wins over delete."""
     return literals(Cube(add, delete & ~add))
 
 
@@ -112,7 +112,7 @@ STEP = 1 << 10
 
 
 def search_costs(operators: Sequence[Operator]) -> Ints:
-    """Costs as the search sees them: every step counts, and among plans of least cost those with fewest steps win.
+    """Return the costs of the search: every step counts, and among cheapest plans those with fewest steps win.
 
     Where all operators cost the same, each counts 1.
     """
@@ -142,7 +142,7 @@ class _Relaxation:
         self.free_rows: list[_Row] = []
 
     def clause(self, cube: Cube) -> int:
-        """The fact that says that ``cube`` does not hold."""
+        """Return the fact that says that ``cube`` does not hold."""
         parts = tuple(fact ^ 1 for fact in literals(cube))
         if parts not in self.clauses:
             self.clauses[parts] = self.facts
@@ -160,7 +160,7 @@ class _Relaxation:
 
 
 def _merged(operator: Operator) -> dict[Cube, Ints]:
-    """The facts that an operator makes true under each distinct condition; first those under none.
+    """Return the facts that an operator makes true under each distinct condition; first those under none.
 
     What the precondition says already is left out of the conditions.
     """
@@ -173,12 +173,12 @@ def _merged(operator: Operator) -> dict[Cube, Ints]:
 
 
 def offsets(lengths: Iterable[int]) -> Ints:
-    """Where each of several runs of the given lengths begins, and where the last one ends."""
+    """Return the starts of runs of the given lengths, and the end of the last one."""
     return [0, *accumulate(lengths)]
 
 
 def rows(lists: Iterable[Sequence[int]]) -> tuple[Ints, Ints]:
-    """Offsets and entries of a list of lists."""
+    """Return offsets and entries of a list of lists."""
     start: Ints = [0]
     entries: Ints = []
     for one in lists:
@@ -188,7 +188,7 @@ def rows(lists: Iterable[Sequence[int]]) -> tuple[Ints, Ints]:
 
 
 def build(task: Task) -> Tables:
-    """The tables of ``task``."""
+    """Return the tables of ``task``."""
     operators = task.operators
     count, atoms = len(operators), len(task.atoms)
     words = max(1, -(-atoms // WORD))

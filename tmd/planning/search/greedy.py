@@ -76,7 +76,7 @@ def take(line: Ints, count: Ints) -> tuple[int, int]:
 
 
 def traced(parent: Ints, via: Ints, node: int) -> Ints:
-    """The operators that led to a state."""
+    """Return the operators that led to a state."""
     length, at = 0, node
     while parent[at] >= 0:
         length += 1
@@ -161,7 +161,7 @@ def look(t: Tables, g: Goal, usable: Ints, start: Ints, rule: Round, counter: In
 
 
 def search_any(t: Tables, g: Goal, start: Ints, cap: int) -> tuple[int, int, int, Ints]:
-    """Some plan from ``start``, which must not satisfy the goal, or a better one where it can be found soon after.
+    """Search for any plan from ``start``, which must not satisfy the goal, and for better ones soon after.
 
     ``cap`` limits the search for some plan; for better ones there are as many states again, and :data:`MORE`.
 

@@ -16,23 +16,23 @@ FAR = 1 << 60
 
 
 def zeros(size: int) -> Ints:
-    """An array of zeros (a list here, a numpy array when compiled)."""
+    """Return an array of zeros (a list here, a numpy array when compiled)."""
     return [0] * size
 
 
 def grown(old: Ints, size: int) -> Ints:
-    """``old`` with room for ``size`` entries."""
+    """Return ``old`` with room for ``size`` entries."""
     return old + [0] * (size - len(old))
 
 
 def holds(state: Ints, at: int, fact: int) -> bool:
-    """Whether the literal ``fact`` is true in the state whose words begin at ``at``."""
+    """Return whether the literal ``fact`` is true in the state whose words begin at ``at``."""
     atom = fact >> 1
     return (state[at + atom // WORD] >> (atom % WORD)) & 1 != fact & 1
 
 
 def satisfies(state: Ints, at: int, positive: Ints, negative: Ints, first: int, words: int) -> bool:
-    """Whether a state satisfies the cube whose words begin at ``first``."""
+    """Return whether a state satisfies the cube whose words begin at ``first``."""
     for w in range(words):
         word = state[at + w]
         if word & positive[first + w] != positive[first + w] or word & negative[first + w] != 0:
@@ -41,7 +41,7 @@ def satisfies(state: Ints, at: int, positive: Ints, negative: Ints, first: int, 
 
 
 def reached_goal(state: Ints, at: int, positive: Ints, negative: Ints, cubes: int, words: int) -> bool:
-    """Whether a state satisfies any cube of the goal."""
+    """Return whether a state satisfies any cube of the goal."""
     found = False
     for cube in range(cubes):
         found = found or satisfies(state, at, positive, negative, cube * words, words)
@@ -49,7 +49,7 @@ def reached_goal(state: Ints, at: int, positive: Ints, negative: Ints, cubes: in
 
 
 def applicable(t: Tables, operator: int, state: Ints, at: int) -> bool:
-    """Whether an operator applies: :meth:`tmd.pddl.task.Operator.applicable`."""
+    """Return whether an operator applies: :meth:`tmd.pddl.task.Operator.applicable`."""
     if not satisfies(state, at, t.positive, t.negative, operator * t.words, t.words):
         return False
     for i in range(t.forbidden_start[operator], t.forbidden_start[operator + 1]):
@@ -101,7 +101,7 @@ class Relaxed(NamedTuple):
 
 
 def distances(t: Tables, goal: Ints) -> Ints:
-    """For each fact, the least cost between using it and reaching the goal; ``FAR`` where it is of no use.
+    """Return for each fact the least cost between using it and reaching the goal; ``FAR`` for useless ones.
 
     A fact is of use for an operator's condition, for an effect's condition where the effect makes a useful fact,
     and where it keeps an effect silent that would destroy a useful fact. An operator of a cheapest plan always
@@ -149,7 +149,7 @@ def closer(distance: Ints, queue: Ints, queued: Ints, tail: int, fact: int, near
 
 
 def nearest(t: Tables, operator: int, distance: Ints) -> int:
-    """The least distance of anything an operator can change."""
+    """Return the least distance of anything an operator can change."""
     best = FAR
     for row in range(t.row_start[operator], t.row_start[operator + 1]):
         for j in range(t.make_start[row], t.make_start[row + 1]):
@@ -158,7 +158,7 @@ def nearest(t: Tables, operator: int, distance: Ints) -> int:
 
 
 def change(t: Tables, operator: int, distance: Ints, state: Ints, at: int, child: Ints) -> int:
-    """The least distance of anything an operator did change between two states."""
+    """Return the least distance of anything an operator did change between two states."""
     best = FAR
     for row in range(t.row_start[operator], t.row_start[operator + 1]):
         for j in range(t.make_start[row], t.make_start[row + 1]):
@@ -169,7 +169,7 @@ def change(t: Tables, operator: int, distance: Ints, state: Ints, at: int, child
 
 
 def useful_atoms(t: Tables, distance: Ints) -> Ints:
-    """The atoms that matter for the goal, as words."""
+    """Return the atoms that matter for the goal, as words."""
     mask = zeros(t.words)
     for atom in range(t.atoms):
         if distance[2 * atom] < FAR or distance[2 * atom + 1] < FAR:
@@ -178,7 +178,7 @@ def useful_atoms(t: Tables, distance: Ints) -> Ints:
 
 
 def transposed(start: Ints, entries: Ints, lists: int, size: int) -> tuple[Ints, Ints]:
-    """For each of ``size`` entries the lists that hold it."""
+    """Return for each of ``size`` entries the lists that hold it."""
     begin = zeros(size + 1)
     for i in range(start[lists]):
         begin[entries[i] + 1] += 1
@@ -194,14 +194,14 @@ def transposed(start: Ints, entries: Ints, lists: int, size: int) -> tuple[Ints,
 
 
 def always(t: Tables, row: int) -> int:
-    """The row of what an operator does in any case, for a row of what it does under a condition; else -1."""
+    """Return the row of what an operator does in any case, for a row of what it does under a condition; else -1."""
     first = t.row_start[t.action[row]]
     conditional = t.guard_start[row] < t.guard_start[row + 1]
     return first if conditional and t.guard_start[first] == t.guard_start[first + 1] else -1
 
 
 def relevant(t: Tables, allowed: Ints, goal: Ints, distance: Ints, number: Ints, place: Ints) -> tuple[Ints, Ints]:
-    """The facts and rows of a relaxation, in the order in which they are found backwards from the goal.
+    """Return the facts and rows of a relaxation, in the order in which they are found backwards from the goal.
 
     Writes one more than the position of each row into ``place`` and the new number of each fact into ``number``.
     """
@@ -237,7 +237,7 @@ def relevant(t: Tables, allowed: Ints, goal: Ints, distance: Ints, number: Ints,
 
 
 def products(t: Tables, literal: Ints, order: Ints, place: Ints) -> tuple[Ints, Ints]:
-    """What each row makes: its own facts, and those that its operator makes in any case."""
+    """Return the facts that each row makes: its own, and those that its operator makes in any case."""
     rows = len(order)
     own = zeros(rows)
     for fact in range(2, len(literal)):
@@ -265,7 +265,7 @@ def products(t: Tables, literal: Ints, order: Ints, place: Ints) -> tuple[Ints, 
 
 
 def relaxed(t: Tables, allowed: Ints, goal_start: Ints, goal: Ints, distance: Ints) -> Relaxed:
-    """The relaxation for a goal (a disjunction of fact lists), with the allowed operators only.
+    """Return the relaxation for a goal (a disjunction of fact lists), with the allowed operators only.
 
     Facts whose ``distance`` is below ``FAR`` are included even where no relaxed plan asks for them.
     """
@@ -333,7 +333,7 @@ class Goal(NamedTuple):
 
 
 def prepared(t: Tables, positive: Ints, negative: Ints, fact_start: Ints, fact: Ints) -> Goal:
-    """Everything about a goal that does not depend on the start."""
+    """Compute everything about a goal that does not depend on the start."""
     distance = distances(t, fact)
     near, allowed = zeros(t.operators), zeros(t.operators + 1)
     for operator in range(t.operators):
@@ -364,7 +364,7 @@ class Scratch(NamedTuple):
 
 
 def scratch(t: Tables, r: Relaxed) -> Scratch:
-    """Working memory for ``r``."""
+    """Return working memory for ``r``."""
     f, rows = r.facts, r.rows
     return Scratch(
         zeros(f), zeros(f), zeros(f + 1), zeros(f), zeros(f + 1), zeros(rows), zeros(rows), zeros(rows),
@@ -415,7 +415,7 @@ def settle(r: Relaxed, s: Scratch, head: int, tail: int) -> None:
 
 
 def hmax(t: Tables, r: Relaxed, s: Scratch, state: Ints, at: int) -> int:
-    """The hmax value of the goal (Bonet and Geffner 2001); fills ``value``, ``reach``, ``support`` and ``true``."""
+    """Return hmax of the goal (Bonet and Geffner 2001); fills ``value``, ``reach``, ``support`` and ``true``."""
     for fact in range(r.facts):
         s.value[fact] = FAR
         s.mark[fact] = 0
@@ -440,7 +440,7 @@ def hmax(t: Tables, r: Relaxed, s: Scratch, state: Ints, at: int) -> int:
 
 
 def earliest(t: Tables, r: Relaxed, s: Scratch) -> Ints:
-    """For each operator, the hmax value of the cheapest of its rows; ``FAR`` where it is out of reach."""
+    """Return for each operator hmax of the cheapest of its rows; ``FAR`` where it is out of reach."""
     early = zeros(t.operators + 1)
     for operator in range(t.operators + 1):
         early[operator] = FAR
@@ -522,12 +522,12 @@ def cut_off(r: Relaxed, s: Scratch, target: int) -> int:
 
 
 def choices(r: Relaxed, fact: int) -> int:
-    """In how many ways a fact can be made true."""
+    """Return the number of ways in which a fact can be made true."""
     return r.maker_start[fact + 1] - r.maker_start[fact]
 
 
 def landmark_cut(t: Tables, r: Relaxed, s: Scratch, state: Ints, at: int) -> int:
-    """A lower bound on the cost to the goal; ``in_cut`` then marks the operators of all cuts.
+    """Return a lower bound on the cost to the goal; ``in_cut`` then marks the operators of all cuts.
 
     An application of an operator either has effects under conditions that matter or not, and the rows of each kind
     share one cost, which keeps the bound admissible under conditional effects. The parts of the goal are cut off

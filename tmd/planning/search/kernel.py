@@ -1,8 +1,8 @@
 """The search kernel: depth-first search under rising cost bounds, with landmark cuts as the lower bound.
 
-Every function here and in :mod:`~tmd.planning.search.heuristics`, :mod:`~tmd.planning.search.heuristics` and
-:mod:`~tmd.planning.search.heuristics` is written in the common subset of plain Python over lists and of numba over
-arrays: :mod:`tmd.planning.search.numba_build` compiles the very same code, so both give the same answers step by step.
+Every function here, in :mod:`~tmd.planning.search.heuristics` and in :mod:`~tmd.planning.search.greedy` is written in
+the common subset of plain Python over lists and of numba over arrays: :mod:`tmd.planning.search.numba_build` compiles
+the same code, so both give the same answers step by step.
 
 **What is computed.** The cheapest plan from a state to any cube of the goal; among the cheapest, the plans with the
 fewest steps; and among these the one whose sequence of operator numbers comes first in lexicographic order. With unit
@@ -54,7 +54,7 @@ GENERATED, LIMITED = 0, 1
 
 
 class Table(NamedTuple):
-    """What is known about the states of one bound. ``size`` holds the number of states in its only entry.
+    """The known states of one bound. ``size`` holds their number in its only entry.
 
     ``word`` holds the states, ``bound`` the proven lower bound to the goal, ``first`` its value when it was new.
     ``slot`` is an open hash table of state numbers plus one.
@@ -68,12 +68,12 @@ class Table(NamedTuple):
 
 
 def new_table(words: int, size: int) -> Table:
-    """An empty table with room for ``size`` states."""
+    """Return an empty table with room for ``size`` states."""
     return Table(zeros(1), zeros(words * size), zeros(size), zeros(size), zeros(4 * size))
 
 
 def find(table: Table, words: int, state: Ints) -> int:
-    """The slot of a state, or the empty slot where it belongs."""
+    """Return the slot of a state, or the empty slot where it belongs."""
     mixed = 0
     for w in range(words):
         folded = (mixed ^ state[w]) & ((1 << 40) - 1)
@@ -103,7 +103,7 @@ def insert(table: Table, words: int, at: int, state: Ints) -> int:
 
 
 def enlarged(table: Table, words: int) -> Table:
-    """The same table with four times the room."""
+    """Return the same table with four times the room."""
     old, child = table.size[0], zeros(words)
     wide = new_table(words, 4 * len(table.bound))
     for node in range(old):
@@ -131,12 +131,12 @@ class SearchQuery(NamedTuple):
 
 
 def needed(q: SearchQuery, operator: int) -> int:
-    """Whether an operator is in a cut, with or without effects under conditions."""
+    """Return whether an operator is in a cut, with or without effects under conditions."""
     return q.s.in_cut[operator] | q.s.in_cut[q.t.operators + 1 + operator]
 
 
 def descend(q: SearchQuery, start: Ints, bound: int, cap: int, counter: Ints) -> tuple[int, int, Ints]:
-    """Depth-first search for a plan within ``bound``; the canonical one where none is cheaper than ``bound``.
+    """Search depth-first for a plan within ``bound``; the canonical one where none is cheaper than ``bound``.
 
     ``counter`` counts generated states, and notes whether the bound kept anything from being searched: if not,
     every state is known and there is no plan at all. Returns the status, the next bound (or the length of the
@@ -224,7 +224,7 @@ def descend(q: SearchQuery, start: Ints, bound: int, cap: int, counter: Ints) ->
 
 
 def search(t: Tables, g: Goal, start: Ints, cap: int) -> tuple[int, int, int, Ints]:
-    """The canonical cheapest plan from ``start``, which must not satisfy the goal.
+    """Return the canonical cheapest plan from ``start``, which must not satisfy the goal.
 
     Returns the status, the cost of the plan or the bound at which the search stopped, the number of generated
     states, and the operators of the plan.

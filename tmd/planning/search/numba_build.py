@@ -44,7 +44,7 @@ REPLACED = frozenset({"zeros", "grown"})
 
 @cache
 def compiled() -> Functions:
-    """The kernel, compiled.
+    """Return the kernel, compiled.
 
     Raises:
         ImportError: numba is not installed.
@@ -75,12 +75,12 @@ def compiled() -> Functions:
 
 
 class _Announcement:
-    """Says once that numba compiles the kernel; loading what was compiled before is not an event."""
+    """A message, printed once, that numba compiles the kernel; loading compiled code is not an event."""
 
     said = False
 
     def notify(self, event: Any) -> None:  # noqa: ANN401 - numba has no types
-        """Hear of an event of numba."""
+        """Handle an event of numba."""
         function = event.data["dispatcher"].py_func
         if event.is_start and not self.said and function.__module__.startswith("tmd.planning."):
             self.said = True
@@ -95,13 +95,13 @@ def _announce_compiling() -> None:
 
 
 def digest() -> str:
-    """A name for the present text of the kernel: what is cached of one module has others compiled into it."""
+    """Return a name for the present text of the kernel: what is cached of one module has others compiled into it."""
     text = "".join(Path(module.__file__ or "").read_text(encoding="utf-8") for module in MODULES)
     return sha256(text.encode()).hexdigest()[:12]
 
 
 def jit(function: Callable[..., object]) -> Callable[..., object]:
-    """``function`` compiled, with the result kept on disk where there is a place for it."""
+    """Return ``function`` compiled, with the result kept on disk where there is a place for it."""
     import numba
 
     try:
@@ -112,12 +112,12 @@ def jit(function: Callable[..., object]) -> Callable[..., object]:
 
 
 def arrays(tables: Tables) -> Tables:
-    """``tables`` with numpy arrays in the place of lists."""
+    """Return ``tables`` with numpy arrays in the place of lists."""
     return Tables(*[array(part) if isinstance(part, list) else part for part in tables])  # type: ignore[arg-type]
 
 
 def array(values: Ints) -> Ints:
-    """A list as the compiled kernel's kind of list, a numpy array."""
+    """Return a list as the compiled kernel's kind of list, a numpy array."""
     import numpy as np
 
     return cast(Ints, np.array(values, dtype=np.int64))

@@ -1,0 +1,216 @@
+"""Learning a policy from demonstrations."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from tmd.inference.policy.features import (
+    STOP,
+    Features,
+    Floats,
+    Ints,
+    KnownObjects,
+    Syntax,
+    bag,
+    followers,
+    learn_syntax,
+    properties,
+    said_in,
+)
+from tmd.inference.policy.menu import FACT_PLACES, Menu, Node, Steps, steps
+from tmd.inference.policy.model import Reward, log_probabilities, share_of_word
+from tmd.pddl.model import Instruction
+from tmd.veil.demonstration import Demonstration
+from tmd.veil.library import lessons
+from tmd.veil.world import World
+from tmd.world.verb_clause import VerbClause
+
+# Sequences between two steps of the ascent.
+_BATCH = 8
+_SMALL = 1e-6
+# Weight of the squared weights: of the paper's baseline, and of a grounded policy, chosen as those of its words were.
+_RIDGE = 3.0
+_GROUNDED_RIDGE = 3.0
+# For fewer demonstrations the weight is less, in proportion: what one or two of them show is imitated closely.
+_MANY = 100
+# This share of the training sequences is not longer than those that are searched.
+_COVER = 0.99
+
+
+class Made(NamedTuple):
+    """A sequence of the training data: its steps, and the number of the choice that was made at each."""
+
+    at: Steps
+    choices: Ints
+
+
+def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient: Floats | None = None) -> float:
+    """Return the log-likelihood of the choices made, and add its gradient to ``gradient``."""
+    total = 0.0
+    for at, choices in data:
+        rows = np.arange(len(choices))
+        logs = log_probabilities(features, theta, at)
+        total += float(logs[rows, choices].sum())
+        if gradient is None:
+            continue
+        # observed features less expected ones
+        rest = -np.exp(logs)
+        rest[rows, choices] += 1
+        parts, menu = features.parts(gradient), at.menu
+        having = rest @ menu.properties
+        parts.local[at.said.words] += having.sum(axis=0)
+        if parts.text is not None:
+            parts.text[at.said.text] += share_of_word(at.said) * having.sum(axis=0)
+        for words, row in zip(at.followers, having, strict=True):
+            parts.local[words] += row
+        weights = np.repeat(rest.ravel(), at.pairs.shape[2])
+        parts.paired[:] += np.bincount(at.pairs.ravel(), weights, minlength=len(parts.paired))
+        parts.reals[:] += np.einsum("hc,hcr->r", rest, at.reals)
+        if features.facts:
+            things = len(menu.things.numbers) + 1
+            cells = (menu.places * things + menu.args).ravel()
+            for row, facts in zip(rest, at.facts, strict=True):
+                named = np.bincount(cells, np.repeat(row, menu.args.shape[1]), minlength=len(parts.facts) * things)
+                parts.facts[:] += named.reshape(len(parts.facts), things) @ facts
+    return total
+
+
+def ascend(
+    features: Features,
+    data: Sequence[Made],
+    random: np.random.Generator,
+    *,
+    rounds: int,
+    rate: float,
+    ridge: float,
+    tell: Callable[[float], None] | None = None,
+) -> Floats:
+    """Maximise the log-likelihood less ridge/2 · Σ r θ², with r of :meth:`Features.ridge`.
+
+    By stochastic gradient ascent from zero, with the step sizes of AdaGrad. ``tell`` is called with the share of the
+    work that is done.
+    """
+    each = ridge * features.ridge()
+    theta: Floats = np.zeros(features.size)
+    squares: Floats = np.full(features.size, _SMALL)
+    for done in range(rounds):
+        order = random.permutation(len(data)).tolist()
+        for start in range(0, len(order), _BATCH):
+            if tell is not None:
+                tell((done + start / len(order)) / rounds)
+            part = [data[number] for number in order[start : start + _BATCH]]
+            gradient: Floats = theta * each * (-len(part) / len(data))
+            likelihood(features, theta, part, gradient)
+            squares += gradient**2
+            theta += rate * gradient / np.sqrt(squares)
+    return theta
+
+
+class PolicyLesson(NamedTuple):
+    """A demonstration as a lesson: each clause (or none) with its well-formed instructions."""
+
+    things: KnownObjects
+    clauses: list[tuple[VerbClause | None, tuple[Instruction, ...]]]
+
+
+def learn_policy(
+    demonstrations: Iterable[Demonstration],
+    world_of: Callable[[str], World],
+    random: np.random.Generator,
+    *,
+    grounded: bool = True,
+    certain: float = 0.95,
+    rounds: int = 8,
+    rate: float = 0.2,
+    ridge: float | None = None,
+    tell: Callable[[float], None] | None = None,
+) -> Reward:
+    """Learn the constraints, the features and their weights.
+
+    A clause for which a demonstration has no instructions teaches nothing: most of them come from the alignment,
+    which gives all that was done for a piece of text to one of its clauses.
+
+    Args:
+        demonstrations: The corpus.
+        world_of: The world of an environment, by the environment's name.
+        random: Generator of the order of the training data.
+        grounded: Whether the reward also knows which objects the clause's nouns may mean.
+        certain: Share from which on an earlier action counts as needed (``learn_syntax``).
+        rounds: Number of passes over the training data.
+        rate: Step size of the ascent.
+        ridge: Weight of the squared weights; by default 3, for a grounded policy less where demonstrations are few.
+        tell: Called with the share of the ascent, which takes the longest, that is done.
+    """
+    lessons = study(demonstrations, world_of)
+    sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]
+    syntax = learn_syntax(sequences, certain=certain, cover=_COVER)
+    features = number_features(lessons, syntax, grounded=grounded)
+    menus: dict[KnownObjects, Menu] = {}
+    data = []
+    for lesson in lessons:
+        if lesson.things not in menus:
+            menus[lesson.things] = Menu(features, lesson.things, syntax.menu(lesson.things))
+        data += steps_made(lesson, menus[lesson.things], grounded=grounded)
+    if ridge is None:
+        ridge = _GROUNDED_RIDGE * min(1.0, len(lessons) / _MANY) if grounded else _RIDGE
+    theta = ascend(features, data, random, rounds=rounds, rate=rate, ridge=ridge, tell=tell)
+    choices = max(sum(len(made.choices) for made in data), 1)
+    before, after = (likelihood(features, weights, data) / choices for weights in (np.zeros_like(theta), theta))
+    return Reward(features, theta, before, after)
+
+
+def study(demonstrations: Iterable[Demonstration], world_of: Callable[[str], World]) -> list[PolicyLesson]:
+    """Read the lessons of demonstrations, without instructions that are not well-formed."""
+    known: dict[str, KnownObjects] = {}
+    found = []
+    for demonstration in demonstrations:
+        place = demonstration.environment
+        if place not in known:
+            known[place] = KnownObjects(world_of(place))
+        things = known[place]
+        pairs: list[tuple[VerbClause | None, tuple[Instruction, ...]]] = [
+            (lesson.clause, tuple(i for i in lesson.instructions if things.well_formed(i)))
+            for lesson in lessons(demonstration, world_of(place), world_of(place).mentions.lexicon)
+        ]
+        found.append(PolicyLesson(things, pairs))
+    return found
+
+
+def number_features(lessons: Sequence[PolicyLesson], syntax: Syntax, *, grounded: bool) -> Features:
+    """Number the features that the training data have."""
+    words: set[str] = set()
+    seen: set[tuple[str, ...]] = set()
+    for things, clauses in lessons:
+        before: Instruction | None = None
+        for clause, made in clauses:
+            words.update(bag(clause, grounded=grounded) if clause is not None else ())
+            for position, instruction in enumerate(made):
+                words.update(followers(before, position, things))
+                seen.update(properties(instruction, things))
+                before = instruction
+            words.update(followers(before, len(made), things))
+    atoms = [atom for things in {lesson.things for lesson in lessons} for atom in things.world.task.atoms]
+    facts = {(atom.predicate, place) for atom in atoms for place in range(len(atom.args[:FACT_PLACES]))}
+    return Features(words, seen, syntax, facts if grounded else ())
+
+
+def steps_made(lesson: PolicyLesson, menu: Menu, *, grounded: bool) -> list[Made]:
+    """Return the sequence of each clause as choices from the menu, with the STOP at its end."""
+    found = []
+    done: tuple[Instruction, ...] = ()
+    clauses = [clause for clause, _ in lesson.clauses if clause is not None]
+    number = 0
+    for clause, made in lesson.clauses:
+        if clause is not None and made:
+            nodes = [Node(done, made[:length]) for length in range(len(made) + 1)]
+            at = steps(menu, said_in(clauses, number, menu.features, menu.things, grounded=grounded), nodes)
+            choices: Ints = np.array([menu.index[choice] for choice in (*made, STOP)], np.int64)
+            # the constraints are only almost always kept; what was done was possible
+            at.allowed[np.arange(len(choices)), choices] = True
+            found.append(Made(at, choices))
+        number += clause is not None
+        done += made
+    return found

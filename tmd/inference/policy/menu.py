@@ -1,0 +1,277 @@
+"""The choices of a policy in one environment, and their features at each node of a search."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmd.inference.policy.features import (
+    APPLIES,
+    BEGUN,
+    CHANGES,
+    EFFECTS,
+    JUST_NAMED,
+    LENGTHS,
+    LEVELS,
+    MENTIONED,
+    MET,
+    NAMED,
+    REALS,
+    RECENCIES,
+    REPEATS,
+    STOP,
+    UNKNOWN,
+    WHERE,
+    ClauseContext,
+    Features,
+    Floats,
+    Ints,
+    KnownObjects,
+    followers,
+    properties,
+)
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits
+
+Mask = NDArray[np.bool_]
+
+# An atom is looked at for its first two arguments; a third one is mostly a constant of the domain.
+FACT_PLACES = 2
+# Maximum number of states and of sequences that a menu keeps.
+_REMEMBERED = 5_000
+
+
+class Node(NamedTuple):
+    """A node of the search tree: the instructions chosen for earlier clauses, and for this one."""
+
+    earlier: tuple[Instruction, ...] = ()
+    own: tuple[Instruction, ...] = ()
+
+
+class Seen(NamedTuple):
+    """A state as the features see it.
+
+    Attributes:
+        effects: C, the effect of each choice (:data:`EFFECTS`).
+        facts: (things + 1) × facts, 1 where one holds of a thing.
+    """
+
+    effects: Ints
+    facts: Floats
+
+
+class Menu:
+    """The C instructions to choose from in one environment, STOP last, as arrays.
+
+    Attributes:
+        choices: The instructions.
+        index: Their numbers.
+        things: The objects of the environment; the number after the last one means none.
+        properties: C × properties, 1 where an instruction has one.
+        having: C × maximum, the numbers of each one's properties, padded with the number after the last property.
+        actions: C, the actions.
+        args: C × arity, the things that are named.
+        places: C × arity, the places they are named in.
+        needs: Rows (choice, action, thing): the choice needs that the action named the thing before.
+        words: Things, 1 for each constant of the domain, and for no thing.
+    """
+
+    def __init__(self, features: Features, things: KnownObjects, choices: Sequence[Instruction]) -> None:
+        self.features = features
+        self.things = things
+        self.choices = (*choices, STOP)
+        self.index = {choice: number for number, choice in enumerate(self.choices)}
+        count = len(self.choices)
+        self.properties: Floats = np.zeros((count, len(features.properties)))
+        own: list[list[int]] = []
+        self.actions: Ints = np.array([features.actions[choice.name] for choice in self.choices], np.int64)
+        self.args: Ints = np.full((count, features.arity), len(things.numbers), np.int64)
+        self.places: Ints = np.full((count, features.arity), len(features.places), np.int64)
+        needs = []
+        for row, choice in enumerate(self.choices):
+            having = [features.properties[p] for p in properties(choice, things) if p in features.properties]
+            self.properties[row, having] = 1
+            own.append(having)
+            for place, arg in enumerate(choice.args):
+                key = (choice.name, place)
+                self.args[row, place] = things.numbers[arg]
+                self.places[row, place] = features.places[key]
+                needs += [(row, features.actions[n], things.numbers[arg]) for n in features.syntax.needs.get(key, ())]
+        most = max(map(len, own))
+        self.having: Ints = np.array([[*row, *[len(features.properties)] * (most - len(row))] for row in own], np.int64)
+        self.needs: Ints = np.array(needs, np.int64).reshape(-1, 3)
+        self.words: Mask = np.array([*(things.is_constant(name) for name in things.kinds), True])
+        self._task = things.world.task
+        self._operators = [self._task.by_instruction.get(choice) for choice in self.choices]
+        self._reached: dict[tuple[Instruction, ...], Bits] = {(): self._task.init}
+        self._seen: dict[Bits, Seen] = {}
+        if features.facts:
+            self._prepare_states()
+
+    def _prepare_states(self) -> None:
+        """Store the bits of all operators and facts as rows of words, to compare a state with all at once."""
+        operators = [operator for operator in self._operators if operator is not None]
+        self._possible: Ints = np.flatnonzero([operator is not None for operator in self._operators])
+        self._positive = self._rows(operator.precondition.positive for operator in operators)
+        self._negative = self._rows(operator.precondition.negative for operator in operators)
+        self._adds = self._rows(operator.add for operator in operators)
+        self._deletes = self._rows(operator.delete & ~operator.add for operator in operators)
+        self._special = [i for i, operator in enumerate(operators) if operator.forbidden or operator.conditional]
+        self._special_operators = [operators[i] for i in self._special]
+        masks: Counter[tuple[int, int]] = Counter()
+        for bit, atom in enumerate(self._task.atoms):
+            for place, name in enumerate(atom.args[:FACT_PLACES]):
+                fact = self.features.facts.get((atom.predicate, place))
+                if name in self.things.numbers and fact is not None:
+                    masks[self.things.numbers[name], fact] += 1 << bit
+        self._about = tuple(np.array(list(masks), np.int64).reshape(-1, 2).T)
+        self._masks = self._rows(masks.values())
+
+    def _rows(self, sets: Iterable[Bits]) -> NDArray[np.uint64]:
+        """Return bit sets as rows of words of 64 bits."""
+        length = 8 * (len(self._task.atoms) // 64 + 1)
+        return np.frombuffer(b"".join(s.to_bytes(length, "little") for s in sets), np.uint64).reshape(-1, length // 8)
+
+    def seen_after(self, sequence: tuple[Instruction, ...]) -> Seen:
+        """Return the state after a sequence, as the features see it; an impossible instruction changes nothing."""
+        state = self._state(sequence)
+        known = self._seen.get(state)
+        if known is None:
+            (row,) = self._rows([state])
+            applies = ~((self._positive & ~row) | (self._negative & row)).any(axis=1)
+            changes = ((self._adds & ~row) | (self._deletes & row)).any(axis=1)
+            for i, operator in zip(self._special, self._special_operators, strict=True):
+                applies[i] = applies[i] and operator.applicable(state)
+                changes[i] = applies[i] and operator.apply(state) != state
+            effects: Ints = np.full(len(self.choices), UNKNOWN, np.int64)
+            effects[self._possible] = np.where(applies, np.where(changes, CHANGES, APPLIES), 0)
+            facts: Floats = np.zeros((len(self.things.numbers) + 1, len(self.features.facts)))
+            facts[self._about] = (self._masks & row).any(axis=1)
+            if len(self._seen) == _REMEMBERED:
+                self._seen.clear()
+            known = self._seen[state] = Seen(effects, facts)
+        return known
+
+    def _state(self, sequence: tuple[Instruction, ...]) -> Bits:
+        known = len(sequence)
+        while sequence[:known] not in self._reached:
+            known -= 1
+        state = self._reached[sequence[:known]]
+        if len(self._reached) > _REMEMBERED:
+            self._reached = {(): self._task.init}
+        for length in range(known, len(sequence)):
+            operator = self._task.by_instruction.get(sequence[length])
+            state = operator.apply(state) if operator is not None else state
+            self._reached[sequence[: length + 1]] = state
+        return state
+
+
+@dataclass(frozen=True, slots=True)
+class Steps:
+    """The features of H choices: the steps of one sequence, or the open nodes of a search.
+
+    Attributes:
+        menu: The choices.
+        said: The clause.
+        followers: For each node the numbers of the words for its sequence.
+        pairs: H × C × Q, the numbers of the paired features.
+        facts: H × (things + 1) × facts, 1 where one holds of a thing.
+        reals: H × C × 2, the features that are numbers.
+        allowed: H × C, whether the constraints allow the choice.
+    """
+
+    menu: Menu
+    said: ClauseContext
+    followers: tuple[Ints, ...]
+    pairs: Ints
+    facts: Floats
+    reals: Floats
+    allowed: Mask
+
+
+def steps(menu: Menu, said: ClauseContext, nodes: Sequence[Node]) -> Steps:
+    """Return the features of every choice at each node."""
+    looks = [_look(menu, said, node) for node in nodes]
+    added, pairs, facts, reals, allowed = zip(*looks, strict=True)
+    return Steps(menu, said, tuple(added), np.stack(pairs), np.stack(facts), np.stack(reals), np.stack(allowed))
+
+
+def _look(menu: Menu, said: ClauseContext, node: Node) -> tuple[Ints, Ints, Floats, Floats, Mask]:
+    """Return one node's part of :class:`Steps`."""
+    features, none = menu.features, len(menu.things.numbers)
+    n = len(features.actions)
+    recent: Ints = np.zeros(none + 1, np.int64)
+    last: Ints = np.full(none + 1, n, np.int64)
+    named: Mask = np.zeros((n, none + 1), np.bool_)
+    # an action that training never had says nothing
+    sequence = [instruction for instruction in node.earlier + node.own if instruction.name in features.actions]
+    for instruction in sequence:
+        action, args = features.actions[instruction.name], [menu.things.numbers[arg] for arg in instruction.args]
+        recent[args], last[args], named[action, args] = NAMED, action, True
+    before = sequence[-1] if sequence else None
+    if before is not None:
+        recent[[menu.things.numbers[arg] for arg in before.args]] = JUST_NAMED
+    done: Ints = np.zeros(len(menu.choices), np.int64)
+    done[[menu.index[i] for i in node.own if i in menu.index]] = 1
+
+    follows = features.actions[before.name] if before is not None else n
+    goes_on = (recent[menu.args] == JUST_NAMED).any(axis=1)
+    start, levels = features.starts, said.levels
+    met = _met(menu, levels, node.own)
+    last_column = np.full(len(menu.choices), start[5])
+    last_column[-1] += 1 + met
+    columns = [
+        start[0] + menu.places * LEVELS + levels[menu.args],
+        start[1] + menu.places * RECENCIES + recent[menu.args],
+        start[2] + menu.places * (n + 1) + last[menu.args],
+        start[3] + (follows * n + menu.actions) * 2 + goes_on,
+        start[4] + menu.actions * 2 + done,
+        last_column,
+    ]
+    facts = _NO_FACTS
+    if features.facts:
+        seen = menu.seen_after(node.earlier + node.own)
+        facts = seen.facts
+        times: Ints = np.zeros(len(menu.choices), np.int64)
+        for instruction in sequence:
+            if instruction in menu.index:
+                times[menu.index[instruction]] += 1
+        recent[menu.words] = 0
+        earlier = features.actions[sequence[-2].name] if len(sequence) > 1 else n
+        begun, where = min(len(node.own), BEGUN - 1), said.where
+        end = np.full(len(menu.choices), start[13])
+        end[-1] += 1 + (met * WHERE + where) * LENGTHS + min(len(node.own), LENGTHS - 1)
+        mentioned = levels[menu.args]
+        columns += [
+            start[6] + (menu.places * LEVELS + mentioned) * RECENCIES + recent[menu.args],
+            start[7] + menu.places * 4 + said.later[menu.args] * 2 + (mentioned > 0),
+            start[8] + (earlier * (n + 1) + follows) * n + menu.actions,
+            start[9] + menu.actions * REPEATS + np.minimum(times, 2) * 2 + done,
+            start[10] + (menu.actions * WHERE + where) * BEGUN + begun,
+            start[11] + menu.actions * EFFECTS + seen.effects,
+            start[12] + menu.actions * MET + met,
+            end,
+        ]
+    length, different = len(node.own), len(set(node.own))
+    reals: Floats = np.zeros((len(menu.choices), REALS))
+    reals[:, 0] = (different + 1 - done) / (length + 1)
+    reals[-1] = different / length if length else 1, length / max(features.syntax.longest, 1)
+    choice, action, thing = menu.needs.T
+    allowed: Mask = np.ones(len(menu.choices), np.bool_)
+    allowed[choice[~named[action, thing]]] = False
+    return features.known(followers(before, length, menu.things)), np.column_stack(columns), facts, reals, allowed
+
+
+_NO_FACTS: Floats = np.zeros((0, 0))
+
+
+def _met(menu: Menu, levels: Ints, own: Sequence[Instruction]) -> int:
+    """Return how much of the objects that the clause mentions its sequence has named (:data:`MET`)."""
+    about = set(np.flatnonzero(levels >= MENTIONED).tolist())
+    met = about & {menu.things.numbers[arg] for instruction in own for arg in instruction.args}
+    return 1 + bool(met) + (met == about) if about else 0
