@@ -43,7 +43,8 @@ def ask(
     with socket.socket(socket.AF_UNIX) as connection:
         connection.settimeout(PATIENCE)
         connection.connect(address)
-        request = json.dumps({"arguments": list(arguments), "cwd": cwd, "environ": dict(environ), "before": before}).encode()
+        asked = {"arguments": list(arguments), "cwd": cwd, "environ": dict(environ), "before": before}
+        request = json.dumps(asked).encode()
         socket.send_fds(connection, [len(request).to_bytes(8, "little")], streams)
         connection.sendall(request)
         answer = connection.recv(8)

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from tests import bundled
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.plan_file import parse_instruction
@@ -22,7 +23,6 @@ from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillP
 from tmd.robot.skills.skill_file import load_skills
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
-from tmd.world.folder import find_domain
 
 ROOT = Path(__file__).parents[2]
 
@@ -102,7 +102,7 @@ OBSERVERS: dict[str, Observer] = {}
 
 @pytest.fixture(scope="module")
 def corpus() -> Corpus:
-    return Corpus(find_domain("kitchen", ROOT / "domains"), ROOT / "problems" / "kitchen")
+    return bundled.corpus("kitchen")
 
 
 @pytest.fixture(scope="module")
@@ -165,7 +165,7 @@ def test_a_plan_without_trouble_is_done(corpus: Corpus, demonstrations: list[Dem
 
 def test_plans_of_the_living_room_are_done_as_well() -> None:
     """What its skills.yaml derives (what a held remote control carries, which player has a disc) is what PDDL says."""
-    corpus = Corpus(find_domain("living_room", ROOT / "domains"), ROOT / "problems" / "living_room")
+    corpus = bundled.corpus("living_room")
     demonstrations = [d for d in corpus.demonstrations("movie_night") if d.environment == "room1"]
     for word in ("insert", "remote1_power_button"):
         chosen = next(d for d in demonstrations if any(word in str(i) for i in d.instructions))
