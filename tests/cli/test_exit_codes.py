@@ -165,7 +165,7 @@ CASES = {
     ),
     "file-for-directory": (
         ExitCode.CANNOT_WRITE,
-        ["experiment", "--task", "ramen", "--models", "empty", "--out", PROBLEM],
+        ["experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty", "--out", PROBLEM],
         r"error: .*p01.pddl",
     ),
 }
