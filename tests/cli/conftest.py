@@ -26,7 +26,7 @@ BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"
 
 @dataclass(frozen=True)
 class Ended:
-    """How a command ended."""
+    """Exit code and output of a command."""
 
     code: int
     out: str

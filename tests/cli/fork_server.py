@@ -17,9 +17,9 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-WARM = ("ground", "--environment", "kitchen1", "--text", "Take the cup.")
+WARM = ("ground", "--environment", "corner1", "--text", "Take the cup.")
 HEAVY = ("matplotlib.figure", "matplotlib.backends.backend_svg", "pybullet", "PIL.Image", "tmd.robot_trials.experiment")
-"""What some commands import as well; all else that may be missing is imported by who needs it."""
+"""Modules that some commands import as well, and that take long."""
 PATIENCE = 240
 """Seconds that a command may take."""
 

@@ -1,4 +1,4 @@
-"""What the commands print: the documented JSON, the same bytes every time, nothing half-written."""
+"""Output of the commands: the documented JSON, the same bytes every time, nothing half-written."""
 
 from __future__ import annotations
 

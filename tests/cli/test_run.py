@@ -51,7 +51,7 @@ def lines(path: Path) -> list[dict[str, object]]:
 
 
 def frames(path: Path) -> int:
-    """How many pictures a film has."""
+    """Count the pictures of a film."""
     import imageio.v3 as iio
 
     return sum(1 for _ in iio.imiter(path))
@@ -355,7 +355,8 @@ def test_a_domain_without_a_robot(tmd: Tmd, tmp_path: Path, missing: str) -> Non
 def test_a_killed_run_leaves_a_log_and_an_interrupted_one_a_film(
     tmp_path: Path, plan: Path, how: signal.Signals
 ) -> None:
-    command = [sys.executable, "-m", "tmd", *map(str, KITCHEN), "--plan", str(plan), "--log", "log.jsonl", "--video", "out.mp4"]
+    words = [*KITCHEN, "--plan", plan, "--log", "log.jsonl", "--video", "out.mp4"]
+    command = [sys.executable, "-m", "tmd", *map(str, words)]
     log, film, growing = (tmp_path / name for name in ("log.jsonl", "out.mp4", "out.unfinished.mp4"))
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with subprocess.Popen(

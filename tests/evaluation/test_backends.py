@@ -52,7 +52,7 @@ def outcome(out: Path) -> dict[str, bytes]:
 
 @pytest.fixture(scope="module")
 def serial(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    """What comes out of one process."""
+    """The files that one process writes."""
     out = tmp_path_factory.mktemp("serial") / "out"
     run(config(out))
     return outcome(out)
@@ -90,7 +90,7 @@ def some_part(process: subprocess.Popen[bytes], out: Path) -> None:
 
 
 def said(error: bytes) -> list[str]:
-    """What was told, without the lines of the progress."""
+    """The messages, without the lines of the progress."""
     return [line for line in error.decode().splitlines() if not re.search(r" \d+/\d+ \d+:\d\d", line)]
 
 
@@ -182,7 +182,7 @@ def test_an_interruption_is_one_line_and_loses_nothing(tmp_path: Path, serial: d
 
 
 def blocked(number: int) -> tuple[int, bool]:
-    """Whether this process is deaf to interruptions, and which it is; it waits, so that another has a turn as well."""
+    """Tell the process id and whether interruptions are blocked; wait, so that another process has a turn as well."""
     time.sleep(0.2)
     return os.getpid(), signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 

@@ -1,4 +1,4 @@
-"""Who is tested on what: tasks trained together, folds that never leak, sentences left out."""
+"""Training and test sets: tasks trained together, folds that never leak, sentences left out."""
 
 from __future__ import annotations
 

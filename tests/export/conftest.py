@@ -84,7 +84,7 @@ class Val:
         return self._run("Parser", "domain.pddl", "problem.pddl").strip().splitlines()[-1]
 
     def valid(self, domain: str, problem: str, plan: str) -> bool:
-        """Whether it finds the plan valid."""
+        """Tell whether it finds the plan valid."""
         self._write(domain, problem, plan)
         said = self._run("Validate", "-t", "0.001", "domain.pddl", "problem.pddl", "plan.plan")
         return re.search(r"Plan valid|Successful plans", said) is not None

@@ -14,7 +14,7 @@ from tmd.pddl.writer import format_formula
 
 @pytest.fixture(scope="session", autouse=True)
 def _taught(learned: Path) -> None:
-    """What the larger domains teach is learned once for all tests."""
+    """Learn the larger domains once for all tests."""
 
 
 def said(domain: str, environment: str, text: str) -> Grounded:
@@ -37,7 +37,7 @@ def steps(grounded: Grounded) -> list[str]:
 
 
 def hot(grounded: Grounded) -> set[str]:
-    """What is hot when the first plan is done."""
+    """The things that are hot when the first plan is done."""
     return {fact.strip("()").split()[1] for fact in end(grounded) if fact.startswith("(hot ")}
 
 

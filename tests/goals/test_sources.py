@@ -1,4 +1,4 @@
-"""Where meanings come from when nobody declares them: the names of actions, and demonstrations."""
+"""Sources of meanings that nobody declares: the names of actions, and demonstrations."""
 
 from __future__ import annotations
 

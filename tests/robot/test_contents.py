@@ -1,4 +1,4 @@
-"""What is in things, how they stand, and what is open: measured in a simulation without the robot doing anything."""
+"""Contents, stance and openings of things: measured in a simulation without the robot doing anything."""
 
 from __future__ import annotations
 

@@ -127,7 +127,7 @@ def run(
 
 
 def lose(truth: Truth, instruction: Instruction) -> bool:
-    """What is grasped slips and stays where it was."""
+    """A thing that is grasped slips and stays where it was."""
     return instruction.name == "grasp"
 
 
@@ -164,7 +164,7 @@ def test_a_plan_without_trouble_is_done(corpus: Corpus, demonstrations: list[Dem
 
 
 def test_plans_of_the_living_room_are_done_as_well() -> None:
-    """What its skills.yaml derives (what a held remote control carries, which player has a disc) is what PDDL says."""
+    """Facts that its skills.yaml derives (a remote control that is held, a player with a disc) are those of PDDL."""
     corpus = bundled.corpus("living_room")
     demonstrations = [d for d in corpus.demonstrations("movie_night") if d.environment == "room1"]
     for word in ("insert", "remote1_power_button"):
@@ -218,7 +218,7 @@ def test_what_goes_on_by_itself_is_not_replanned(corpus: Corpus, demonstrations:
 
 
 def test_a_tap_that_the_plan_turned_off_is_off_in_the_end(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
-    """What ends as it began belongs to the plan as well, where the plan moves it."""
+    """A thing that ends as it began belongs to the plan as well, where the plan moves it."""
     chosen = next(d for d in demonstrations if parse_instruction("turn(sink1_handle, off)") in d.instructions[:-1])
     left = [len(chosen.instructions)]
 
@@ -322,7 +322,7 @@ def test_what_is_out_of_reach_where_it_is_is_taken_out_first(
 
 
 def test_a_thing_is_taken_anew_where_the_grip_is_bad(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
-    """How a thing is held is not a fact of PDDL: what cannot be put down somewhere is put elsewhere and taken again."""
+    """The grip is not a fact of PDDL: a thing that cannot be put down somewhere is put elsewhere and taken again."""
 
     def into(instruction: Instruction) -> bool:
         return instruction.name == "keep" and instruction.args[1:] == ("microwave1", "in")
@@ -387,7 +387,7 @@ def test_another_way_to_the_same_facts_is_planned(corpus: Corpus, demonstrations
 
 
 def test_effects_have_marks(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
-    """What a sensor sees is measured, what follows by a rule is inferred, and the rest is PDDL's word."""
+    """Facts that a sensor sees are measured, those that follow by a rule inferred, and the rest is PDDL's word."""
     chosen = next(d for d in demonstrations if d.id == "boiling_water-kitchen1-01")
     done, _, _ = run(corpus, chosen)
     known = {(e.atom.predicate, e.basis.value) for step in done.steps for e in step.effects}

@@ -40,7 +40,7 @@ Pixels = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Run:
-    """What a filmed run left."""
+    """The files and the end of a filmed run."""
 
     film: Path
     strip: Path
@@ -120,7 +120,7 @@ def test_a_film_does_not_change_the_run(run: Run) -> None:
 
 
 def test_the_mug_is_seen_from_the_best_angle() -> None:
-    """What the camera looks at stands in the middle of the picture: repainted, it changes there."""
+    """The thing that the camera looks at stands in the middle of the picture: repainted, it changes there."""
     with stage() as ready:
         from tmd.robot.video.camera import FOV, Camera
 
@@ -271,7 +271,7 @@ class Idle:
 
 
 def told(plan: str, steps: str) -> Told:
-    """What is told of ``steps``: each a letter, with ``!`` failed, with ``?`` not as predicted, with ``+`` a repair."""
+    """Record ``steps``: each a letter, with ``!`` failed, with ``?`` not as predicted, with ``+`` a repair."""
     listener = Told()
     recorder = Recorder(Idle(), [Order(Instruction(name)) for name in plan.split()], [listener])
     nothing: State = frozenset()

@@ -23,7 +23,7 @@ SEEN = [(domain, path.stem) for domain in ("kitchen", "living_room", "02_table",
 def frames(
     domain: str, environment: str, most: int = 2
 ) -> list[list[tuple[Instruction | None, State, Picture, Still]]]:
-    """What some demonstrations go through: the instruction, the state after it, and how that looks."""
+    """Steps of some demonstrations: the instruction, the state after it, and its picture."""
     known = corpus(domain)
     world = known.world(environment)
     still = Still(load_environment(known.file(environment)), known.folder, visible(known.folder))

@@ -1,4 +1,4 @@
-"""What an experiment ends with: one prediction for each environment is carried out, filmed, and shown in the page."""
+"""The last step of an experiment: one prediction for each environment is carried out, filmed, and shown in the page."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ TEXT = "Take the mug and put it on the table."
 
 
 class Options(TypedDict):
-    """What learning is told besides."""
+    """Options of learning."""
 
     factors: tuple[str, ...]
     rounds: int
