@@ -116,7 +116,8 @@ def test_the_same_seed_gives_the_same_trajectory_to_the_byte() -> None:
     record = run(case(*TAKE, physics=True, twice=True))
     assert record.status == "done", record.reason
     assert record.repeated is True
-    one, other = (run(case("find(ramen1)", seed=seed)) for seed in (1, 2))
+    one, other = (run(case("find(ramen1)", twice=True, seed=seed)) for seed in (1, 2))
+    assert one.repeated is True and other.repeated is True
     assert one.trajectory != other.trajectory
 
 
