@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
 
 import pytest
 
-import tmd
+from tests.bundled import kit
 from tests.cli.conftest import run_tmd
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.domain_kit import DomainKit
 from tmd.evaluation.sentence_tests import Outcome, SentenceResult, judge, report, summary
 from tmd.pddl.reading.reader import with_goal
 from tmd.veil.sentence_file import SentenceTest, read_sentences
@@ -31,11 +29,6 @@ FLOORS = {
 EVERY = {"kitchen": 6, "living_room": 6}
 """Of the long files, every so many lines."""
 HAND = '{"id": "%s", "domain": "02_table", "environment": "corner1", "text": "%s", "goal": %s}\n'
-
-
-@cache
-def kit(domain: str) -> DomainKit:
-    return tmd.load_domain(domain, domains=ROOT / "domains", problems=ROOT / "problems")
 
 
 def result(test: SentenceTest) -> SentenceResult:

@@ -26,7 +26,7 @@ BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"
 
 @dataclass(frozen=True)
 class Ended:
-    """How a command ended."""
+    """Exit code and output of a command."""
 
     code: int
     out: str
@@ -74,25 +74,25 @@ def run_tmd(
     stdin: bytes = b"",
     env: Mapping[str, str] | None = None,
     before: str = "",
+    fresh: bool = False,
 ) -> Ended:
     """Run ``tmd`` in ``cwd``; ``before`` is Python that is executed first, to take something away from it.
 
-    With another environment, or something taken away, it is started from nothing.
+    A ``fresh`` one is started from nothing: what is taken away, or what Python itself reads from the environment, has
+    no effect on a process that has begun.
     """
     words = list(map(str, arguments))
-    if not env and not before:
+    if not fresh and not any(name.startswith("PYTHON") for name in env or ()):
         with TemporaryFile() as given, TemporaryFile() as out, TemporaryFile() as err:
             given.write(stdin)
             for stream in (given, out, err):
                 stream.seek(0)
-            code = ask(fork_server(), words, str(cwd), _environ({}), (given.fileno(), out.fileno(), err.fileno()))
+            streams = (given.fileno(), out.fileno(), err.fileno())
+            code = ask(fork_server(), words, str(cwd), _environ(env or {}), streams, before)
             said = [stream.seek(0) or stream.read().decode("utf-8") for stream in (out, err)]
         return Ended(code, *said)
-    start = [sys.executable, "-m", "tmd"]
-    if before:
-        start = [sys.executable, "-c", f"{before}\nfrom tmd.cli import main\nmain()"]
     done = subprocess.run(
-        [*start, *words],
+        [sys.executable, "-c", f"{before}\nfrom tmd.cli import main\nmain()", *words],
         cwd=cwd,
         env=_environ(env or {}),
         input=stdin,

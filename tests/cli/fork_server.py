@@ -17,15 +17,22 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-WARM = ("ground", "--environment", "kitchen1", "--text", "Take the cup.")
+WARM = ("ground", "--environment", "corner1", "--text", "Take the cup.")
+HEAVY = ("matplotlib.figure", "matplotlib.backends.backend_svg", "pybullet", "PIL.Image", "tmd.robot_trials.experiment")
+"""Modules that some commands import as well, and that take long."""
 PATIENCE = 240
 """Seconds that a command may take."""
 
 
 def ask(
-    address: str, arguments: Sequence[str], cwd: str, environ: Mapping[str, str], streams: tuple[int, int, int]
+    address: str,
+    arguments: Sequence[str],
+    cwd: str,
+    environ: Mapping[str, str],
+    streams: tuple[int, int, int],
+    before: str = "",
 ) -> int:
-    """Have a command carried out.
+    """Have a command carried out; ``before`` is Python that is executed first.
 
     Returns:
         Its exit code.
@@ -36,7 +43,8 @@ def ask(
     with socket.socket(socket.AF_UNIX) as connection:
         connection.settimeout(PATIENCE)
         connection.connect(address)
-        request = json.dumps({"arguments": list(arguments), "cwd": cwd, "environ": dict(environ)}).encode()
+        asked = {"arguments": list(arguments), "cwd": cwd, "environ": dict(environ), "before": before}
+        request = json.dumps(asked).encode()
         socket.send_fds(connection, [len(request).to_bytes(8, "little")], streams)
         connection.sendall(request)
         answer = connection.recv(8)
@@ -47,6 +55,7 @@ def serve(address: str) -> None:
     """Answer, until this process is killed."""
     import threading
     from contextlib import redirect_stderr, redirect_stdout, suppress
+    from importlib import import_module
 
     from tmd.cli.program import run
 
@@ -54,6 +63,9 @@ def serve(address: str) -> None:
         server.bind(address)
         with Path(os.devnull).open("w") as nothing, redirect_stdout(nothing), redirect_stderr(nothing):
             run(WARM)
+            for module in HEAVY:
+                with suppress(ImportError):
+                    import_module(module)
         assert threading.active_count() == 1, "a process with threads cannot be forked safely"
         server.listen(64)
         while True:
@@ -86,11 +98,11 @@ def _answer(connection: socket.socket) -> None:
     os.chdir(request["cwd"])
     os.environ.clear()
     os.environ.update(request["environ"])
-    connection.sendall(str(_ended(request["arguments"])).encode())
+    connection.sendall(str(_ended(request["arguments"], request["before"])).encode())
     os._exit(0)
 
 
-def _ended(arguments: Sequence[str]) -> int:
+def _ended(arguments: Sequence[str], before: str) -> int:
     import atexit
     import traceback
     from contextlib import suppress
@@ -99,6 +111,7 @@ def _ended(arguments: Sequence[str]) -> int:
 
     sys.argv = ["tmd", *arguments]
     try:
+        exec(before, {})
         main()
         code = 0
     except SystemExit as ended:

@@ -165,7 +165,7 @@ CASES = {
     ),
     "file-for-directory": (
         ExitCode.CANNOT_WRITE,
-        ["experiment", "--task", "ramen", "--models", "empty", "--out", PROBLEM],
+        ["experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty", "--out", PROBLEM],
         r"error: .*p01.pddl",
     ),
 }
@@ -390,7 +390,7 @@ PACKAGES = {
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_a_package_that_tmd_cannot_do_without(tmd: Tmd, package: str) -> None:
-    ended = tmd(*PACKAGES[package], before=f"import sys; sys.modules['{package}'] = None")
+    ended = tmd(*PACKAGES[package], before=f"import sys; sys.modules['{package}'] = None", fresh=True)
     assert ended.code == ExitCode.MISSING_TOOL
     assert ended.err.splitlines()[-2:] == [
         f"error: the package {package} is missing or damaged",

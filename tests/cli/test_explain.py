@@ -9,17 +9,12 @@ from typing import Any
 
 import pytest
 
+from tests.bundled import corpus
 from tmd.check.explain import explain, explanation_text
 from tmd.diagnostics import TmdError
-from tmd.veil.corpus import Corpus
-from tmd.world.folder import find_domain, find_problems
 
 ROOT = Path(__file__).resolve().parents[2]
 Tmd = Callable[..., Any]
-
-
-def corpus(name: str) -> Corpus:
-    return Corpus(find_domain(name, ROOT / "domains"), find_problems(name, ROOT / "problems"))
 
 
 def line(file: str, number: int) -> str:

@@ -92,7 +92,7 @@ def test_an_unknown_start_gets_one_line(tmd: Tmd) -> None:
     assert "'plane'" in done.err
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(name=st.from_regex(r"[a-z][a-z0-9_]{0,12}", fullmatch=True), start=st.sampled_from(sorted(STARTS)))
 def test_any_name_makes_a_domain_that_teaches_what_its_model_does(
     name: str, start: str, tmp_path_factory: pytest.TempPathFactory

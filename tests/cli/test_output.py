@@ -1,4 +1,4 @@
-"""What the commands print: the documented JSON, the same bytes every time, nothing half-written."""
+"""Output of the commands: the documented JSON, the same bytes every time, nothing half-written."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def test_parse_tells_constraints_and_conditions(tmd: Tmd) -> None:
         ["parse", "--json", "--text", "take the cup, fill it, put it on the stove"],
         ["compile", ROOT / "problems" / "kitchen" / "environments" / "kitchen1.yaml"],
         ["plan", DOMAIN, PROBLEM, "--json"],
-        ["ground", "--environment", "kitchen5", "--text", "take the ramen and fill the pot with water", "--json"],
+        ["ground", "--environment", "pantry1", "--text", "fill the kettle and put the tea bag in the cup", "--json"],
     ],
     ids=lambda arguments: arguments[0],
 )

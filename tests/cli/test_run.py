@@ -1,4 +1,4 @@
-"""``tmd run`` as people use it: short plans without physics in a bundled kitchen, and everything that can go wrong."""
+"""``tmd run`` as people use it: short plans without physics in a small kitchen, and everything that can go wrong."""
 
 from __future__ import annotations
 
@@ -26,7 +26,8 @@ STOP_WHEELS = (
     "def drive(*_): raise SkillError(SkillPhase.PATH, 'the wheels do not turn')\n"
     "go.drive = drive"
 )
-KITCHEN = ("run", "--environment", "kitchen1", "--kinematic")
+CORNER = ROOT / "tests" / "cli" / "corner.yaml"
+KITCHEN = ("run", "--environment", CORNER, "--kinematic")
 PLAN = "(find pot1)\n(moveto pot1)\n"
 
 
@@ -50,7 +51,7 @@ def lines(path: Path) -> list[dict[str, object]]:
 
 
 def frames(path: Path) -> int:
-    """How many pictures a film has."""
+    """Count the pictures of a film."""
     import imageio.v3 as iio
 
     return sum(1 for _ in iio.imiter(path))
@@ -63,7 +64,7 @@ def test_a_plan_is_told_logged_and_drawn(tmd: Tmd, plan: Path, tmp_path: Path) -
     ended = tmd(*KITCHEN, "--plan", plan, "--log", "log.jsonl", "--strip", "strip.png")
     assert (ended.code, ended.err) == (ExitCode.OK, "")
     assert re.fullmatch(
-        r"plan: 2 instructions in kitchen1, without physics\n"
+        r"plan: 2 instructions in corner, without physics\n"
         r"    1\. find\(pot1\) +ok: pot1 is in view, .*; inferred \(found pr2 pot1\)\n"
         r"    2\. moveto\(pot1\) +ok: pot1 is \d\.\d\d m away; measured \(near pr2 pot1\)(; inferred .*)?\n"
         r"done: every effect is as predicted \(\d+ measured, \d+ inferred\); 2 instructions, \d+\.\d s simulated\n",
@@ -119,7 +120,7 @@ def test_a_goal_that_cannot_be_reached_is_not_begun(tmd: Tmd, tmp_path: Path) ->
 def test_the_same_run_gives_the_same_bytes(tmd: Tmd, plan: Path) -> None:
     """Physics included: the robot turns its head to the pot under gravity, from places that the seed moved."""
     plan.write_text("(find pot1)\n")
-    arguments = ("run", "--environment", "kitchen1", "--plan", plan, "--seed", "7", "--json")
+    arguments = ("run", "--environment", CORNER, "--plan", plan, "--seed", "7", "--json")
     ended = tmd(*arguments)
     assert (ended.code, json.loads(ended.out)["mode"]) == (ExitCode.OK, "physics")
     assert tmd(*arguments).out == ended.out
@@ -354,7 +355,8 @@ def test_a_domain_without_a_robot(tmd: Tmd, tmp_path: Path, missing: str) -> Non
 def test_a_killed_run_leaves_a_log_and_an_interrupted_one_a_film(
     tmp_path: Path, plan: Path, how: signal.Signals
 ) -> None:
-    command = [sys.executable, "-m", "tmd", *KITCHEN, "--plan", str(plan), "--log", "log.jsonl", "--video", "out.mp4"]
+    words = [*KITCHEN, "--plan", plan, "--log", "log.jsonl", "--video", "out.mp4"]
+    command = [sys.executable, "-m", "tmd", *map(str, words)]
     log, film, growing = (tmp_path / name for name in ("log.jsonl", "out.mp4", "out.unfinished.mp4"))
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with subprocess.Popen(

@@ -52,7 +52,7 @@ def outcome(out: Path) -> dict[str, bytes]:
 
 @pytest.fixture(scope="module")
 def serial(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
-    """What comes out of one process."""
+    """The files that one process writes."""
     out = tmp_path_factory.mktemp("serial") / "out"
     run(config(out))
     return outcome(out)
@@ -90,7 +90,7 @@ def some_part(process: subprocess.Popen[bytes], out: Path) -> None:
 
 
 def said(error: bytes) -> list[str]:
-    """What was told, without the lines of the progress."""
+    """The messages, without the lines of the progress."""
     return [line for line in error.decode().splitlines() if not re.search(r" \d+/\d+ \d+:\d\d", line)]
 
 
@@ -117,12 +117,11 @@ def test_every_unit_is_in_one_share() -> None:
 
 
 def test_processes_at_once_in_one_directory(tmp_path: Path, serial: dict[str, bytes]) -> None:
-    """Two shards, and the whole of it beside them, which does everything twice."""
+    """A share, and the whole of it beside that, which does the share twice."""
     out = tmp_path / "out"
-    processes = [begin(out, "--jobs", "1", *options) for options in (("--shard", "1/2"), ("--shard", "2/2"), ())]
+    processes = [begin(out, "--jobs", "1", *options) for options in (("--shard", "2/2"), ())]
     told = [process.communicate(timeout=300) for process in processes]
-    assert [process.returncode for process in processes] == [0, 0, 0], told
-    run(config(out))
+    assert [process.returncode for process in processes] == [0, 0], told
     assert outcome(out) == serial
     assert not list(out.rglob(".*")), "drafts were left behind"
 
@@ -183,7 +182,7 @@ def test_an_interruption_is_one_line_and_loses_nothing(tmp_path: Path, serial: d
 
 
 def blocked(number: int) -> tuple[int, bool]:
-    """Whether this process is deaf to interruptions, and which it is; it waits, so that another has a turn as well."""
+    """Tell the process id and whether interruptions are blocked; wait, so that another process has a turn as well."""
     time.sleep(0.2)
     return os.getpid(), signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
@@ -263,10 +262,17 @@ class Cluster:
         for _ in range(count):
             self.workers.append(self.start("worker", "--no-nanny", "--nthreads", "1", *options))
 
-    def stop(self) -> None:
-        for process in (*self.workers, self.scheduler):
+    def dismiss(self) -> None:
+        """End the workers."""
+        for process in self.workers:
             process.kill()
             process.wait()
+        self.workers.clear()
+
+    def stop(self) -> None:
+        self.dismiss()
+        self.scheduler.kill()
+        self.scheduler.wait()
 
 
 @pytest.fixture(autouse=True)
@@ -275,13 +281,19 @@ def same_code(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster, "source_digest", lambda: "tests")
 
 
-@pytest.fixture
-def cluster_(tmp_path: Path) -> Iterator[Cluster]:
-    directory = tmp_path / "cluster"
-    directory.mkdir()
-    started = Cluster(directory)
+@pytest.fixture(scope="module")
+def scheduled(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    """A scheduler for all tests that leave it alive."""
+    started = Cluster(tmp_path_factory.mktemp("cluster"))
     yield started
     started.stop()
+
+
+@pytest.fixture
+def cluster_(scheduled: Cluster) -> Iterator[Cluster]:
+    """The scheduler, with no workers yet."""
+    yield scheduled
+    scheduled.dismiss()
 
 
 def on(cluster: Cluster, out: Path, **changes: object) -> ExperimentConfig:
@@ -291,6 +303,7 @@ def on(cluster: Cluster, out: Path, **changes: object) -> ExperimentConfig:
 @needs_dask
 @needs_signals
 def test_a_worker_that_dies_loses_nothing(tmp_path: Path, cluster_: Cluster, serial: dict[str, bytes]) -> None:
+    """One that is there already takes over, and one that comes late."""
     cluster_.work(2)
     run(on(cluster_, tmp_path / "out"), once(cluster_.workers[0].kill))
     assert cluster_.workers[0].wait() == -signal.SIGKILL
@@ -300,34 +313,30 @@ def test_a_worker_that_dies_loses_nothing(tmp_path: Path, cluster_: Cluster, ser
     run(on(cluster_, tmp_path / "out"))
     assert {p: p.stat().st_mtime_ns for p in (tmp_path / "out" / "parts").iterdir()} == times
 
-
-@needs_dask
-@needs_signals
-def test_a_worker_that_comes_late_takes_over(
-    tmp_path: Path, cluster_: Cluster, serial: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    cluster_.work(1)
-
     def replace_worker() -> None:
-        cluster_.workers[0].kill()
+        cluster_.workers[1].kill()
         cluster_.work(1)
 
-    run(on(cluster_, tmp_path / "out"), once(replace_worker))
-    assert outcome(tmp_path / "out") == serial
+    run(on(cluster_, tmp_path / "late"), once(replace_worker))
+    assert outcome(tmp_path / "late") == serial
 
 
 @needs_dask
 @needs_signals
-def test_a_scheduler_that_dies_is_told(tmp_path: Path, cluster_: Cluster, serial: dict[str, bytes]) -> None:
-    cluster_.work(1)
+def test_a_scheduler_that_dies_is_told(tmp_path: Path, serial: dict[str, bytes]) -> None:
+    own = Cluster(tmp_path)
+    own.work(1)
     out = tmp_path / "out"
-    with begin(out, "--backend", "dask", "--scheduler", cluster_.address) as process:
-        some_part(process, out)
-        cluster_.scheduler.kill()
-        told, error = process.communicate(timeout=120)
+    try:
+        with begin(out, "--backend", "dask", "--scheduler", own.address) as process:
+            some_part(process, out)
+            own.scheduler.kill()
+            told, error = process.communicate(timeout=120)
+    finally:
+        own.stop()
     assert process.returncode == ExitCode.MISSING_TOOL
     lines = said(error)
-    assert lines[0] == f"error: the scheduler at {cluster_.address} is lost"
+    assert lines[0] == f"error: the scheduler at {own.address} is lost"
     assert lines[1].startswith("hint: restart it; what is done is kept")
     assert len(lines) == 2
     assert told == b""

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 import pytest
 
+from tests import bundled
 from tmd.evaluation.models.paper_models import ROWS, Crf
 from tmd.evaluation.models.prediction import Prediction, Served
 from tmd.evaluation.runs.dataset import BundledData, Example
@@ -39,7 +40,7 @@ C = TypeVar("C", bound=Crf)
 
 @pytest.fixture(scope="module")
 def data() -> BundledData:
-    return BundledData("ramen", "kitchen", ROOT / "domains", ROOT / "problems")
+    return bundled.data("ramen")
 
 
 @pytest.fixture(scope="module")

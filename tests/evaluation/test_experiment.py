@@ -30,6 +30,11 @@ def config(out: Path, **changes: object) -> ExperimentConfig:
     return replace(base, **changes)  # type: ignore[arg-type]
 
 
+def bench(out: Path, **changes: object) -> ExperimentConfig:
+    """A run in the laboratory, where less is to be read and ground."""
+    return config(out, task="bench_work", domain="lab_bench", models=("empty", "chance"), **changes)
+
+
 def outcome(out: Path) -> dict[str, bytes]:
     return {name: (out / name).read_bytes() for name in ("config.json", "predictions.jsonl", "metrics.json")}
 
@@ -58,23 +63,21 @@ def test_a_run_writes_what_it_promises(tmp_path: Path) -> None:
 
 def test_processes_and_interruptions_change_no_byte(tmp_path: Path) -> None:
     one, two = tmp_path / "one", tmp_path / "two"
-    quick = ("empty", "chance")
-    run(config(one, models=quick))
-    run(config(two, models=quick, jobs=2))
+    run(bench(one))
+    run(bench(two, jobs=2))
     assert outcome(one) == outcome(two)
     removed = sorted((two / "parts").iterdir())[::3]
     kept = {p: p.stat().st_mtime_ns for p in sorted((two / "parts").iterdir()) if p not in removed}
     for part in removed:
         part.unlink()
     (two / "metrics.json").unlink()
-    run(config(two, models=quick))
+    run(bench(two))
     assert outcome(one) == outcome(two)
     assert all(p.stat().st_mtime_ns == time for p, time in kept.items()), "finished work was done again"
 
 
 def test_a_seed_changes_chance_and_nothing_else(tmp_path: Path) -> None:
-    quick = ("empty", "chance")
-    rows = [run(config(tmp_path / str(seed), models=quick, seed=seed)).models for seed in (0, 1)]
+    rows = [run(bench(tmp_path / str(seed), seed=seed)).models for seed in (0, 1)]
     assert rows[0]["empty"] == rows[1]["empty"]
     assert rows[0]["chance"] != rows[1]["chance"]
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests import bundled
 from tmd.diagnostics import TmdError
 from tmd.evaluation.models.predefined_templates import PredefinedTemplates
 from tmd.evaluation.models.prediction import Prediction
@@ -25,7 +26,7 @@ RANDOM = np.random.default_rng(0)
 
 @pytest.fixture(scope="module")
 def data() -> BundledData:
-    return BundledData("all", "kitchen", ROOT / "domains", ROOT / "problems")
+    return bundled.data("all")
 
 
 @pytest.fixture(scope="module")

@@ -1,4 +1,4 @@
-"""Who is tested on what: tasks trained together, folds that never leak, sentences left out."""
+"""Training and test sets: tasks trained together, folds that never leak, sentences left out."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests import bundled
 from tmd.diagnostics import TmdError
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import BundledData, Dataset, Example, VeilDataset
@@ -24,13 +25,9 @@ ROOT = Path(__file__).parents[2]
 VEIL500 = os.environ.get("VEIL500_DIR")
 
 
-def bundled(task: str) -> BundledData:
-    return BundledData(task, "kitchen", ROOT / "domains", ROOT / "problems")
-
-
 @pytest.fixture(scope="module")
 def data() -> BundledData:
-    return bundled("ramen")
+    return bundled.data("ramen")
 
 
 def folds(of: Dataset, **changes: object) -> list[Fold]:
@@ -69,7 +66,7 @@ def test_the_paper_trains_two_tasks_together(data: BundledData) -> None:
 
 
 def test_all_tasks_are_tested_in_two_groups(data: BundledData) -> None:
-    everything = bundled("all")
+    everything = bundled.data("all")
     found = folds(everything, task="all")
     check(found, everything)
     assert len(found) == 20
@@ -126,7 +123,7 @@ def test_a_task_in_no_group_is_trained_with_all(tmp_path: Path) -> None:
     grouped = BundledData("all", "kitchen", ROOT / "domains", tmp_path)
     assert grouped.trained_with("ramen") == {"affogato", "ramen"}
     assert grouped.trained_with("coffee") == {"affogato", "coffee", "ramen"}
-    assert grouped.fingerprint() != BundledData("all", "kitchen", ROOT / "domains", ROOT / "problems").fingerprint()
+    assert grouped.fingerprint() != bundled.data("all").fingerprint()
 
 
 @pytest.mark.parametrize(

@@ -11,15 +11,14 @@ from pathlib import Path
 
 import pytest
 
+from tests.bundled import corpus
 from tests.pddl.conftest import RandomProblems
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import read_plan
 from tmd.pddl.reading.reader import read_domain, read_problem
-from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import read_demonstrations
-from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[2]
 CASES = ROOT / "tests" / "pddl" / "cases"
@@ -38,8 +37,7 @@ def planned_case(name: str) -> Planned:
         problem = read_problem(folder / "p01.pddl", read_domain(folder / "domain.pddl"))
         return planned(problem, read_plan(plan).instructions)
     shown = read_demonstrations(ROOT / "problems" / domain / task / "demonstrations.jsonl")[0]
-    corpus = Corpus(DomainFolder(ROOT / "domains" / domain), ROOT / "problems" / domain)
-    problem = corpus.world(shown.environment).task.problem
+    problem = corpus(domain).world(shown.environment).task.problem
     return planned(with_outcome(problem, shown.instructions), shown.instructions)
 
 
@@ -86,7 +84,7 @@ class Val:
         return self._run("Parser", "domain.pddl", "problem.pddl").strip().splitlines()[-1]
 
     def valid(self, domain: str, problem: str, plan: str) -> bool:
-        """Whether it finds the plan valid."""
+        """Tell whether it finds the plan valid."""
         self._write(domain, problem, plan)
         said = self._run("Validate", "-t", "0.001", "domain.pddl", "problem.pddl", "plan.plan")
         return re.search(r"Plan valid|Successful plans", said) is not None

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 import tmd
+from tests.bundled import kit
 from tmd.diagnostics import TmdError
 from tmd.export.trajectory import SUFFIXES
 from tmd.records.trajectory import SampleLine, SceneLine
@@ -23,7 +24,7 @@ PLAN = [tmd.Instruction("find", ("pot1",)), tmd.Instruction("moveto", ("pot1",))
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
     """One run in all forms: the same plan, so the same motion."""
     folder = tmp_path_factory.mktemp("trajectory")
-    kitchen = tmd.load_domain("kitchen", domains=ROOT / "domains", problems=ROOT / "problems")
+    kitchen = kit("kitchen")
     files = {suffix: folder / f"run{suffix}" for suffix in SUFFIXES}
     for file in files.values():
         run = kitchen.run_plan(PLAN, "kitchen1", kinematic=True, trajectory=file, rate=5)
@@ -74,7 +75,7 @@ def test_mcap_is_read_back_as_ros_2_messages(recorded: dict[str, Path]) -> None:
 
 
 def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
-    kitchen = tmd.load_domain("kitchen", domains=ROOT / "domains", problems=ROOT / "problems")
+    kitchen = kit("kitchen")
     with pytest.raises(TmdError, match=r"ends in one of \.jsonl, \.mcap"):
         kitchen.run_plan(PLAN, "kitchen1", trajectory=tmp_path / "run.bag")
     assert json.dumps(sorted(path.name for path in tmp_path.iterdir())) == "[]"

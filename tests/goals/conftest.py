@@ -2,35 +2,19 @@
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 
 import pytest
 
-import tmd
-from tmd.domain_kit import DomainKit
+from tests.bundled import kit
 from tmd.grounded import Grounded
 from tmd.pddl.model import Formula
 from tmd.pddl.writer import format_formula
-from tmd.veil.corpus import Corpus
-from tmd.world.folder import DomainFolder
-
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _taught(learned: Path) -> None:
-    """What the larger domains teach is learned once for all tests."""
-
-
-@cache
-def corpus(domain: str) -> Corpus:
-    return Corpus(DomainFolder(ROOT / "domains" / domain), ROOT / "problems" / domain)
-
-
-@cache
-def kit(domain: str) -> DomainKit:
-    return tmd.load_domain(domain, domains=ROOT / "domains", problems=ROOT / "problems")
+    """Learn the larger domains once for all tests."""
 
 
 def said(domain: str, environment: str, text: str) -> Grounded:
@@ -53,7 +37,7 @@ def steps(grounded: Grounded) -> list[str]:
 
 
 def hot(grounded: Grounded) -> set[str]:
-    """What is hot when the first plan is done."""
+    """The things that are hot when the first plan is done."""
     return {fact.strip("()").split()[1] for fact in end(grounded) if fact.startswith("(hot ")}
 
 

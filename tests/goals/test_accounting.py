@@ -6,7 +6,8 @@ import re
 
 import pytest
 
-from tests.goals.conftest import goals, kit, said, steps
+from tests.bundled import kit
+from tests.goals.conftest import goals, said, steps
 from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, SUBSTANCES, THINGS
 from tmd.goals.reasons import nearest_verbs
 from tmd.goals.words import family

@@ -1,10 +1,11 @@
-"""Where meanings come from when nobody declares them: the names of actions, and demonstrations."""
+"""Sources of meanings that nobody declares: the names of actions, and demonstrations."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from tests.goals.conftest import corpus, pddl
+from tests.bundled import corpus
+from tests.goals.conftest import pddl
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Memory

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.goals.conftest import corpus, pddl
+from tests.bundled import corpus
+from tests.goals.conftest import pddl
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.demonstrations import table_from_json, table_to_json
 from tmd.goals.sources.table import GoalTable, PutBack, Slot, read_row, read_table, slot_types

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.bundled import corpus
 from tmd.diagnostics import RefusalKind
 from tmd.ground import ground
 from tmd.inference.config import PAPER
@@ -15,8 +16,6 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.semantics import holds
-from tmd.veil.corpus import Corpus
-from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[2]
 LADDER = ["01_blocks", "02_table", "03_drawer", "04_tea", "lab_bench"]
@@ -38,11 +37,6 @@ SAID = [
     ),
     ("lab_bench", "lab1", "Add ethanol to the beaker with the pipette.", "(contains beaker1 ethanol)"),
 ]
-
-
-@cache
-def corpus(domain: str) -> Corpus:
-    return Corpus(DomainFolder(ROOT / "domains" / domain), ROOT / "problems" / domain)
 
 
 @cache

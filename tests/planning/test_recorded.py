@@ -53,8 +53,8 @@ def test_hardly_any_search_ends_at_its_cap(queries_of: Queries) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_cost_and_solvability_are_those_of_fast_downward(name: str, queries_of: Queries) -> None:
-    """Replaying under the lifted domain, without the ground task, is slow: one query in eleven."""
-    queries = queries_of(name)
+    """Of one query in three; one in nine is replayed under the lifted domain as well, which is slow."""
+    queries = queries_of(name)[NAMES.index(name) % 3 :: 3]
     filler = GapFiller(queries[0].task, cap=5_000)
     for number, query in enumerate(queries):
         answer = filler.fill(query.state, (query.goal,))
@@ -71,7 +71,7 @@ def test_cost_and_solvability_are_those_of_fast_downward(name: str, queries_of: 
                 state = operator.apply(state)
             assert state == answer.state
             assert query.goal.holds(state)
-            if number % 11 == 0:
+            if number % 3 == 0:
                 _replayed(query, answer)
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.bundled import corpus
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import parse_problem, read_domain, read_problem
@@ -13,7 +14,7 @@ from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_problem
 from tmd.planning.backends import solve
 from tmd.planning.result import Solved
-from tmd.veil.corpus import Corpus, replay
+from tmd.veil.corpus import replay
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
@@ -66,9 +67,9 @@ def test_a_problem_is_solved_and_its_plan_works(path: Path) -> None:
 
 @pytest.mark.parametrize("directory", CORPORA, ids=lambda p: p.name)
 def test_every_fact_that_a_demonstration_brings_about_is_reachable_in_the_ground_task(directory: Path) -> None:
-    corpus = Corpus(DomainFolder(ROOT / "domains" / directory.name), directory)
-    for number, demonstration in enumerate(corpus.demonstrations()):
-        world = corpus.world(demonstration.environment)
+    own = corpus(directory.name)
+    for number, demonstration in enumerate(own.demonstrations()):
+        world = own.world(demonstration.environment)
         assert all(i in world.task.by_instruction for i in demonstration.instructions), demonstration.id
         for state in replay(demonstration, world.task.problem) if number % 4 == 0 else ():
             assert world.task.decode(world.task.encode(state)) == state, demonstration.id

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-import tmd
+from tests.bundled import kit
 from tests.readers.fake_server import Answer, Decide, FakeServer, serve
-from tmd.domain_kit import DomainKit
 from tmd.grounded import Grounded
 from tmd.pddl.writer import format_formula
 from tmd.readers.llm.client import KEY, MODEL, URL, ModelSettings
@@ -20,11 +18,6 @@ from tmd.readers.llm.client import KEY, MODEL, URL, ModelSettings
 ROOT = Path(__file__).resolve().parents[2]
 Start = Callable[[Decide], FakeServer]
 Ask = Callable[..., Grounded]
-
-
-@cache
-def kit(domain: str) -> DomainKit:
-    return tmd.load_domain(domain, domains=ROOT / "domains", problems=ROOT / "problems")
 
 
 @pytest.fixture(autouse=True)

@@ -1,4 +1,4 @@
-"""What is in things, how they stand, and what is open: measured in a simulation without the robot doing anything."""
+"""Contents, stance and openings of things: measured in a simulation without the robot doing anything."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import pytest
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
+from tests.bundled import corpus
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.articulated import swing
@@ -17,19 +18,17 @@ from tmd.robot.skills.pick_and_place import pick_options, place, place_options
 from tmd.robot.skills.results import SkillError
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import candidates, with_room
-from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
-from tmd.world.folder import find_domain
 
 ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture(scope="module")
 def cell() -> Iterator[Cell]:
-    corpus = Corpus(find_domain("kitchen", ROOT / "domains"), ROOT / "problems" / "kitchen")
-    environment = load_environment(corpus.directory / "environments" / "kitchen1.yaml")
-    problem = corpus.world("kitchen1").task.problem
-    with SimulationSession(environment, corpus.folder, problem, kinematic=True) as session:
+    kitchen = corpus("kitchen")
+    environment = load_environment(kitchen.file("kitchen1"))
+    problem = kitchen.world("kitchen1").task.problem
+    with SimulationSession(environment, kitchen.folder, problem, kinematic=True) as session:
         yield session.cell
 
 

@@ -12,6 +12,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from tests import bundled
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.plan_file import parse_instruction
@@ -23,7 +24,6 @@ from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillP
 from tmd.robot.skills.skill_file import load_skills
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
-from tmd.world.folder import find_domain
 
 ROOT = Path(__file__).parents[2]
 
@@ -103,7 +103,7 @@ OBSERVERS: dict[str, Observer] = {}
 
 @pytest.fixture(scope="module")
 def corpus() -> Corpus:
-    return Corpus(find_domain("kitchen", ROOT / "domains"), ROOT / "problems" / "kitchen")
+    return bundled.corpus("kitchen")
 
 
 @pytest.fixture(scope="module")
@@ -129,7 +129,7 @@ def run(
 
 
 def lose(truth: Truth, instruction: Instruction) -> bool:
-    """What is grasped slips and stays where it was."""
+    """A thing that is grasped slips and stays where it was."""
     return instruction.name == "grasp"
 
 
@@ -166,8 +166,8 @@ def test_a_plan_without_trouble_is_done(corpus: Corpus, demonstrations: list[Dem
 
 
 def test_plans_of_the_living_room_are_done_as_well() -> None:
-    """What its skills.yaml derives (what a held remote control carries, which player has a disc) is what PDDL says."""
-    corpus = Corpus(find_domain("living_room", ROOT / "domains"), ROOT / "problems" / "living_room")
+    """Facts that its skills.yaml derives (a remote control that is held, a player with a disc) are those of PDDL."""
+    corpus = bundled.corpus("living_room")
     demonstrations = [d for d in corpus.demonstrations("movie_night") if d.environment == "room1"]
     for word in ("insert", "remote1_power_button"):
         chosen = next(d for d in demonstrations if any(word in str(i) for i in d.instructions))
@@ -220,7 +220,7 @@ def test_what_goes_on_by_itself_is_not_replanned(corpus: Corpus, demonstrations:
 
 
 def test_a_tap_that_the_plan_turned_off_is_off_in_the_end(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
-    """What ends as it began belongs to the plan as well, where the plan moves it."""
+    """A thing that ends as it began belongs to the plan as well, where the plan moves it."""
     chosen = next(d for d in demonstrations if parse_instruction("turn(sink1_handle, off)") in d.instructions[:-1])
     left = [len(chosen.instructions)]
 
@@ -324,7 +324,7 @@ def test_what_is_out_of_reach_where_it_is_is_taken_out_first(
 
 
 def test_a_thing_is_taken_anew_where_the_grip_is_bad(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
-    """How a thing is held is not a fact of PDDL: what cannot be put down somewhere is put elsewhere and taken again."""
+    """The grip is not a fact of PDDL: a thing that cannot be put down somewhere is put elsewhere and taken again."""
 
     def into(instruction: Instruction) -> bool:
         return instruction.name == "keep" and instruction.args[1:] == ("microwave1", "in")
@@ -389,7 +389,7 @@ def test_another_way_to_the_same_facts_is_planned(corpus: Corpus, demonstrations
 
 
 def test_effects_have_marks(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
-    """What a sensor sees is measured, what follows by a rule is inferred, and the rest is PDDL's word."""
+    """Facts that a sensor sees are measured, those that follow by a rule inferred, and the rest is PDDL's word."""
     chosen = next(d for d in demonstrations if d.id == "boiling_water-kitchen1-01")
     done, _, _ = run(corpus, chosen)
     known = {(e.atom.predicate, e.basis.value) for step in done.steps for e in step.effects}

@@ -17,7 +17,7 @@ pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("PIL", reason="needs the extra robot")
 pytest.importorskip("imageio_ffmpeg", reason="needs the extra robot")
 
-from tests.cli.conftest import ROOT
+from tests.bundled import corpus
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
@@ -28,9 +28,7 @@ from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 from tmd.robot.video.captions import Caption, caption_height, filmstrip, under
 from tmd.robot.video.film import Film, open_movie
 from tmd.robot.video.movie_file import MovieFile
-from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
-from tmd.world.folder import find_domain
 
 if TYPE_CHECKING:
     from tmd.pddl.model import State
@@ -42,7 +40,7 @@ Pixels = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Run:
-    """What a filmed run left."""
+    """The files and the end of a filmed run."""
 
     film: Path
     strip: Path
@@ -59,11 +57,10 @@ def frames(path: Path) -> list[Pixels]:
 
 
 def stage(*, pictures: bool = True) -> SimulationSession:
-    folder = find_domain("kitchen", ROOT / "domains")
-    corpus = Corpus(folder, ROOT / "problems" / "kitchen")
-    environment = load_environment(corpus.directory / "environments" / "kitchen1.yaml")
-    problem = corpus.world("kitchen1").task.problem
-    return SimulationSession(environment, folder, problem, kinematic=True, pictures=pictures)
+    kitchen = corpus("kitchen")
+    environment = load_environment(kitchen.file("kitchen1"))
+    problem = kitchen.world("kitchen1").task.problem
+    return SimulationSession(environment, kitchen.folder, problem, kinematic=True, pictures=pictures)
 
 
 def orders() -> list[Order]:
@@ -123,7 +120,7 @@ def test_a_film_does_not_change_the_run(run: Run) -> None:
 
 
 def test_the_mug_is_seen_from_the_best_angle() -> None:
-    """What the camera looks at stands in the middle of the picture: repainted, it changes there."""
+    """The thing that the camera looks at stands in the middle of the picture: repainted, it changes there."""
     with stage() as ready:
         from tmd.robot.video.camera import FOV, Camera
 
@@ -265,7 +262,7 @@ def _name(title: Title) -> str:
 
 
 def told(plan: str, steps: str) -> Told:
-    """What is told of ``steps``: each a letter, with ``!`` failed, with ``?`` not as predicted, with ``+`` a repair."""
+    """Record ``steps``: each a letter, with ``!`` failed, with ``?`` not as predicted, with ``+`` a repair."""
     listener = Told()
     recorder = Recorder([Order(Instruction(name)) for name in plan.split()], [listener])
     nothing: State = frozenset()

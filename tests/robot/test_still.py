@@ -7,29 +7,24 @@ from pathlib import Path
 
 import pytest
 
+from tests.bundled import corpus
 from tmd.pddl.model import Instruction, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.robot.assets.urdf_builder import UrdfLink
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.skill_file import visible
 from tmd.robot.video.symbolic_renderer import INVISIBLE, Picture, Still
-from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
-from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]
 SEEN = [(domain, path.stem) for domain in ("kitchen", "living_room", "02_table", "03_drawer", "04_tea", "lab_bench")
         for path in sorted((ROOT / "problems" / domain / "environments").glob("*.yaml"))]  # fmt: skip
 
 
-def corpus(domain: str) -> Corpus:
-    return Corpus(DomainFolder(ROOT / "domains" / domain), ROOT / "problems" / domain)
-
-
 def frames(
     domain: str, environment: str, most: int = 2
 ) -> list[list[tuple[Instruction | None, State, Picture, Still]]]:
-    """What some demonstrations go through: the instruction, the state after it, and how that looks."""
+    """Steps of some demonstrations: the instruction, the state after it, and its picture."""
     known = corpus(domain)
     world = known.world(environment)
     still = Still(load_environment(known.file(environment)), known.folder, visible(known.folder))

@@ -11,6 +11,7 @@ import pytest
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
+from tests.bundled import corpus
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
@@ -18,16 +19,15 @@ from tmd.robot.skills.articulated import swing_options
 from tmd.robot.skills.pour_and_dip import dip_options
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import with_room
-from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
-from tmd.world.folder import find_domain, find_root
 
 
 @pytest.fixture(scope="module")
 def cell() -> Iterator[Cell]:
-    corpus = Corpus(find_domain("kitchen"), find_root("problems") / "kitchen")
-    environment = load_environment(corpus.directory / "environments" / "kitchen3.yaml")
-    with SimulationSession(environment, corpus.folder, corpus.world("kitchen3").task.problem, kinematic=True) as stage:
+    kitchen = corpus("kitchen")
+    environment = load_environment(kitchen.file("kitchen3"))
+    problem = kitchen.world("kitchen3").task.problem
+    with SimulationSession(environment, kitchen.folder, problem, kinematic=True) as stage:
         yield stage.cell
 
 

@@ -1,4 +1,4 @@
-"""What an experiment ends with: one prediction for each environment is carried out, filmed, and shown in the page."""
+"""The last step of an experiment: one prediction for each environment is carried out, filmed, and shown in the page."""
 
 from __future__ import annotations
 
@@ -208,7 +208,7 @@ def test_orders_say_which_words_they_are_for() -> None:
 
 def test_the_command_without_a_simulator(tmp_path: Path) -> None:
     """It ends well, and says why nothing was carried out."""
-    options = ("experiment", "--task", "ramen", "--models", "empty,chance", "--test-environments", "1", "--out", "run")
+    options = ("experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty,chance", "--out", "run")
     hide = "import sys; sys.modules['pybullet'] = None"
     ended = run_tmd((*options, "--jobs", "1", "--robot", "kinematic"), tmp_path, before=hide)
     assert ended.code == ExitCode.OK, ended.err

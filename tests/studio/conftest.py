@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.bundled import corpus
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 from tmd.world.folder import DomainFolder
@@ -12,13 +13,9 @@ from tmd.world.folder import DomainFolder
 ROOT = Path(__file__).parents[2]
 
 
-def bundled(name: str) -> Corpus:
-    return Corpus(DomainFolder(ROOT / "domains" / name), ROOT / "problems" / name)
-
-
 @pytest.fixture(scope="session")
 def kitchen() -> Corpus:
-    return bundled("kitchen")
+    return corpus("kitchen")
 
 
 @pytest.fixture(scope="session")

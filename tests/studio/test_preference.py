@@ -10,6 +10,7 @@ from typing import TypedDict, Unpack
 import numpy as np
 import pytest
 
+from tests import bundled
 from tmd.evaluation.models import paper_models
 from tmd.evaluation.models.paper_models import Crf, loss
 from tmd.evaluation.runs.dataset import BundledData, Example
@@ -24,7 +25,7 @@ TEXT = "Take the mug and put it on the table."
 
 
 class Options(TypedDict):
-    """What learning is told besides."""
+    """Options of learning."""
 
     factors: tuple[str, ...]
     rounds: int
@@ -33,7 +34,7 @@ class Options(TypedDict):
 
 @pytest.fixture(scope="module")
 def data() -> BundledData:
-    return BundledData("ramen", "kitchen", ROOT / "domains", ROOT / "problems")
+    return bundled.data("ramen")
 
 
 def correction(name: str, done: Sequence[Instruction], proposed: Sequence[Instruction] | None) -> Example:

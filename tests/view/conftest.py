@@ -2,25 +2,17 @@
 
 from __future__ import annotations
 
-from functools import cache
 from pathlib import Path
 
 import pytest
 
+from tests.bundled import corpus
 from tmd.ground import ground
 from tmd.grounded import Grounded
 from tmd.knowledge import known
-from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
-from tmd.world.folder import DomainFolder
 
-ROOT = Path(__file__).resolve().parents[2]
 TEXT = "Fill the cup with water and heat it in the microwave."
-
-
-@cache
-def corpus(domain: str) -> Corpus:
-    return Corpus(DomainFolder(ROOT / "domains" / domain), ROOT / "problems" / domain)
 
 
 @pytest.fixture(scope="session")
