@@ -19,7 +19,7 @@ from tmd.readers.llm.checking import ModelReading, ReplyChecker
 from tmd.readers.llm.client import ModelSettings
 from tmd.readers.llm.prompt import SentenceExample, one_line, prompt_for
 from tmd.readers.llm.reader import MOST_CORRECTIONS, LLMDialogue
-from tmd.readers.llm.reply import read_reply
+from tmd.readers.llm.reply import Reply, parse_reply
 from tmd.veil.sentence_file import SentenceTest, read_sentences
 
 TABLE = "02_table/corner1"
@@ -387,7 +387,7 @@ REPLIES = st.one_of(
 def test_a_reply_is_read_or_its_fault_is_named(text: str) -> None:
     checker = ReplyChecker(TEXT, kit("02_table")._corpus.world("corner1"))
     try:
-        found = checker.read(read_reply(text))
+        found = checker.read(parse_reply(Reply, text))
     except TmdError as error:
         assert error.message
         return

@@ -29,7 +29,6 @@ from tmd.language.clause import Clause, Parsed
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.result import Planner
 from tmd.readers.interface import Dialogue
-from tmd.readers.rules import ClauseDialogue
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn, run, whole
 from tmd.veil.world import World
@@ -274,9 +273,9 @@ class Crf:
             config = replace(config, guess=True)
         if config.language:
             reader = reader_of(config, taught.library, taught.goals)
-            dialogue: Dialogue = reader.begin(example.demonstration.text, world, world.task.init)
+            dialogue = reader.begin(example.demonstration.text, world, world.task.init)
         else:
-            dialogue = ClauseDialogue(Parsed("", self._clauses(example, data)))
+            dialogue = Dialogue(Parsed("", self._clauses(example, data)))
         restoration = restoration_of(taught.goals, config)
         return infer(
             dialogue, world, taught.library, energy, planners, config, policy=policy, restoration=restoration, top=top
