@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.grounding import learned_option
+from tmd.cli.inputs.options import learned_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots

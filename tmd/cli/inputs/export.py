@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from tmd.cli.inputs.reading import ReadingOptions
+from tmd.cli.inputs.options import ReadingOptions
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.pddl.model import TRUE, Instruction, Problem

@@ -8,6 +8,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Literal, Self
 
+from tmd.cli.inputs.plan import Orders
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import OutputError
 from tmd.json_record import JsonRecord
@@ -117,6 +118,13 @@ class Telling:
     def _log(self, entry: JsonRecord) -> None:
         if self._journal is not None:
             self._journal.write(entry)
+
+
+def without_plan(asked: RunRequest, orders: Orders) -> dict[str, object]:
+    """Return the record of a run that has no plan."""
+    ended = {"status": orders.status, "reason": orders.remarks[-1].strip()}
+    nothing = {"steps": (), "repairs": 0, "seconds": 0.0}
+    return RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value()
 
 
 def _found(step: ExecutedStep) -> str:
