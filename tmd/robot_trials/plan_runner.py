@@ -90,7 +90,7 @@ class PlanRunner:
             check_writable(output)
         if trajectory is not None and trajectory.suffix not in SUFFIXES:
             raise TmdError(f"{trajectory}: a trajectory ends in one of {', '.join(SUFFIXES)}")
-        self._place = room, folder, problem
+        self._room, self._folder, self._problem = room, folder, problem
         self._files = video, strip, trajectory
         self._size, self._rate = size, rate or DEFAULT_RATE
         self._settings: dict[str, Any] = {"kinematic": kinematic, "seed": seed, "planner": planner}
@@ -117,7 +117,7 @@ class PlanRunner:
 
     def request(self, orders: Sequence[Order], text: str | None, **more: Any) -> RunRequest:  # noqa: ANN401 - fields
         """Return the beginning of the record of a run of ``orders``; ``more`` are its other fields."""
-        room, folder, _ = self._place
+        room, folder = self._room, self._folder
         strip = self._files[1]
         return RunRequest(
             text=text,
@@ -146,7 +146,9 @@ class PlanRunner:
         """
         strip, movie = self._files[1], self._movie
         return run_plan(
-            *self._place,
+            self._room,
+            self._folder,
+            self._problem,
             orders,
             prepare=lambda session: (*prepare(session), *recorders(session, self._recording, self._rate)),
             filming=Filming(heading, text, movie, strip, self._size or TILE) if movie or strip else None,
