@@ -28,31 +28,10 @@ from typing import TypeAlias
 
 from rapidfuzz.distance import Levenshtein
 
-from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
-from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, universe
+from tmd.pddl.forced_execution import ForcedExecution
+from tmd.pddl.model import Formula, Instruction, Problem, universe
 from tmd.pddl.semantics import holds
 from tmd.pddl.task import Bits, Task
-
-__all__ = [
-    "EPSILON",
-    "ROBOT",
-    "ForcedExecution",
-    "Mentions",
-    "Rollout",
-    "Scorer",
-    "Scores",
-    "arguments",
-    "changes",
-    "cover_of",
-    "eed",
-    "eed_trim",
-    "end",
-    "ied",
-    "levenshtein",
-    "mean",
-    "rollout",
-    "visible",
-]
 
 EPSILON = 0.001
 """Keeps the released code's quotients defined; it shows in the third digit, so it is kept."""
@@ -103,19 +82,15 @@ def levenshtein(a: Sequence[Hashable], b: Sequence[Hashable]) -> int:
     return Levenshtein.distance([codes[token] for token in a], [codes[token] for token in b])
 
 
-def changes(before: AbstractSet[GroundAtom], after: AbstractSet[GroundAtom]) -> frozenset[GroundAtom]:
-    """The atoms that are true in one of two states only, the robot's among them.
+def end(predicted: Bits, recorded: Bits) -> float:
+    """Return the Jaccard index of two sets of changed atoms: both empty is 100, one empty is 0.
 
-    Seen from the same first state, an atom that changed can have only one new value, so the atom says all.
+    The changes are those between the first and the last state. Seen from the same first state, an atom that changed can
+    have only one new value, so the atom says all.
     """
-    return frozenset(before ^ after)
-
-
-def end(predicted: AbstractSet[Hashable], recorded: AbstractSet[Hashable]) -> float:
-    """Jaccard index of two sets of :func:`changes`: both empty is 100, one empty is 0."""
     if not predicted and not recorded:
         return 100.0
-    return 100 * len(predicted & recorded) / (len(predicted | recorded) + EPSILON)
+    return 100 * (predicted & recorded).bit_count() / ((predicted | recorded).bit_count() + EPSILON)
 
 
 def eed(predicted: Sequence[Hashable], recorded: Sequence[Hashable]) -> float:
@@ -219,7 +194,7 @@ class Scorer:
         else:
             a, b = [s & seen for s in p.states], [s & seen for s in r.states]
             similar = eed(a, b), eed_trim(a, b)
-        return Scores(ied(predicted, recorded), _jaccard(mine, gold), *similar, executable=100.0 * p.executable)
+        return Scores(ied(predicted, recorded), end(mine, gold), *similar, executable=100.0 * p.executable)
 
     def changed(self, sequence: Sequence[Instruction]) -> Bits:
         """What END compares: the atoms that are otherwise after a sequence, as bits of the task of that moment.
@@ -243,13 +218,6 @@ class Scorer:
             cover = cover_of(recorded, self.problem, self.mentions)
             self._covers[key] = None if cover is None else visible(task, self.problem, cover)
         return self._covers[key]
-
-
-def _jaccard(a: Bits, b: Bits) -> float:
-    """:func:`end` on bit sets."""
-    if not a and not b:
-        return 100.0
-    return 100 * (a & b).bit_count() / ((a | b).bit_count() + EPSILON)
 
 
 def mean(scores: Sequence[Scores]) -> Scores:

@@ -8,22 +8,22 @@ from __future__ import annotations
 
 import json
 import zlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.evaluation.models.model import Model, make_model
+from tmd.evaluation.models.paper_models import Crf
 from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, Example, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.files import make_directory, write_text
-from tmd.inference.energy import Weights
 from tmd.json_record import DIGITS
 from tmd.language.clause import Span
 from tmd.language.syntax.tokens import Kind, tokenise
@@ -104,43 +104,6 @@ class WorkerLostError(TmdError):
     exit_code = ExitCode.GAVE_UP
 
 
-class LearnedWorld(Protocol):
-    """What was learned for one kind of world."""
-
-    @property
-    def weights(self) -> Weights:
-        """The weights."""
-        ...
-
-    @property
-    def curve(self) -> Iterable[Any]:
-        """How learning went: numbers, or objects that JSON can hold."""
-        ...
-
-
-@runtime_checkable
-class Learner(Protocol):
-    """A model that tells what it has learned."""
-
-    learned_: Mapping[str, LearnedWorld]
-
-
-@runtime_checkable
-class Journaled(Protocol):
-    """A model that writes down what it has done so far, and goes on from there when it is fitted again."""
-
-    journal: Path | None
-
-
-@runtime_checkable
-class Restorable(Protocol):
-    """A model that can be made from what was learned before."""
-
-    def restore(self, examples: Sequence[Example], data: Dataset, saved: dict[str, Any]) -> Model:
-        """The model as it was after ``fit`` on the same examples; ``saved`` is what :func:`fit_text` wrote."""
-        ...
-
-
 @dataclass(frozen=True, slots=True)
 class EvaluationJob:
     """What is done in one go.
@@ -207,7 +170,7 @@ def _fitted(
 ) -> tuple[Model, str | None]:
     """The model, learned or restored, and the text that tells what it learned."""
     model = make_model(unit.model)
-    if unit.saved is not None and isinstance(model, Restorable):
+    if unit.saved is not None and isinstance(model, Crf):
         return model.restore(fold.train, data, unit.saved), None
     random = np.random.default_rng([config.seed, _key(unit.model), _key(unit.training_set)])
     with _journal(model, unit, fits):
@@ -221,7 +184,7 @@ def _fitted(
 @contextmanager
 def _journal(model: Model, unit: EvaluationJob, fits: Path | None) -> Iterator[None]:
     """Give the model its journal. Where another process is at the same unit, that one has it, and this one has none."""
-    if fits is None or not isinstance(model, Journaled):
+    if fits is None or not isinstance(model, Crf):
         yield
         return
     path = make_directory(fits) / f"{unit.name}.journal.jsonl"
@@ -255,7 +218,7 @@ def journal_files(fits: Path, unit: EvaluationJob) -> tuple[Path, ...]:
 
 def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
     """What a model has learned, as JSON; ``None`` for a model that does not tell, or learned nothing."""
-    if not isinstance(model, Learner) or not model.learned_:
+    if not isinstance(model, Crf) or not model.learned_:
         return None
     worlds = {
         world: WorldFit(
