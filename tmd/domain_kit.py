@@ -61,7 +61,7 @@ class DomainKit:
         return self._corpus.folder.name
 
     def environments(self) -> list[str]:
-        """The names of its bundled environments, sorted."""
+        """Return the names of its bundled environments, sorted."""
         return self._corpus.environments()
 
     @property
@@ -70,7 +70,7 @@ class DomainKit:
         return self._corpus.lexicon
 
     def problem(self, environment: Place, goal: str | None = None) -> Problem:
-        """An environment as a PDDL problem.
+        """Return an environment as a PDDL problem.
 
         Args:
             environment: Its name or file.
@@ -378,7 +378,7 @@ class DomainKit:
 
     @cached_property
     def _knowledge(self) -> Knowledge:
-        """What the demonstrations teach, asked for once."""
+        """The knowledge of the demonstrations."""
         return known(self._corpus, self._learned)
 
     def _weights(self, given: str | Path) -> Weights:
@@ -422,7 +422,7 @@ def _path(given: str | Path | None) -> Path | None:
 
 
 def orders_of(grounded: Grounded) -> list[Order]:
-    """The best plan of a text as what the robot is to do, each instruction with the words that it serves.
+    """Return the best plan of a text as what the robot is to do, each instruction with the words that it serves.
 
     Raises:
         TmdError: The text has no plan that works.

@@ -196,7 +196,7 @@ class Dialogue:
 
     @property
     def asks(self) -> bool:
-        """Whether something is asked for, so that a plan without instructions may be an answer."""
+        """Return whether something is asked for, so that a plan without instructions may be an answer."""
         return bool(self.clauses) or any(not (c.result or c.implied) for c in self.parsed.constraints)
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
@@ -213,7 +213,7 @@ class Dialogue:
 
 
 class Reader(Protocol):
-    """Reads requests."""
+    """A reader of requests."""
 
     def begin(self, request: str, world: World, state: Bits) -> Dialogue:
         """Read a request that is made in ``state``.

@@ -39,14 +39,14 @@ from tmd.veil.world import World
 
 
 class RuleReader:
-    """Reads requests by grammar and lexicon.
+    """The reader by grammar and lexicon.
 
     Args:
         lexicon: The words of the domain.
         learned: The goals that the domain's demonstrations teach.
         sources: The sources of goals that are used (:data:`tmd.goals.tables.SOURCES`); ``None`` where only the clauses
             are wanted.
-        guess: Whether a noun may mean a thing that is only akin to it, and a step be left out that is not understood.
+        guess: Whether a noun may mean a thing that is only similar to it, and a step be left out that is not understood.
     """
 
     def __init__(
@@ -85,7 +85,7 @@ class RuleReader:
 
 @dataclass(frozen=True, slots=True)
 class _Progress:
-    """What was said and done before a step.
+    """The state of a dialogue before a step.
 
     Attributes:
         memory: What nouns turned out to mean.

@@ -69,7 +69,7 @@ def write_pages(config: ExperimentConfig, *, carried_out: bool = False) -> int:
 
 
 def _shown(run: Run, trials: Trials | None) -> Iterator[PredictionRecord]:
-    """The predictions that the report shows, and those that were carried out."""
+    """Yield the predictions that the report shows, and those that were carried out."""
     for model in run.metrics.models:
         if model != EMPTY:
             best, worst = best_and_worst(run.of(model))
@@ -78,7 +78,7 @@ def _shown(run: Run, trials: Trials | None) -> Iterator[PredictionRecord]:
 
 
 def _tried(run: Run, trials: Trials | None) -> Iterator[PredictionRecord]:
-    """The predictions that were carried out."""
+    """Yield the predictions that were carried out."""
     found = trials.found if trials else ()
     yield from (line for line in run.lines if any(_is_of(trial, line) for trial in found))
 
@@ -107,13 +107,13 @@ def _plain(
     ran: Ran | None,
     strip: Strip | None,
 ) -> Subject:
-    """A prediction of a row that does not work by clauses."""
+    """Return a prediction of a row that does not work by clauses."""
     steps = tuple(map(PlannedStep, instructions))
     return Subject(title, world.task.problem, steps, said, ran=ran, strip=strip, made=tuple(made))
 
 
 def _ranked(line: PredictionRecord) -> RankedPlan | None:
-    """The prediction by clauses; nothing where its steps are not the clauses'."""
+    """Return the prediction by clauses; nothing where its steps are not the clauses'."""
     if not line.whole:
         return None
     choices = []
@@ -161,7 +161,7 @@ def run_experiment(
     Args:
         config: The run. A share of one (``config.shard``) is done by :func:`tmd.evaluation.runs.experiment.work`.
         collect_only: Train nothing: recompute everything from what is done.
-        progress: Is told the number of parts done and of all parts.
+        progress: Called with the number of parts done and of all parts.
 
     Returns:
         What ``metrics.json`` has; ``report.html`` is beside it in ``config.out``.
@@ -181,7 +181,7 @@ def carry_out_predictions(config: ExperimentConfig, mode: Mode, *, progress: Pro
     Args:
         config: The run.
         mode: How the robot moves, ``kinematic`` or ``physics``.
-        progress: Is told the number of trials done and of all trials.
+        progress: Called with the number of trials done and of all trials.
 
     Returns:
         What came of it; where no trial could be made, why.

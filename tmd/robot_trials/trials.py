@@ -49,7 +49,7 @@ class TrialChoice:
 
 
 def choices(run: Run) -> list[TrialChoice]:
-    """One for each environment that was tested in, in the order of the run.
+    """Return one for each environment that was tested in, in the order of the run.
 
     The row is the model that ships, so that the films show what users get; where a run is without it, the row with the
     greatest END on average, in a tie the last. Of its predictions in an environment the first is taken that can be
@@ -68,7 +68,7 @@ def choices(run: Run) -> list[TrialChoice]:
 
 
 def _first(lines: Sequence[PredictionRecord]) -> PredictionRecord | None:
-    """The first that reaches its goal, or the first."""
+    """Return the first that reaches its goal, or the first."""
     return next((line for line in lines if line.success), next(iter(lines), None))
 
 
@@ -154,7 +154,7 @@ def _carried_out(job: Job) -> Trial:
 
 
 def _movie(job: Job) -> MovieFile | None:
-    """The film's file: MP4, where there is no ffmpeg a GIF, and none where pictures cannot be made at all."""
+    """Return the film's file: MP4, where there is no ffmpeg a GIF, and none where pictures cannot be made at all."""
     for suffix in (".mp4", ".gif"):
         try:
             return open_movie(job.out / f"{job.asked.environment}{suffix}", PICTURE, FPS, small=True)
@@ -164,7 +164,7 @@ def _movie(job: Job) -> MovieFile | None:
 
 
 def orders_of(line: PredictionRecord) -> list[Order]:
-    """A prediction as orders; where the model worked by clauses, with the words that each instruction is for."""
+    """Return a prediction as orders; where the model worked by clauses, with the words that each instruction is for."""
     if not line.whole:
         return [Order(parse_instruction(text)) for text in line.predicted]
     return [
@@ -185,7 +185,7 @@ def run_trials(config: ExperimentConfig, mode: Mode, progress: Progress | None =
     Args:
         config: The run.
         mode: How the robot moves.
-        progress: Is told the number of trials done and of all trials.
+        progress: Called with the number of trials done and of all trials.
 
     Returns:
         What came of it; where no trial could be made, why.
@@ -212,7 +212,7 @@ def run_trials(config: ExperimentConfig, mode: Mode, progress: Progress | None =
 
 
 def _hindrance(config: ExperimentConfig) -> str:
-    """Why no trial can be made here; empty where they can."""
+    """Return why no trial can be made here; empty where they can."""
     if config.data != BUNDLED:
         return "the actions of VEIL-500 have no skills: the robot acts in bundled environments only"
     if find_spec("pybullet") is None:
@@ -268,7 +268,7 @@ def _asked(choice: TrialChoice, config: ExperimentConfig, mode: Mode) -> TrialRe
 
 
 def _is_done(folder: Path, asked: TrialRequest) -> bool:
-    """Whether the same trial was made before, and its films are there."""
+    """Return whether the same trial was made before, and its films are there."""
     path = folder / f"{asked.environment}.json"
     if not path.is_file():
         return False

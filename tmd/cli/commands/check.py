@@ -85,7 +85,7 @@ def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> Ex
 
 
 def _summary(report: CheckReport, shown: bool) -> str:
-    """How many files and problems there are; notes only where there are some."""
+    """Return the numbers of files and problems; notes only where there are some."""
     errors, warnings, notes = report.counts.values()
     said = f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)"
     if notes:

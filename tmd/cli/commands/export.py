@@ -107,7 +107,7 @@ def _told(
 
 
 def _chosen(given: Sequence[str]) -> list[str]:
-    """The names of the formats that were asked for, each once.
+    """Return the names of the formats that were asked for, each once.
 
     Raises:
         click.UsageError: There is no such format.

@@ -62,7 +62,7 @@ def command(roots: Roots, domain: str, problem: str, plan: Path, as_json: bool) 
 
 
 def _read(roots: Roots, domain: str, name: str) -> Problem:
-    """The problem in a PDDL file, or that of an environment, which has no goal.
+    """Return the problem in a PDDL file, or that of an environment, which has no goal.
 
     Raises:
         TmdError: It is missing or wrong.

@@ -128,7 +128,7 @@ def _subject_of_text(
 
 
 def _refuse_to_overwrite(target: str, *shown: str | Path | None) -> None:
-    """A page does not take the place of what it shows."""
+    """Refuse to write a page over a file that it shows."""
     for path in shown:
         if path is not None and target != "-" and Path(target).resolve() == Path(path).resolve():
             raise click.UsageError(f"the page would overwrite {path}: give another --out")

@@ -1,4 +1,4 @@
-"""Grounding a text as the command line asks for it."""
+"""Grounding with the options of the command line."""
 
 from __future__ import annotations
 

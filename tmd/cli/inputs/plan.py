@@ -1,4 +1,4 @@
-"""What the robot is to do: the best plan of a text, a plan for a goal, or the plan of a file."""
+"""The plan of a run: the best plan of a text, a plan for a goal, or the plan of a file."""
 
 from __future__ import annotations
 

@@ -124,7 +124,7 @@ class VeilEnvironment:
 
 
 def read_environment(path: Path, world: str, number: int, classes: Mapping[str, VeilObjectClass]) -> VeilEnvironment:
-    """An environment file.
+    """Return an environment file.
 
     Raises:
         DataError: The file is missing or broken, or holds a name or a position that cannot be read.
@@ -179,7 +179,7 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
 
 
 def _states(name: str, element: Element, own: VeilObjectClass) -> tuple[Mapping[str, bool], list[tuple[str, str]]]:
-    """An object's states, and the file's states that its class does not declare."""
+    """Return an object's states, and the file's states that its class does not declare."""
     states = dict(own.states)
     dropped = []
     for state in element.all("state"):
@@ -195,7 +195,7 @@ def _states(name: str, element: Element, own: VeilObjectClass) -> tuple[Mapping[
 
 
 def _vector(thing: Element, tag: str, default: tuple[float, float, float]) -> Vector:
-    """Three numbers, with or without brackets round them; the default where nothing is said."""
+    """Return three numbers, with or without brackets round them; the default where nothing is said."""
     found = thing.all(tag)
     if not found:
         return Vector(*default)

@@ -40,7 +40,7 @@ class Repaired:
 
 @dataclass(frozen=True, slots=True)
 class Executability:
-    """How many demonstrations can be executed from start to end, and how many single steps cannot."""
+    """The number of demonstrations that can be executed as a whole, and of single steps that cannot."""
 
     points: int
     executable: int
@@ -49,7 +49,7 @@ class Executability:
 
 
 class Repairer:
-    """Repairs demonstrations; keeps one simulator for each environment."""
+    """A repairer of demonstrations, with one simulator for each environment."""
 
     def __init__(self, data: VeilData) -> None:
         self._simulators: dict[tuple[str, int], ForcedExecution] = {}
@@ -59,7 +59,7 @@ class Repairer:
             self._simulators[key] = ForcedExecution(problem, [*recorded[key], *_candidates(environment)])
 
     def simulator(self, point: Point) -> ForcedExecution:
-        """The literal simulator of a demonstration's environment."""
+        """Return the literal simulator of a demonstration's environment."""
         return self._simulators[point.key]
 
     def repair(self, point: Point) -> Repaired:
@@ -96,7 +96,7 @@ def repair(point: Point, data: VeilData) -> Repaired:
 
 
 def repaired(data: VeilData) -> VeilData:
-    """The data set with every demonstration repaired where possible."""
+    """Return the data set with every demonstration repaired where possible."""
     repairer = Repairer(data)
     return replace(data, points=tuple(repairer.repair(point).point for point in data.points))
 
@@ -137,7 +137,7 @@ def _count(
 
 
 def _recorded(points: Sequence[Point]) -> dict[tuple[str, int], list[Instruction]]:
-    """All instructions of the demonstrations of each environment."""
+    """Return all instructions of the demonstrations of each environment."""
     found: dict[tuple[str, int], list[Instruction]] = defaultdict(list)
     for point in points:
         found[point.key] += point.instructions
@@ -145,7 +145,7 @@ def _recorded(points: Sequence[Point]) -> dict[tuple[str, int], list[Instruction
 
 
 def _candidates(environment: VeilEnvironment) -> list[Instruction]:
-    """Everything that a repair may put back."""
+    """Return everything that a repair may put back."""
     openable = ("microwave", "fridgeleftdoor", "fridgerightdoor")
     verbs = ("moveto", "grasp", "release")
     found = [Instruction(verb, (thing.pddl,)) for thing in environment.objects for verb in verbs]
@@ -153,7 +153,7 @@ def _candidates(environment: VeilEnvironment) -> list[Instruction]:
 
 
 def _single_missing(cubes: Sequence[Cube], state: Bits, task: Task) -> tuple[GroundAtom, bool] | None:
-    """The only literal that keeps one of the cubes from holding, as an atom and whether it should be true."""
+    """Return the only literal that keeps one of the cubes from holding, as an atom and whether it should be true."""
     for cube in cubes:
         absent, present = cube.positive & ~state, cube.negative & state
         if absent.bit_count() + present.bit_count() == 1:
@@ -162,7 +162,7 @@ def _single_missing(cubes: Sequence[Cube], state: Bits, task: Task) -> tuple[Gro
 
 
 def _giving(missing: tuple[GroundAtom, bool], problem: Problem) -> Instruction | None:
-    """The instruction that makes a literal hold."""
+    """Return the instruction that makes a literal hold."""
     atom, positive = missing
     if atom.predicate == "near" and positive:
         return Instruction("moveto", atom.args[1:])
@@ -179,7 +179,7 @@ def _mask(task: Task, predicate: str) -> Bits:
 
 
 def _exclusive(problem: Problem) -> Problem:
-    """The problem with ``moveto`` also ending being near every other thing that is not held."""
+    """Return the problem with ``moveto`` also ending being near every other thing that is not held."""
     other = TypedName("?other", ("thing",))
     away = And((Not(Equals("?x", "?other")), Not(Atom("holding", ("pr2", "?other")))))
     leave = Effect(Atom("near", ("pr2", "?other")), False, away, (other,))

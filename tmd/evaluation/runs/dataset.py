@@ -1,4 +1,4 @@
-"""What an experiment needs of a data set, and the two that there are: the bundled one and VEIL-500."""
+"""Data sets for experiments: the bundled one and VEIL-500."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class Example:
 
     @property
     def gold(self) -> tuple[Instruction, ...]:
-        """What the person did."""
+        """The instructions that the person gave."""
         return self.demonstration.instructions
 
 
@@ -277,7 +277,7 @@ def _number(environment: str) -> int:
 
 
 def _digest(places: Mapping[str, tuple[Path, tuple[str, ...]]]) -> str:
-    """Of the names and contents of files below directories, by kind; not of where the directories are."""
+    """Return a digest of the names and contents of files, by kind; the place of their directories does not count."""
     digest = hashlib.sha256()
     for kind, (directory, patterns) in places.items():
         for path in sorted({path for pattern in patterns for path in directory.rglob(pattern)}):
@@ -288,7 +288,7 @@ def _digest(places: Mapping[str, tuple[Path, tuple[str, ...]]]) -> str:
 
 
 def open_dataset(config: ExperimentConfig) -> Dataset:
-    """The data of a run, read once in each process.
+    """Return the data of a run, read once in each process.
 
     Raises:
         TmdError: They are not there, or wrong.

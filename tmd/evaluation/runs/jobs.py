@@ -38,7 +38,7 @@ _KEY = zlib.crc32(b"drop-sentences")
 
 
 def sentences(text: str) -> tuple[Span, ...]:
-    """Where the sentences of a text stand: together they are the whole text.
+    """Return the spans of the sentences of a text; together they are the whole text.
 
     A sentence ends with a full stop, a question or an exclamation mark, as the clause parser sees them ("2.5" has
     none), or with the line; marks and quotes that close it, and blanks, belong to it. A piece without a word is
@@ -63,7 +63,7 @@ def sentences(text: str) -> tuple[Span, ...]:
 
 
 def leave_out(example: Example, probability: float, seed: int) -> Example:
-    """The example with each sentence of its text left out with some probability, but never all of them.
+    """Return the example with each sentence of its text left out with some probability, but never all of them.
 
     What is drawn depends on the seed and the example's id only, so all models read the same text; a sentence that is
     left out at one probability is left out at every higher one. Of the sentences, the one with the largest draw
@@ -106,7 +106,7 @@ class WorkerLostError(TmdError):
 
 @dataclass(frozen=True, slots=True)
 class EvaluationJob:
-    """What is done in one go.
+    """One unit of work.
 
     Attributes:
         model: The model's name.
@@ -128,7 +128,7 @@ class EvaluationJob:
 
 @dataclass(frozen=True, slots=True)
 class JobOutcome:
-    """What came out of a unit.
+    """The outcome of a unit.
 
     Attributes:
         unit: The unit.
@@ -142,7 +142,7 @@ class JobOutcome:
 
 
 def units_of(models: Sequence[str], folds: Sequence[Fold]) -> list[EvaluationJob]:
-    """All units of a run, always in the same order."""
+    """Return all units of a run, always in the same order."""
     sets: dict[str, list[str]] = {}
     for fold in folds:
         sets.setdefault(fold.training_set, []).append(fold.name)
@@ -168,7 +168,7 @@ def do(config: ExperimentConfig, unit: EvaluationJob, fits: Path | None) -> JobO
 def _fitted(
     config: ExperimentConfig, unit: EvaluationJob, fold: Fold, data: Dataset, fits: Path | None
 ) -> tuple[Model, str | None]:
-    """The model, learned or restored, and the text that tells what it learned."""
+    """Return the model, learned or restored, and the text that tells what it learned."""
     model = make_model(unit.model)
     if unit.saved is not None and isinstance(model, Crf):
         return model.restore(fold.train, data, unit.saved), None
@@ -195,7 +195,7 @@ def _journal(model: Model, unit: EvaluationJob, fits: Path | None) -> Iterator[N
 
 @contextmanager
 def _alone(lock: Path) -> Iterator[bool]:
-    """Whether this process alone holds the lock; a lock ends with its process, however that ends."""
+    """Return whether this process alone holds the lock; a lock ends with its process, however that ends."""
     try:
         import fcntl
     except ImportError:  # not a system that has such locks
@@ -211,13 +211,13 @@ def _alone(lock: Path) -> Iterator[bool]:
 
 
 def journal_files(fits: Path, unit: EvaluationJob) -> tuple[Path, ...]:
-    """What a finished unit needs no more."""
+    """Return the files that a finished unit no longer needs."""
     journal = fits / f"{unit.name}.journal.jsonl"
     return journal, journal.with_suffix(".lock")
 
 
 def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
-    """What a model has learned, as JSON; ``None`` for a model that does not tell, or learned nothing."""
+    """Return the learned weights of a model as JSON; ``None`` for a model that learned none."""
     if not isinstance(model, Crf) or not model.learned_:
         return None
     worlds = {
@@ -233,7 +233,7 @@ def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
 
 
 def _tested(config: ExperimentConfig, unit: EvaluationJob, model: Model, fold: Fold, data: Dataset) -> str:
-    """The lines on one fold."""
+    """Return the lines on one fold."""
     done = []
     for example in fold.test:
         read = leave_out(example, config.drop_sentences, config.seed)
@@ -248,14 +248,14 @@ def _tested(config: ExperimentConfig, unit: EvaluationJob, model: Model, fold: F
 
 
 def _key(name: str) -> int:
-    """A number for a name, the same on every machine."""
+    """Return a number for a name, the same on every machine."""
     return zlib.crc32(name.encode())
 
 
 def _record(
     data: Dataset, example: Example, read: str, prediction: Prediction, model: str, fold: str
 ) -> PredictionRecord:
-    """What is kept of one prediction; ``read`` is the text that the model read."""
+    """Return the record of one prediction; ``read`` is the text that the model read."""
 
     def written(instructions: Iterable[Instruction]) -> tuple[str, ...]:
         return tuple(data.written(example.environment, instructions))

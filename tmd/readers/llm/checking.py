@@ -1,4 +1,4 @@
-"""What a model proposes, checked against the domain: nothing is believed that PDDL does not accept."""
+"""Checks of a model's reply against the domain: every formula must be accepted by PDDL."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class ModelReading:
 
 
 class ReplyChecker:
-    """Checks the replies to one request in one environment.
+    """The checks of replies to one request in one environment.
 
     Args:
         request: The request.

@@ -59,7 +59,7 @@ class ModelError(TmdError):
 
 @dataclass(frozen=True, slots=True)
 class ModelSettings:
-    """How a language model is reached.
+    """The connection to a language model.
 
     Attributes:
         model: The name of the model; ``$OPENAI_MODEL`` by default.
@@ -129,7 +129,7 @@ class Completion:
 
 
 class ModelClient:
-    """Asks a language model.
+    """A client of a language model.
 
     Args:
         settings: How it is reached; environment variables fill in what is missing.

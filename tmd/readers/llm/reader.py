@@ -44,7 +44,7 @@ def llm_reader(corpus: Corpus, settings: ModelSettings, *, verify: bool = False)
 
 
 class LLMReader:
-    """Reads requests with a language model.
+    """A reader that asks a language model.
 
     Args:
         client: Asks the model.
