@@ -46,7 +46,7 @@ class RuleReader:
         learned: The goals that the domain's demonstrations teach.
         sources: The sources of goals that are used (:data:`tmd.goals.tables.SOURCES`); ``None`` where only the clauses
             are wanted.
-        guess: Whether a noun may mean a thing that is only similar to it, and a step be left out that is not understood.
+        guess: Whether a noun may mean a thing that is only similar to it, and an unread step be left out.
     """
 
     def __init__(
