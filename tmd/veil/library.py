@@ -71,10 +71,6 @@ class Library:
             known[verb] = tuple(sorted(firsts, key=lambda template: order[id(template)]))
         return known[verb]
 
-    def without(self, environment: str) -> Library:
-        """Return the library as it would be had nobody been in ``environment``: for learning as for testing."""
-        return self.filtered(lambda template: template.environment != environment)
-
     def filtered(self, keep: Callable[[Template], bool]) -> Library:
         """Return a library of the templates for which ``keep`` is true."""
         found = Library(self.lexicon)

@@ -19,10 +19,10 @@ from tmd.pddl.task import Bits
 from tmd.readers.interface import Dialogue, Step, StepGoals, Usage
 from tmd.readers.llm.checking import ModelReading, ModelStep, ReplyChecker
 from tmd.readers.llm.client import Completion, ModelClient, ModelSettings
-from tmd.readers.llm.prompt import Prompt, SentenceExample, changes, filled, one_line, prompt_for
+from tmd.readers.llm.prompt import Prompt, changes, filled, one_line, prompt_for
 from tmd.readers.llm.reply import Judgement, Reply, parse_reply, schema_of
 from tmd.veil.corpus import Corpus
-from tmd.veil.sentence_file import SUFFIX, read_sentences
+from tmd.veil.sentence_file import SUFFIX, SentenceTest, read_sentences
 from tmd.veil.world import World
 
 MOST_CORRECTIONS = 2
@@ -39,8 +39,7 @@ def llm_reader(corpus: Corpus, settings: ModelSettings, *, verify: bool = False)
         TmdError: A file of sentence tests is wrong.
     """
     tests = [t for path in sorted(corpus.directory.glob(f"*{SUFFIX}")) for t in read_sentences(path)]
-    examples = [SentenceExample(t.text, t.environment, t.goal) for t in tests if t.goal is not None]
-    return LLMReader(ModelClient(settings), corpus.lexicon, examples, verify=verify)
+    return LLMReader(ModelClient(settings), corpus.lexicon, tests, verify=verify)
 
 
 class LLMReader:
@@ -54,7 +53,7 @@ class LLMReader:
     """
 
     def __init__(
-        self, client: ModelClient, lexicon: Lexicon, examples: Sequence[SentenceExample] = (), *, verify: bool = False
+        self, client: ModelClient, lexicon: Lexicon, examples: Sequence[SentenceTest] = (), *, verify: bool = False
     ) -> None:
         self._client = client
         self._lexicon = lexicon
