@@ -15,7 +15,8 @@ import tmd.api
 from tmd.domain_kit import DomainKit, orders_of
 from tmd.export.formats import FORMATS
 from tmd.pddl.task import Bits
-from tmd.readers.rules import ClauseDialogue, RuleReader
+from tmd.readers.interface import Dialogue
+from tmd.readers.rules import RuleReader
 from tmd.veil.world import World
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -83,7 +84,7 @@ def test_another_reader_may_read_the_request() -> None:
     class Telegraphic(RuleReader):
         """It reads requests such as "book table"."""
 
-        def begin(self, request: str, world: World, state: Bits) -> ClauseDialogue:
+        def begin(self, request: str, world: World, state: Bits) -> Dialogue:
             item, place = request.split()
             return super().begin(f"Put the {item} on the {place}.", world, state)
 

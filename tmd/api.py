@@ -1,4 +1,4 @@
-"""What ``import tmd`` offers to programs: all that the commands do, and the way to other tools and back.
+"""The names of ``import tmd``: all that the commands do, and the way to other tools and back.
 
 Names are found on the package itself (``tmd.load_domain``) and imported when they are first used.
 """
@@ -105,7 +105,7 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever stands in the module
-    """A name of :data:`_LATER`, imported now."""
+    """Return a name of :data:`_LATER`, imported now."""
     if name in _LATER:
         return getattr(import_module(_LATER[name]), name)
     raise AttributeError(f"module 'tmd.api' has no attribute '{name}'")
@@ -130,7 +130,7 @@ def load_domain(
     problems: str | Path | None = None,
     learned: str | Path | None = None,
 ) -> DomainKit:
-    """The domain of that name.
+    """Return the domain of that name.
 
     Args:
         name: A bundled domain, or one in ``domains``.
@@ -223,7 +223,7 @@ def _roots(domains: str | Path | None, problems: str | Path | None) -> Roots:
 
 
 def load_problem(problem: str | Path, domain: str | Path | None = None) -> Problem:
-    """A PDDL problem.
+    """Return a PDDL problem.
 
     Args:
         problem: Its file.
@@ -244,7 +244,7 @@ def find_plan(
     time_limit: float = TIME_LIMIT,
     memory_limit: int | None = None,
 ) -> tuple[Instruction, ...]:
-    """A plan for ``problem``, as ``tmd plan`` finds it.
+    """Return a plan for ``problem``, as ``tmd plan`` finds it.
 
     Args:
         problem: The problem.
@@ -266,7 +266,7 @@ def find_plan(
 
 
 def read_plan(path: str | Path, problem: Problem | None = None) -> tuple[Instruction, ...]:
-    """The plan in a file: of the planning competitions, or with times, as VAL, POPF and PlanSys2 have them.
+    """Return the plan in a file: of the planning competitions, or with times, as VAL, POPF and PlanSys2 have them.
 
     Args:
         path: The file.
@@ -316,7 +316,7 @@ def export_plan(
 
 
 def plan_page(problem: Problem, plan: Iterable[Instruction]) -> str:
-    """A self-contained HTML page of a plan: every step with what it changes, as ``tmd view PLAN`` writes it."""
+    """Return a self-contained HTML page of a plan: every step with what it changes, as ``tmd view PLAN`` writes it."""
     from tmd.view.page import render
     from tmd.view.subject import PlannedStep, Subject
 
@@ -334,7 +334,7 @@ def file_page(
     domains: str | Path | None = None,
     problems: str | Path | None = None,
 ) -> str:
-    """A self-contained HTML page of what a file holds, as ``tmd view FILE`` writes it.
+    """Return a self-contained HTML page of what a file holds, as ``tmd view FILE`` writes it.
 
     Args:
         path: What ``tmd ground --json`` or ``tmd run --json`` printed, a log of ``tmd run``, a plan file, or
@@ -361,7 +361,7 @@ def file_page(
 
 
 def grounded_page(grounded: Grounded) -> str:
-    """A self-contained HTML page of a text: clauses, goals, plan and candidates, as ``tmd view --text`` writes it."""
+    """Return an HTML page of a text: clauses, goals, plan and candidates, as ``tmd view --text`` writes it."""
     from tmd.view.page import render
     from tmd.view.subject import text_subject
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cache, cached_property
 from pathlib import Path
@@ -16,7 +16,7 @@ from tmd.inference.config import DEFAULT, preset
 from tmd.inference.energy import Weights, named_weights, read_weights
 from tmd.knowledge import Knowledge, known
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.model import GroundAtom, Instruction, Problem
+from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.validator import validate
@@ -29,10 +29,9 @@ from tmd.world.folder import DomainFolder
 if TYPE_CHECKING:
     from tmd.evaluation.sentence_tests import SentenceResult
     from tmd.readers.llm.client import ModelError, ModelSettings
-    from tmd.records.run import RanStep, RecordedRun
-    from tmd.robot.monitor.listeners import Order, Title
+    from tmd.records.run import RecordedRun
+    from tmd.robot.monitor.listeners import Order
     from tmd.robot.skills.reachability_report import SceneSurvey
-    from tmd.robot.skills.results import ExecutedStep
     from tmd.studio.server import Server
     from tmd.veil.sentence_file import SentenceTest
 
@@ -62,7 +61,7 @@ class DomainKit:
         return self._corpus.folder.name
 
     def environments(self) -> list[str]:
-        """The names of its bundled environments, sorted."""
+        """Return the names of its bundled environments, sorted."""
         return self._corpus.environments()
 
     @property
@@ -71,7 +70,7 @@ class DomainKit:
         return self._corpus.lexicon
 
     def problem(self, environment: Place, goal: str | None = None) -> Problem:
-        """An environment as a PDDL problem.
+        """Return an environment as a PDDL problem.
 
         Args:
             environment: Its name or file.
@@ -211,68 +210,39 @@ class DomainKit:
             OutputError: Film or sheet cannot be written.
             TmdError: The plan does not work, or the domain has no skills or no shapes.
         """
-        from contextlib import nullcontext
-
-        from tmd.export.trajectory import SUFFIXES, open_trajectory, recorders
-        from tmd.files import check_writable
+        from tmd.records.run import RecordedRun, RunRecord
         from tmd.robot.monitor.listeners import Order
-        from tmd.robot.pr2.urdf import packaged_robot
-        from tmd.robot.run_plan import Filming, run_plan
-        from tmd.robot.video.film import open_movie
+        from tmd.robot_trials.plan_runner import PlanRunner, StepRecorder
         from tmd.world.environment import load_room
 
         file = self._file(environment)
         room, problem = load_room(file), self.problem(environment)
-        if isinstance(plan, Grounded):
-            orders = orders_of(plan)
-            said = plan.parsed.text
-        else:
-            orders, said = [Order(instruction) for instruction in plan], ""
+        text = plan.parsed.text if isinstance(plan, Grounded) else ""
+        orders = orders_of(plan) if isinstance(plan, Grounded) else list(map(Order, plan))
         verdict = validate(problem, [order.instruction for order in orders])
         if not verdict.valid:
             raise TmdError(f"the plan does not work: {verdict.reason}")
-        for output in (video, strip, trajectory):
-            if output is not None:
-                check_writable(output)
-        if trajectory is not None and Path(trajectory).suffix not in SUFFIXES:
-            raise TmdError(f"{trajectory}: a trajectory ends in one of {', '.join(SUFFIXES)}")
-        steps = _Steps()
-        with (
-            open_movie(Path(video)) if video else nullcontext() as movie,
-            open_trajectory(Path(trajectory)) if trajectory else nullcontext() as recording,
-        ):
-            filming = Filming(room.name, said, movie, Path(strip) if strip else None) if video or strip else None
-            run = run_plan(
-                room,
-                self._corpus.folder,
-                problem,
-                orders,
-                prepare=lambda session: (steps, *recorders(session, recording, rate)),
-                filming=filming,
-                planner=planner,
-                repairs=repairs,
-                kinematic=kinematic,
-                seed=seed,
-                urdf=Path(urdf) if urdf else packaged_robot(robot),
-                gui=gui,
-            )
-        from tmd import __version__
-        from tmd.records.run import OrderRecord, RecordedRun, RunRecord, RunRequest
-
-        asked = RunRequest(
-            text=said or None,
-            domain=self.name,
-            environment=room.name,
-            mode="kinematic" if kinematic else "physics",
+        recorder = StepRecorder()
+        with PlanRunner(
+            room,
+            self._corpus.folder,
+            problem,
+            kinematic=kinematic,
             seed=seed,
             planner=planner,
-            plan=tuple(map(OrderRecord.of, orders)),
-            version=__version__,
-            environment_file=str(file) if Path(environment).suffix in _FILES else None,
-            strip=Path(strip).name if strip else None,
-            grounding=None,
-        )
-        return RecordedRun(run.execution, RunRecord.of(asked, steps.done, run.execution, run.sim_steps))
+            repairs=repairs,
+            video=_path(video),
+            strip=_path(strip),
+            trajectory=_path(trajectory),
+            rate=rate,
+            robot=None if urdf else robot,
+            urdf=_path(urdf),
+            gui=gui,
+        ) as runner:
+            run = runner.run(orders, lambda _: (recorder,), room.name, text)
+        given = str(file) if Path(environment).suffix in _FILES else None
+        asked = runner.request(orders, text or None, environment_file=given, grounding=None)
+        return RecordedRun(run.execution, RunRecord.of(asked, recorder.steps, run.execution, run.sim_steps))
 
     def survey_scene(
         self,
@@ -297,8 +267,8 @@ class DomainKit:
             self._corpus.folder,
             reach=reach,
             seed=seed,
-            urdf=Path(urdf) if urdf else packaged_robot(robot),
-            picture=Path(picture) if picture else None,
+            urdf=_path(urdf) or packaged_robot(robot),
+            picture=_path(picture),
         )
 
     def learn(self, out: str | Path | None = None, *, weights: bool = True, seed: int = 0) -> Path:
@@ -317,7 +287,7 @@ class DomainKit:
         """
         from tmd.evaluation.learn import learn_domain
 
-        found = learn_domain(self._corpus, Path(out) if out else self._learned, weights=weights, seed=seed)
+        found = learn_domain(self._corpus, _path(out) or self._learned, weights=weights, seed=seed)
         self.__dict__["_knowledge"] = found.knowledge
         return found.directory
 
@@ -408,7 +378,7 @@ class DomainKit:
 
     @cached_property
     def _knowledge(self) -> Knowledge:
-        """What the demonstrations teach, asked for once."""
+        """The knowledge of the demonstrations."""
         return known(self._corpus, self._learned)
 
     def _weights(self, given: str | Path) -> Weights:
@@ -447,24 +417,12 @@ def _judged_elsewhere(
     return number, _kit_at(*place)._judged(test, options)
 
 
-class _Steps:
-    """Keeps each step of a run as its record."""
-
-    def __init__(self) -> None:
-        self.done: list[RanStep] = []
-
-    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """Nothing is over yet."""
-
-    def end(self, title: Title, step: ExecutedStep) -> None:
-        """A step is over."""
-        from tmd.records.run import RanStep
-
-        self.done.append(RanStep.of(title, step))
+def _path(given: str | Path | None) -> Path | None:
+    return Path(given) if given else None
 
 
 def orders_of(grounded: Grounded) -> list[Order]:
-    """The best plan of a text as what the robot is to do, each instruction with the words that it serves.
+    """Return the best plan of a text as what the robot is to do, each instruction with the words that it serves.
 
     Raises:
         TmdError: The text has no plan that works.

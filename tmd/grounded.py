@@ -92,7 +92,7 @@ class Grounded:
 
     @property
     def reason(self) -> str:
-        """Why there is no plan, in a line; empty where there is one that works."""
+        """The reason why there is no plan, in a line; empty where there is one that works."""
         if any(verdict.valid for verdict in self.verdicts):
             return ""
         parsed = self.parsed
@@ -110,7 +110,7 @@ class Grounded:
 
     @property
     def refusal(self) -> str:
-        """Why what was said was refused; empty where it was not."""
+        """The reason of the refusal; empty where there is none."""
         if self.refused is None:
             return ""
         clause, refused = self.refused
@@ -120,7 +120,7 @@ class Grounded:
         return (noun for clause in self.parsed.clauses for noun in clause.resolved())
 
     def _likened(self) -> Iterator[str]:
-        """What nouns were taken for that only WordNet leads to something here."""
+        """Yield warnings about nouns that only WordNet relates to something here."""
         for noun in dict.fromkeys(self._nouns()):
             matches = self.world.mentions.of(noun, self.world.task.init)
             if matches and all(match.how == WORDNET for match in matches):
@@ -129,7 +129,7 @@ class Grounded:
                 yield f"nothing here is called '{_plain(noun)}'; by likeness of meaning it was taken for {taken}"
 
     def _left_out(self) -> Iterator[str]:
-        """What the best plan does not take into account, or only guesses at."""
+        """Yield warnings about parts of the request that the best plan ignores or guesses."""
         for plan in self.plans[:1]:
             for goal in plan.goals:
                 if goal.note and (goal.formula is None or not goal.already):
@@ -138,7 +138,7 @@ class Grounded:
                 yield f'"{" ".join(piece.text.split())}" was skipped: {piece.reason}'
 
     def _reasons(self, clause: int) -> str:
-        """Why the templates for a clause were refused: the most frequent reasons first."""
+        """Return why the templates for a clause were rejected: the most frequent reasons first."""
         counts: dict[str, int] = {}
         for each in self.rejected:
             if each.clause == clause:
@@ -148,7 +148,7 @@ class Grounded:
         return "; ".join(told[:_SHOWN]) + more
 
     def _other(self, verb: str) -> str:
-        """A verb to use instead: one that is written alike, or else the most frequent ones."""
+        """Return a verb to use instead: one that is written alike, or else the most frequent ones."""
         verbs = sorted(self.library.verbs(), key=lambda known: (-len(self.library.templates(known)), known))
         if not verbs:
             return "the domain has no demonstrations"

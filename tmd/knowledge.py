@@ -1,4 +1,4 @@
-"""What is learned of a domain, and the directories that keep it: where `tmd learn` saves, and the user's cache.
+"""The knowledge learned of a domain, and the directories that keep it: that of `tmd learn`, and the user's cache.
 
 ``library.json``, ``policy.json`` and ``policy.npy`` hold what was learned, ``weights.txt`` the learned weights if there
 are any. ``learned.json`` is written last and has checksums: of what everything was made from, and of the other files.
@@ -93,22 +93,22 @@ class PolicyRecord:
 
 
 def read_record(kind: type[_T], data: bytes) -> _T:
-    """The value of the dataclass ``kind`` in a JSON text.
+    """Return the value of the dataclass ``kind`` in a JSON text.
 
     Raises:
-        ValueError: It is none; nothing is taken for what it is merely like.
+        ValueError: It is not that; values are not converted.
     """
     found: _T = TypeAdapter(kind).validate_json(data, strict=True)
     return found
 
 
 def record_value(record: Any) -> Any:  # noqa: ANN401 - any dataclass, and any value of JSON
-    """What :func:`read_record` reads the same value from; fields that have their default are left out."""
+    """Return the JSON value that :func:`read_record` reads; fields with their default are left out."""
     return TypeAdapter(type(record)).dump_python(record, mode="json", exclude_defaults=True)
 
 
 def library_to_json(library: Library) -> dict[str, Any]:
-    """What :func:`library_from_json` makes the same library of."""
+    """Return the JSON value that :func:`library_from_json` reads."""
     profiles = _Profiles()
     templates = [_template(t, profiles) for verb in library.verbs() for t in library.templates(verb)]
     found: dict[str, Any] = record_value(LibraryRecord(list(library.unaligned), templates, profiles.all))
@@ -116,7 +116,7 @@ def library_to_json(library: Library) -> dict[str, Any]:
 
 
 def library_from_json(data: bytes, lexicon: Lexicon) -> Library:
-    """The library.
+    """Return the library.
 
     Raises:
         KeyError, TypeError, ValueError, IndexError: It is none.
@@ -193,7 +193,7 @@ def _read_template(data: TemplateRecord, profiles: Sequence[Profile]) -> Templat
 
 
 def reward_to_json(reward: Reward) -> bytes:
-    """All but the weights, as JSON."""
+    """Return all but the weights, as JSON."""
     features, syntax = reward.features, reward.features.syntax
     return _json(
         record_value(
@@ -216,7 +216,7 @@ _LARGEST_WEIGHT = 1e6
 
 
 def reward_from_json(data: bytes, weights: bytes) -> Reward:
-    """The same again.
+    """Return the same again.
 
     Raises:
         ValueError: It is none.
@@ -247,7 +247,7 @@ _FLOAT = 8
 
 
 def weights_bytes(reward: Reward) -> bytes:
-    """The weights as a ``.npy`` file."""
+    """Return the weights as a ``.npy`` file."""
     buffer = io.BytesIO()
     np.save(buffer, reward.theta.astype("<f8"), allow_pickle=False)
     return buffer.getvalue()
@@ -258,7 +258,7 @@ _PATIENCE = 2.0
 
 
 class Progress:
-    """Tells of work under way, once it has taken two seconds: its share on a terminal, one line elsewhere.
+    """Progress of work that has taken two seconds: the share done on a terminal, one line elsewhere.
 
     Args:
         what: The work, such as *learning from the demonstrations of kitchen*.
@@ -300,7 +300,7 @@ _DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
 
 
 def digest(corpus: Corpus) -> str:
-    """The checksum; the same wherever the folders lie."""
+    """Return the checksum; the same wherever the folders lie."""
     found = hashlib.sha256(_program().encode())
     for name, path in _files(corpus):
         content = path.read_bytes()
@@ -323,7 +323,7 @@ def _files(corpus: Corpus) -> Iterator[tuple[str, Path]]:
 
 @lru_cache(maxsize=1)
 def _program() -> str:
-    """Of the code and the word lists of :data:`_SOURCES`."""
+    """Return a digest of the code and the word lists of :data:`_SOURCES`."""
     found = hashlib.sha256()
     for source in (_ROOT / name for name in _SOURCES):
         for path in [source] if source.is_file() else sorted(source.rglob("*")):
@@ -342,7 +342,7 @@ _LIBRARY = 0.15
 
 @dataclass(frozen=True, slots=True)
 class Knowledge:
-    """What was learned of a domain.
+    """The knowledge learned of a domain.
 
     Attributes:
         library: The templates.
@@ -362,7 +362,7 @@ def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowle
 
     Args:
         corpus: The domain.
-        tell: Is told which share of the work is done.
+        tell: Called with the share of the work that is done.
 
     Raises:
         TmdError: A demonstration is wrong, or cannot be executed in its environment.
@@ -382,7 +382,7 @@ def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowle
 
 
 def _counted(demonstrations: Sequence[Demonstration], tell: Callable[[float], None]) -> Iterator[Demonstration]:
-    """The demonstrations; ``tell`` is told how far they are taken."""
+    """Yield the demonstrations; ``tell`` is told how far they are taken."""
     for number, demonstration in enumerate(demonstrations):
         tell(_LIBRARY * number / len(demonstrations))
         yield demonstration
@@ -403,7 +403,7 @@ _DIGITS = 16
 
 
 def place(corpus: Corpus, root: Path | None = None) -> Path:
-    """The directory for a domain: its own below ``root``, or the one beside its demonstrations."""
+    """Return the directory for a domain: its own below ``root``, or the one beside its demonstrations."""
     return root / corpus.folder.name if root is not None else corpus.directory / FOLDER
 
 
@@ -440,7 +440,7 @@ def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str |
 
 
 def recall(corpus: Corpus, directory: Path) -> Knowledge | None:
-    """What was saved; ``None`` where nothing was, or it is damaged, or was made from something else."""
+    """Read saved knowledge; ``None`` where there is none, or it is damaged or out of date."""
     try:
         manifest = json.loads((directory / MANIFEST).read_bytes())
         if manifest["made_from"] != digest(corpus):
@@ -458,7 +458,7 @@ def recall(corpus: Corpus, directory: Path) -> Knowledge | None:
 
 
 def known(corpus: Corpus, root: Path | None = None, tell: Callable[[float], None] | None = None) -> Knowledge:
-    """What was saved or kept of a domain, or else what its demonstrations teach now, which is kept.
+    """Return the saved or cached knowledge of a domain, or else learn it now and cache it.
 
     Args:
         corpus: The domain.
@@ -473,7 +473,7 @@ def known(corpus: Corpus, root: Path | None = None, tell: Callable[[float], None
 
 
 def _from_cache(corpus: Corpus, made_from: str, tell: Callable[[float], None] | None) -> Knowledge:
-    """What is kept, or else learned now and kept."""
+    """Return the cached knowledge, or else learn it now and cache it."""
     cache = cache_directory("learned")
     kept = cache / corpus.folder.name / made_from[:_DIGITS] if cache is not None else None
     found = recall(corpus, kept) if kept is not None else None

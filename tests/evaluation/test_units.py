@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from tmd.evaluation.models import model
+from tmd.evaluation.models.paper_models import Crf
 from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs import jobs
 from tmd.evaluation.runs.dataset import Dataset, Example
@@ -28,7 +29,7 @@ class Found:
     curve: tuple[Any, ...]
 
 
-class Toy:
+class Toy(Crf):
     """Learns in five steps a random number each, and predicts so many instructions of the person's own."""
 
     journal: Path | None = None

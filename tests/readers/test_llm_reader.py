@@ -17,9 +17,9 @@ from tmd.grounded import Grounded
 from tmd.pddl.semantics import holds
 from tmd.readers.llm.checking import ModelReading, ReplyChecker
 from tmd.readers.llm.client import ModelSettings
-from tmd.readers.llm.prompt import SentenceExample, one_line, prompt_for
+from tmd.readers.llm.prompt import one_line, prompt_for
 from tmd.readers.llm.reader import MOST_CORRECTIONS, LLMDialogue
-from tmd.readers.llm.reply import read_reply
+from tmd.readers.llm.reply import Reply, parse_reply
 from tmd.veil.sentence_file import SentenceTest, read_sentences
 
 TABLE = "02_table/corner1"
@@ -311,15 +311,14 @@ def test_an_answer_decides(ask: Ask, answer: int, goal: str) -> None:
 def test_a_prompt_has_no_example_of_its_own_environment() -> None:
     for path in FILES:
         tests = read_sentences(path)
-        examples = [SentenceExample(t.text, t.environment, t.goal) for t in tests if t.goal is not None]
         for test in tests[:10]:
-            text = _prompt(test, examples)
-            own = [example for example in examples if example.environment == test.environment]
+            text = _prompt(test, tests)
+            own = [example for example in tests if example.environment == test.environment]
             assert text.count(one_line(test.text)) == 1
-            assert not any(f"{one_line(example.request)} => " in text for example in own)
+            assert not any(f"{one_line(example.text)} => " in text for example in own)
 
 
-def _prompt(test: SentenceTest, examples: list[SentenceExample]) -> str:
+def _prompt(test: SentenceTest, examples: list[SentenceTest]) -> str:
     own = kit(test.domain)
     world = own._corpus.world(test.environment)
     prompt = prompt_for(test.text, world, world.task.init, own.lexicon, examples)
@@ -330,8 +329,7 @@ def _prompt(test: SentenceTest, examples: list[SentenceExample]) -> str:
 def test_a_prompt_stays_small(path: Path) -> None:
     """The largest bundled prompts have 3.6 characters a token (docs/llm.md): less than 6,000 tokens."""
     tests = read_sentences(path)
-    examples = [SentenceExample(t.text, t.environment, t.goal) for t in tests if t.goal is not None]
-    assert max(len(_prompt(test, examples)) for test in tests) < 21_500
+    assert max(len(_prompt(test, tests)) for test in tests) < 21_500
 
 
 def test_a_request_cannot_end_its_own_quotation() -> None:
@@ -387,7 +385,7 @@ REPLIES = st.one_of(
 def test_a_reply_is_read_or_its_fault_is_named(text: str) -> None:
     checker = ReplyChecker(TEXT, kit("02_table")._corpus.world("corner1"))
     try:
-        found = checker.read(read_reply(text))
+        found = checker.read(parse_reply(Reply, text))
     except TmdError as error:
         assert error.message
         return

@@ -29,7 +29,7 @@ def main() -> None:
         from tmd.cli.program import run
 
         code = int(run(sys.argv[1:]))
-    except ModuleNotFoundError as error:  # not yet able to say so as every other fault is told
+    except ModuleNotFoundError as error:  # too early for tmd.cli.errors
         if error.name is None or error.name.startswith("tmd"):
             raise
         code = _missing(error.name)

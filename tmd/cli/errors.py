@@ -27,7 +27,7 @@ _WIDTH = 100
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """What is told to the user.
+    """An error as the user sees it.
 
     Attributes:
         code: What the program ends with.
@@ -44,7 +44,7 @@ class Fault:
     source: str | None = None
 
     def text(self) -> str:
-        """The fault for people: one line, the source line with a caret where there is one, and the hint."""
+        """Return the fault for people: one line, the source line with a caret where there is one, and the hint."""
         place = f"{self.location}: " if self.location else ""
         lines = [f"error: {place}{one_line(self.message)}"]
         if self.location and self.source is not None:
@@ -54,7 +54,7 @@ class Fault:
         return "\n".join(lines) + "\n"
 
     def json(self) -> Mapping[str, object]:
-        """The fault for programs."""
+        """Return the fault for programs."""
         place = self.location
         where = {"file": place.file, "line": place.line, "column": place.column} if place else None
         return {
@@ -69,7 +69,7 @@ class Fault:
 
 
 def fault_of(error: BaseException, command: str = "tmd") -> Fault:
-    """What ``error`` means to the user; everything that nobody foresaw is a fault of the program.
+    """Return an error as the user sees it; unforeseen ones are faults of the program.
 
     Args:
         error: What ended the program.
@@ -113,7 +113,7 @@ _REMEDIES: Mapping[type[TmdError], str] = {
 
 
 def _remedy(error: TmdError, command: str) -> str:
-    """What to do about an error whose author knew nothing better."""
+    """Return the remedy for an error without a hint."""
     kind = next((remedy for kind, remedy in _REMEDIES.items() if isinstance(error, kind)), None)
     if kind is not None:
         return kind
@@ -142,12 +142,12 @@ def _internal(error: BaseException) -> Fault:
 
 
 def one_line(text: str) -> str:
-    """The text without anything that could move the cursor of a terminal."""
+    """Return the text without anything that could move the cursor of a terminal."""
     return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
 
 def pointed(source: str, column: int) -> list[str]:
-    """The source line, and under it a caret at ``column``; a long line is cut to what is around it."""
+    """Return the source line, and under it a caret at ``column``; a long line is cut to what is around it."""
     line = "".join(c if c.isprintable() else " " for c in source.rstrip("\r\n"))
     start = max(0, column - 1 - _WIDTH // 2) if len(line) > _WIDTH else 0
     shown = line[start : start + _WIDTH]

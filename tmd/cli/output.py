@@ -1,4 +1,4 @@
-"""What commands print: text or one JSON value, as UTF-8, the same bytes for the same input."""
+"""The output of commands: text or one JSON value, as UTF-8, the same bytes for the same input."""
 
 from __future__ import annotations
 
@@ -61,11 +61,11 @@ class ErrorStream(TextIOBase):
         return len(text)
 
     def isatty(self) -> bool:
-        """Whether somebody looks at it."""
+        """Return whether somebody looks at it."""
         return self._stream.isatty()
 
     def fileno(self) -> int:
-        """Its number, for its width."""
+        """Return the file descriptor, which gives the width."""
         return self._stream.fileno()
 
 

@@ -69,7 +69,7 @@ def program(ctx: click.Context, domains: Path | None, problems: Path | None, deb
 
 
 def run(arguments: Sequence[str]) -> ExitCode:
-    """Run ``tmd`` and say how it ended; whatever goes wrong is told in one line, never as a traceback."""
+    """Run ``tmd`` and return the exit code; every error is reported in one line, never as a traceback."""
     try:
         with stoppable():
             code = _invoke(list(arguments) or ["--help"])
@@ -96,7 +96,7 @@ def _invoke(arguments: list[str]) -> ExitCode:
 
 
 def _tell(fault: Fault, *, as_json: bool) -> ExitCode:
-    """Tell people on standard error and, where they asked for JSON, programs on standard output."""
+    """Report an error on standard error and, where JSON was asked for, on standard output."""
     code = fault.code
     try:
         if as_json:

@@ -1,4 +1,4 @@
-"""Being told to stop by another program is as good as Ctrl-C: what was written is finished first."""
+"""Signals: a request to stop by another program is treated as Ctrl-C, so that files are finished first."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from tmd.veil.demonstration import check_goal
 
 @dataclass(frozen=True, slots=True)
 class LearnedDomain:
-    """What was learned of a domain.
+    """A learned domain, and where it was saved.
 
     Attributes:
         knowledge: Library, policy, goals of verbs, and weights if they were learned.

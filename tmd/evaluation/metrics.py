@@ -28,31 +28,10 @@ from typing import TypeAlias
 
 from rapidfuzz.distance import Levenshtein
 
-from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
-from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, universe
+from tmd.pddl.forced_execution import ForcedExecution
+from tmd.pddl.model import Formula, Instruction, Problem, universe
 from tmd.pddl.semantics import holds
 from tmd.pddl.task import Bits, Task
-
-__all__ = [
-    "EPSILON",
-    "ROBOT",
-    "ForcedExecution",
-    "Mentions",
-    "Rollout",
-    "Scorer",
-    "Scores",
-    "arguments",
-    "changes",
-    "cover_of",
-    "eed",
-    "eed_trim",
-    "end",
-    "ied",
-    "levenshtein",
-    "mean",
-    "rollout",
-    "visible",
-]
 
 EPSILON = 0.001
 """Keeps the released code's quotients defined; it shows in the third digit, so it is kept."""
@@ -65,7 +44,7 @@ Mentions: TypeAlias = Callable[[Instruction], Iterable[str]]
 
 
 def arguments(instruction: Instruction) -> tuple[str, ...]:
-    """All arguments: what an instruction names unless a data set says otherwise."""
+    """Return all arguments: what an instruction names unless a data set says otherwise."""
     return instruction.args
 
 
@@ -98,24 +77,20 @@ def _token(instruction: Instruction | str) -> tuple[str, ...]:
 
 
 def levenshtein(a: Sequence[Hashable], b: Sequence[Hashable]) -> int:
-    """The fewest insertions, deletions and substitutions that turn ``a`` into ``b``."""
+    """Return the fewest insertions, deletions and substitutions that turn ``a`` into ``b``."""
     codes = {token: number for number, token in enumerate(dict.fromkeys((*a, *b)))}  # not their hashes, which may meet
     return Levenshtein.distance([codes[token] for token in a], [codes[token] for token in b])
 
 
-def changes(before: AbstractSet[GroundAtom], after: AbstractSet[GroundAtom]) -> frozenset[GroundAtom]:
-    """The atoms that are true in one of two states only, the robot's among them.
+def end(predicted: Bits, recorded: Bits) -> float:
+    """Return the Jaccard index of two sets of changed atoms: both empty is 100, one empty is 0.
 
-    Seen from the same first state, an atom that changed can have only one new value, so the atom says all.
+    The changes are those between the first and the last state. Seen from the same first state, an atom that changed can
+    have only one new value, so the atom says all.
     """
-    return frozenset(before ^ after)
-
-
-def end(predicted: AbstractSet[Hashable], recorded: AbstractSet[Hashable]) -> float:
-    """Jaccard index of two sets of :func:`changes`: both empty is 100, one empty is 0."""
     if not predicted and not recorded:
         return 100.0
-    return 100 * len(predicted & recorded) / (len(predicted | recorded) + EPSILON)
+    return 100 * (predicted & recorded).bit_count() / ((predicted | recorded).bit_count() + EPSILON)
 
 
 def eed(predicted: Sequence[Hashable], recorded: Sequence[Hashable]) -> float:
@@ -141,7 +116,7 @@ def _trimmed(states: Sequence[Hashable]) -> list[Hashable]:
 
 
 def _unmet(predicted: Sequence[Hashable], recorded: Sequence[Hashable]) -> int:
-    """The recursion T of equation 5, from the back: how many recorded states meet no equal predicted one."""
+    """Return the recursion T of equation 5, from the back: how many recorded states meet no equal predicted one."""
     n = len(predicted)
     below = [0] * (n + 1)
     for i in range(len(recorded) - 1, -1, -1):
@@ -156,7 +131,7 @@ def _unmet(predicted: Sequence[Hashable], recorded: Sequence[Hashable]) -> int:
 def cover_of(
     recorded: Iterable[Instruction], problem: Problem, mentions: Mentions = arguments
 ) -> frozenset[str] | None:
-    """The objects that a sequence names, constants of the domain (relation words, say) left out.
+    """Return the objects that a sequence names, constants of the domain (relation words, say) left out.
 
     ``None`` means that it names one that does not exist: then no two states count as equal.
     """
@@ -166,7 +141,7 @@ def cover_of(
 
 
 def visible(task: Task, problem: Problem, cover: AbstractSet[str]) -> Bits:
-    """The atoms that EED looks at: about objects of the cover only, and not about the robot."""
+    """Return the atoms that EED looks at: about objects of the cover only, and not about the robot."""
     looked_at = 0
     for number, about in enumerate(_subjects(task, problem)):
         if about and about <= cover:
@@ -175,7 +150,7 @@ def visible(task: Task, problem: Problem, cover: AbstractSet[str]) -> Bits:
 
 
 def _subjects(task: Task, problem: Problem) -> list[frozenset[str]]:
-    """For each atom the objects it is about; none for an atom about the robot."""
+    """Return for each atom the objects that it is about; none for an atom about the robot."""
     known = universe(problem)
     constants = {constant.name for constant in problem.domain.constants}
     found = []
@@ -208,7 +183,7 @@ class Scorer:
         self.simulator.prepare({instruction for sequence in sequences for instruction in sequence})
 
     def score(self, predicted: Sequence[Instruction], recorded: Sequence[Instruction]) -> Scores:
-        """The scores of one prediction."""
+        """Return the scores of one prediction."""
         self.prepare((predicted, recorded))
         p, r = self.simulator.run(predicted), self.simulator.run(recorded)
         mine, gold = self.changed(predicted), self.changed(recorded)
@@ -219,10 +194,10 @@ class Scorer:
         else:
             a, b = [s & seen for s in p.states], [s & seen for s in r.states]
             similar = eed(a, b), eed_trim(a, b)
-        return Scores(ied(predicted, recorded), _jaccard(mine, gold), *similar, executable=100.0 * p.executable)
+        return Scores(ied(predicted, recorded), end(mine, gold), *similar, executable=100.0 * p.executable)
 
     def changed(self, sequence: Sequence[Instruction]) -> Bits:
-        """What END compares: the atoms that are otherwise after a sequence, as bits of the task of that moment.
+        """Return the atoms that a sequence changes, which END compares, as bits of the current task.
 
         A sequence with an instruction that was not prepared makes another task, with other bits.
         """
@@ -245,14 +220,7 @@ class Scorer:
         return self._covers[key]
 
 
-def _jaccard(a: Bits, b: Bits) -> float:
-    """:func:`end` on bit sets."""
-    if not a and not b:
-        return 100.0
-    return 100 * (a & b).bit_count() / ((a | b).bit_count() + EPSILON)
-
-
 def mean(scores: Sequence[Scores]) -> Scores:
-    """The plain mean of each score; zeros for none."""
+    """Return the plain mean of each score; zeros for none."""
     count = max(len(scores), 1)
     return Scores(*(sum(getattr(s, field.name) for s in scores) / count for field in fields(Scores)))

@@ -53,7 +53,7 @@ class SentenceResult:
 
 
 def judge(test: SentenceTest, grounded: Grounded, problem: Problem) -> SentenceResult:
-    """What became of a test whose text was grounded in ``problem``.
+    """Judge a test whose text was grounded in ``problem``.
 
     Raises:
         TmdError: The goal of the test is not a condition of the domain; with the test's place.

@@ -1,4 +1,4 @@
-"""Whether one row is better than another: paired tests between rows that were tested on the same examples.
+"""Significance: paired tests between rows that were tested on the same examples.
 
 Examples with the same text are not independent, whatever the environment: models read the same words. So what is
 drawn, and what is flipped, is a text with all its examples.
@@ -32,7 +32,7 @@ _SLACK = 1e-9
 
 
 def score(prediction: Mapping[str, Any], metric: str) -> float | None:
-    """A score from 0 to 100; what is true or false counts 100 or 0, and ``None`` where there is nothing to score."""
+    """Return a score from 0 to 100; true is 100, false is 0, and ``None`` is no score."""
     value = prediction.get(metric)
     if value is None:
         return None
@@ -40,7 +40,7 @@ def score(prediction: Mapping[str, Any], metric: str) -> float | None:
 
 
 def compare(predictions: Sequence[dict[str, Any]], models: Sequence[str], metrics: Sequence[str]) -> dict[str, Any]:
-    """Every two rows, on the examples that all rows have; in each metric on those of them that are scored by it.
+    """Return every two rows, on the examples that all rows have; in each metric on those of them that are scored by it.
 
     Returns:
         ``{"examples", "texts", "resamples", "level", "pairs": [{"a", "b", METRIC: {"difference", "low", "high",
@@ -67,7 +67,7 @@ def compare(predictions: Sequence[dict[str, Any]], models: Sequence[str], metric
 def _differences(
     rows: _Rows, keys: Sequence[_Key], pairs: Sequence[tuple[str, str]], metric: str
 ) -> list[dict[str, float] | None]:
-    """What :func:`compare` says of each pair in one metric: a family of tests."""
+    """Return the entries of :func:`compare` for each pair in one metric: a family of tests."""
     scores = {model: {key: score(row[key], metric) for key in keys} for model, row in rows.items()}
     scored = [key for key in keys if all(found[key] is not None for found in scores.values())]
     if not scored:
@@ -85,7 +85,7 @@ def _differences(
 
 
 def sign_flip(totals: Floats) -> Floats:
-    """The p of the two-sided paired permutation test (Fisher's sign-flip test) of each row of ``totals``.
+    """Return the p of the two-sided paired permutation test (Fisher's sign-flip test) of each row of ``totals``.
 
     If two models are equally good, each difference could as well have had the other sign. p is the share of sign
     patterns whose sum is at least as far from 0 as the one seen: of all patterns where there are few, otherwise

@@ -165,74 +165,55 @@ class HandledGroup:
     every: bool = False
 
 
-class Dialogue(Protocol):
-    """A request as it was read, in one environment."""
+class Dialogue:
+    """A request as it was read, in one environment. This class knows the clauses only, and no goals.
 
-    @property
-    def parsed(self) -> Parsed:
-        """The clauses, and the pieces of text that none of them covers, for display."""
-        ...
+    Args:
+        parsed: The clauses, and the pieces of text that none of them covers.
 
-    @property
-    def clauses(self) -> Sequence[VerbClause]:
-        """The verb clauses in the order of the text, for templates and factors."""
-        ...
+    Attributes:
+        clauses: The verb clauses in the order of the text, for templates and factors.
+        steps: The steps in the order of doing.
+        constraints: Conditions on the whole plan.
+        memory: The memory before the first step.
+        refusal: Why the request as a whole has no plan; ``None`` where it may have one.
+        question: A question that the reader itself wants to be answered.
+        notes: Warnings about the reading as a whole.
+        usage: The effort of the language model; ``None`` where none was asked.
+    """
 
-    @property
-    def steps(self) -> Sequence[Step]:
-        """The steps in the order of doing."""
-        ...
+    steps: Sequence[Step] = ()
+    constraints: PlanConstraints = PlanConstraints()
+    memory: object = None
+    refusal: Refusal | None = None
+    question: Question | None = None
+    notes: Sequence[str] = ()
+    usage: Usage | None = None
 
-    @property
-    def constraints(self) -> PlanConstraints:
-        """Conditions on the whole plan."""
-        ...
-
-    @property
-    def memory(self) -> object:
-        """The memory before the first step."""
-        ...
-
-    @property
-    def refusal(self) -> Refusal | None:
-        """Why the request as a whole has no plan; ``None`` where it may have one."""
-        ...
-
-    @property
-    def question(self) -> Question | None:
-        """A question that the reader itself wants to be answered."""
-        ...
-
-    @property
-    def notes(self) -> Sequence[str]:
-        """Warnings about the reading as a whole."""
-        ...
-
-    @property
-    def usage(self) -> Usage | None:
-        """The effort of the language model; ``None`` where none was asked."""
-        ...
+    def __init__(self, parsed: Parsed) -> None:
+        self.parsed = parsed
+        self.clauses: Sequence[VerbClause] = parsed.clauses
 
     @property
     def asks(self) -> bool:
-        """Whether something is asked for, so that a plan without instructions may be an answer."""
-        ...
+        """Return whether something is asked for, so that a plan without instructions may be an answer."""
+        return bool(self.clauses) or any(not (c.result or c.implied) for c in self.parsed.constraints)
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the candidate goals of a step that begins in ``state``."""
-        ...
+        return StepGoals((), memory)
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``."""
-        ...
+        return memory
 
     def handled(self, step: Step) -> Sequence[HandledGroup] | None:
         """Return what a demonstrated sequence for a step without a goal must handle; ``None`` where none would do."""
-        ...
+        return None
 
 
 class Reader(Protocol):
-    """Reads requests."""
+    """A reader of requests."""
 
     def begin(self, request: str, world: World, state: Bits) -> Dialogue:
         """Read a request that is made in ``state``.

@@ -32,24 +32,22 @@ from tmd.readers.interface import (
     Dialogue,
     HandledGroup,
     PlanConstraints,
-    Question,
     Step,
     StepGoals,
-    Usage,
 )
 from tmd.readers.rule_steps import USE, RuleStep, steps_of
 from tmd.veil.world import World
 
 
 class RuleReader:
-    """Reads requests by grammar and lexicon.
+    """The reader by grammar and lexicon.
 
     Args:
         lexicon: The words of the domain.
         learned: The goals that the domain's demonstrations teach.
         sources: The sources of goals that are used (:data:`tmd.goals.tables.SOURCES`); ``None`` where only the clauses
             are wanted.
-        guess: Whether a noun may mean a thing that is only akin to it, and a step be left out that is not understood.
+        guess: Whether a noun may mean a thing that is only similar to it, and an unread step be left out.
     """
 
     def __init__(
@@ -65,7 +63,7 @@ class RuleReader:
         self._sources = sources
         self._guess = guess
 
-    def begin(self, request: str, world: World, state: Bits) -> ClauseDialogue:
+    def begin(self, request: str, world: World, state: Bits) -> Dialogue:
         """Read a request that is made in ``state``.
 
         Raises:
@@ -73,7 +71,7 @@ class RuleReader:
         """
         parsed = parse(request, self._lexicon)
         if self._sources is None:
-            return ClauseDialogue(parsed)
+            return Dialogue(parsed)
         tables = goal_tables(self._lexicon, world.task.problem.domain, self._learned, self._sources)
         return RuleDialogue(parsed, GoalReader(world, tables, self._lexicon, guess=self._guess), state)
 
@@ -86,46 +84,9 @@ class RuleReader:
         return None
 
 
-class ClauseDialogue:
-    """The clauses of a request, without goals: all that the models of the paper look at.
-
-    Args:
-        parsed: The clauses.
-    """
-
-    steps: tuple[RuleStep, ...] = ()
-    constraints: PlanConstraints = PlanConstraints()
-    memory: object = None
-    refusal: Refusal | None = None
-    question: Question | None = None
-    notes: tuple[str, ...] = ()
-    usage: Usage | None = None
-
-    def __init__(self, parsed: Parsed) -> None:
-        self.parsed = parsed
-        self.clauses = parsed.clauses
-
-    @property
-    def asks(self) -> bool:
-        """Whether something is asked for; to hear only what not to do asks for nothing."""
-        return bool(self.clauses) or any(not (c.result or c.implied) for c in self.parsed.constraints)
-
-    def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
-        """Return no goals."""
-        return StepGoals((), memory)
-
-    def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
-        """Return the memory as it is."""
-        return memory
-
-    def handled(self, step: Step) -> Sequence[HandledGroup] | None:
-        """Return nothing that must be handled."""
-        return None
-
-
 @dataclass(frozen=True, slots=True)
 class _Progress:
-    """What was said and done before a step.
+    """The state of a dialogue before a step.
 
     Attributes:
         memory: What nouns turned out to mean.
@@ -136,7 +97,7 @@ class _Progress:
     guard: bool | None = None
 
 
-class RuleDialogue(ClauseDialogue):
+class RuleDialogue(Dialogue):
     """A request read clause by clause in one environment.
 
     Args:

@@ -18,18 +18,16 @@ from tmd.evaluation.runs.summary import EMPTY
 from tmd.evaluation.runs.trial_records import FOLDER, SKIPPED, Trials, read_trial, read_trials
 from tmd.files import make_directory, write_text
 from tmd.inference.config import DEFAULT
-from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.records.prediction import PredictionRecord
-from tmd.records.run import RanStep
 from tmd.records.trial import Skip, Trial, TrialRequest
-from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.monitor.listeners import Order
 from tmd.robot.run_plan import Filming, run_plan
 from tmd.robot.sim.engine import STEPS_PER_SECOND
-from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.skills.skill_file import load_skills
 from tmd.robot.video.film import open_movie
 from tmd.robot.video.movie_file import MovieFile
+from tmd.robot_trials.plan_runner import StepRecorder
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_root
@@ -124,7 +122,7 @@ def _carried_out(job: Job) -> Trial:
     problem = corpus.world(where).task.problem
     kinematic = job.asked.mode == "kinematic"
     orders = orders_of(job.line)
-    notes = _Notes()
+    notes = StepRecorder()
     movie, strip = _movie(job), job.out / f"{where}.png"
     heading = f"{where}: {len(orders)} instructions of {job.asked.model}"
     with movie or nullcontext():
@@ -169,20 +167,6 @@ def orders_of(line: PredictionRecord) -> list[Order]:
         for latent, texts in ((True, clause.latent), (False, clause.said))
         for text in texts
     ]
-
-
-class _Notes:
-    """Record of each step."""
-
-    def __init__(self) -> None:
-        self.steps: list[RanStep] = []
-
-    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """Record nothing yet."""
-
-    def end(self, title: Title, step: ExecutedStep) -> None:
-        """Record the step."""
-        self.steps.append(RanStep.of(title, step))
 
 
 Mode = Literal["kinematic", "physics"]

@@ -1,4 +1,4 @@
-"""Which instructions of one segment served which of its clauses.
+"""The alignment of the instructions of a segment with its clauses.
 
 People align their instructions with the text only coarsely: a segment may hold several clauses. Its instructions are
 divided among them in order, so that instructions go to the clause that speaks of their objects, and a cut falls where
@@ -29,7 +29,7 @@ def split(
     mentions: Mentions,
     state: Bits,
 ) -> list[tuple[Instruction, ...]]:
-    """The instructions of each clause: consecutive runs, some perhaps empty.
+    """Return the instructions of each clause: consecutive runs, some perhaps empty.
 
     Args:
         clauses: The clauses of the segment, in order; at least one.
@@ -49,7 +49,7 @@ def split(
 
 
 def _best_ends(fits: Sequence[Sequence[float]], cuts: Sequence[float]) -> list[int]:
-    """Where the run of each clause ends, for the division of greatest fit; ties go to the later cut."""
+    """Return the end of each clause's run in the division of greatest fit; ties go to the later cut."""
     count = len(cuts)
     best: list[tuple[float, list[int]] | None] = [(0.0, [])] + [None] * (count - 1)
     for number, row in enumerate(fits):
@@ -73,7 +73,7 @@ def _best_ends(fits: Sequence[Sequence[float]], cuts: Sequence[float]) -> list[i
 
 
 def speaks_of(clause: Clause, mentions: Mentions, state: Bits) -> dict[str, float]:
-    """How surely the clause speaks of each object."""
+    """Return for each object how surely a clause mentions it, from 0 to 1."""
     found: dict[str, float] = {}
     for noun in clause.resolved():
         matches = mentions.of(noun, state)
@@ -84,13 +84,13 @@ def speaks_of(clause: Clause, mentions: Mentions, state: Bits) -> dict[str, floa
 
 
 def fit(instruction: Instruction, said: dict[str, float], profiles: Profiles) -> float:
-    """How well an instruction fits a clause: the mean over its objects of whether the clause speaks of them."""
+    """Return how well an instruction fits a clause: the mean over its objects of how surely they are mentioned."""
     own = [_spoken_of(name, said, profiles) for name in _objects(instruction, profiles)]
     return sum(own) / len(own) if own else 0.0
 
 
 def _spoken_of(name: str, said: dict[str, float], profiles: Profiles) -> float:
-    """How surely an object is spoken of: by itself, by another part of its whole, or by the whole."""
+    """Return how surely an object is mentioned: itself, another part of its whole, or the whole."""
     found = said.get(name, 0.0)
     whole = profiles.wholes.get(name)
     if whole is None:
@@ -100,7 +100,7 @@ def _spoken_of(name: str, said: dict[str, float], profiles: Profiles) -> float:
 
 
 def cut_cost(instructions: Sequence[Instruction], at: int, profiles: Profiles) -> float:
-    """What it costs to cut before instruction ``at``."""
+    """Return the cost of a cut before instruction ``at``."""
     if not 0 < at < len(instructions):
         return 0.0
     here, there = (set(_objects(instruction, profiles)) for instruction in (instructions[at - 1], instructions[at]))

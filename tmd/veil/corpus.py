@@ -21,7 +21,7 @@ from tmd.world.folder import DomainFolder
 
 
 class Corpus:
-    """What lies in ``<problems>/<domain>/``: ``environments/`` and ``<task>/demonstrations.jsonl``.
+    """The content of ``<problems>/<domain>/``: ``environments/`` and ``<task>/demonstrations.jsonl``.
 
     An environment is a YAML file, or, in a domain without object graphs, a PDDL problem whose goal is not looked at.
 
@@ -42,11 +42,11 @@ class Corpus:
         return read_lexicon(self.folder.lexicon_path, self.folder.kinds)
 
     def environments(self) -> list[str]:
-        """The names of the environments, sorted."""
+        """Return the names of the environments, sorted."""
         return sorted(self._files)
 
     def world(self, name: str) -> World:
-        """The environment ``name``, ground; made once.
+        """Return the environment ``name``, ground; made once.
 
         Raises:
             TmdError: There is none, or it is wrong.
@@ -56,7 +56,7 @@ class Corpus:
         return self._worlds[name]
 
     def file(self, name: str) -> Path:
-        """The file of an environment.
+        """Return the file of an environment.
 
         Raises:
             TmdError: There is none.
@@ -75,7 +75,7 @@ class Corpus:
         return {path.stem: path for suffix in ("pddl", "yaml") for path in sorted(directory.glob(f"*.{suffix}"))}
 
     def read(self, path: Path) -> Problem:
-        """The environment in a file, which need not be one of the bundled ones.
+        """Return the environment in a file, which need not be one of the bundled ones.
 
         Raises:
             TmdError: It is missing or wrong.
@@ -85,11 +85,11 @@ class Corpus:
         return compile_problem(load_environment(path), self.folder)
 
     def tasks(self) -> list[str]:
-        """The tasks there are demonstrations of, sorted."""
+        """Return the tasks there are demonstrations of, sorted."""
         return sorted(path.parent.name for path in self.directory.glob("*/demonstrations.jsonl"))
 
     def demonstrations(self, task: str | None = None) -> list[Demonstration]:
-        """The demonstrations of one task, or of all, in the order of the files.
+        """Return the demonstrations of one task, or of all, in the order of the files.
 
         Raises:
             TmdError: There is no such task, a file is wrong, or a demonstration cannot be executed.
@@ -112,7 +112,7 @@ class Corpus:
         self._demonstrations = {}
 
     def _of_task(self, task: str) -> list[Demonstration]:
-        """The demonstrations of one task, read and checked once."""
+        """Return the demonstrations of one task, read and checked once."""
         if task not in self._demonstrations:
             found = read_demonstrations(self.directory / task / "demonstrations.jsonl")
             for demonstration in found:
@@ -122,7 +122,7 @@ class Corpus:
 
 
 def replay(demonstration: Demonstration, problem: Problem, key: str = "instructions") -> list[State]:
-    """The states before the first and after each instruction.
+    """Return the states before the first and after each instruction.
 
     ``key`` is where the file has them: "instructions", or "proposed" for those of the plan that was corrected.
 
@@ -144,7 +144,7 @@ def replay(demonstration: Demonstration, problem: Problem, key: str = "instructi
 
 
 def final_state(demonstration: Demonstration, world: World) -> State:
-    """The state after all instructions of a demonstration that can be executed."""
+    """Return the state after all instructions of a demonstration that can be executed."""
     state = world.task.init
     for instruction in demonstration.instructions:
         state = world.task.by_instruction[instruction].apply(state)
@@ -177,7 +177,7 @@ def check_executable(demonstration: Demonstration, world: World) -> None:
 
 
 def _wrong(instruction: Instruction, state: State, problem: Problem) -> TmdError | None:
-    """Why ``instruction`` cannot be done in ``state``; ``None`` where it can."""
+    """Return why an instruction cannot be done in ``state``; ``None`` where it can."""
     try:
         broken = first_broken(instruction, state, problem)
     except TmdError as error:

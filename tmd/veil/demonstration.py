@@ -12,7 +12,7 @@ Segments are pieces of the text, in order and without overlap; each carries the 
 ``end_state`` lists literals (``(not (…))`` as well) that hold when all instructions are done. ``goal`` is a closed PDDL
 condition: what the text asks for, written from the text alone, with ``exists`` for what it leaves open.
 
-These two may be left out, and three keys may be there besides. ``who`` and ``when`` are texts. ``proposed`` stands
+These two may be left out, and three keys may be added. ``who`` and ``when`` are texts. ``proposed`` stands
 where somebody corrected a plan: it lists the instructions of that plan, and each segment has those of its own as
 ``proposed``.
 """
@@ -77,7 +77,7 @@ class Demonstration:
 
 
 def demonstration_line(demonstration: Demonstration) -> str:
-    """The line of a corpus that :func:`read_demonstration` reads ``demonstration`` from, without its end."""
+    """Return the line of a corpus that :func:`read_demonstration` reads ``demonstration`` from, without its end."""
     text = demonstration.text
     data: dict[str, object] = {key: getattr(demonstration, key) for key in _KEYS[:4]}
     data["segments"] = [
@@ -117,7 +117,7 @@ def read_demonstrations(path: Path) -> list[Demonstration]:
 
 
 def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
-    """The demonstration in line ``number`` of a corpus.
+    """Return the demonstration in line ``number`` of a corpus.
 
     Raises:
         TmdError: The line is not a demonstration; with its place.
@@ -131,7 +131,7 @@ _Path = tuple[str | int, ...]
 
 @dataclass(frozen=True, slots=True)
 class _Line:
-    """Reads one line; knows where it is."""
+    """One line of a corpus, with its place."""
 
     path: Path
     number: int
@@ -145,7 +145,7 @@ class _Line:
         offset: int = 0,
         code: str = "bad-demonstration",
     ) -> TmdError:
-        """A fault of the value that ``at`` leads to, or of its character ``offset``."""
+        """Return a fault of the value that ``at`` leads to, or of its character ``offset``."""
         place = Location(str(self.path), self.number, _column(self.line, at, offset))
         return TmdError(message, location=place, hint=hint, source=self.line, code=code)
 
@@ -198,7 +198,7 @@ class _Line:
         return value
 
     def _corrected(self, data: dict[str, object], segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
-        """The plan that was corrected; its segments must be that plan as well."""
+        """Return the plan that was corrected; its segments must be that plan as well."""
         parts = [segment.proposed for segment in segments]
         if "proposed" not in data:
             if any(part is not None for part in parts):
@@ -246,7 +246,7 @@ class _Line:
 
 
 def step_fault(demonstration: Demonstration, number: int, fault: TmdError, key: str = "instructions") -> TmdError:
-    """What is wrong with step ``number`` (the first is 1), with its segment, and its place in the file.
+    """Return the fault of step ``number`` (the first is 1), with its segment, and its place in the file.
 
     Args:
         demonstration: The demonstration.
@@ -275,7 +275,7 @@ _END_OF_LINE = re.compile(r"\r\n|\r|\n")
 
 
 def read_goal(demonstration: Demonstration, problem: Problem) -> Formula | None:
-    """What the demonstration's goal says; ``None`` where it has none.
+    """Read the goal of a demonstration; ``None`` where it has none.
 
     Args:
         demonstration: The demonstration.
@@ -309,7 +309,7 @@ def check_goal(demonstration: Demonstration, problem: Problem, state: State) -> 
 
 
 def _placed(demonstration: Demonstration, fault: TmdError, message: str) -> TmdError:
-    """The fault with its place in the file of the demonstration instead of that in the goal's own text."""
+    """Return the fault with its place in the file of the demonstration instead of that in the goal's own text."""
     place, line = demonstration.location, None
     if fault.location is not None:
         goal = demonstration.goal or ""
@@ -320,7 +320,7 @@ def _placed(demonstration: Demonstration, fault: TmdError, message: str) -> TmdE
 
 
 def _in_file(demonstration: Demonstration, at: _Path, offset: int = 0) -> tuple[Location | None, str | None]:
-    """Where a value of ``demonstration`` stands, and that line; the line is looked up, for it is seldom asked for."""
+    """Return the place of a value of a demonstration, and its line, which is read again."""
     place = demonstration.location
     if place is None:
         return None, None
@@ -332,7 +332,7 @@ def _in_file(demonstration: Demonstration, at: _Path, offset: int = 0) -> tuple[
 
 
 def _column(line: str, at: _Path, offset: int = 0) -> int:
-    """The column in ``line``, which is JSON, of the value that ``at`` leads to; of a string, of its ``offset``.
+    """Return the column in ``line``, which is JSON, of the value that ``at`` leads to; of a string, of its ``offset``.
 
     JSON is YAML, whose nodes know their places; only halves of characters (surrogates) YAML does not have.
     """

@@ -47,7 +47,7 @@ class Library:
         return self._by_verb.get(self.lexicon.canonical_verb(clause.verb), ())
 
     def distinct(self, clause: VerbClause, world: World) -> Sequence[Template]:
-        """What :meth:`propose` gives, without those that cannot but propose in ``world`` what one before them does.
+        """Return the templates of :meth:`propose` without those that propose in ``world`` the same as an earlier one.
 
         A large library shows the same again and again, with things of other names in other places. What that costs is
         paid once for a library and an environment.
@@ -71,12 +71,8 @@ class Library:
             known[verb] = tuple(sorted(firsts, key=lambda template: order[id(template)]))
         return known[verb]
 
-    def without(self, environment: str) -> Library:
-        """The library as it would be had nobody been in ``environment``: for learning as for testing."""
-        return self.filtered(lambda template: template.environment != environment)
-
     def filtered(self, keep: Callable[[Template], bool]) -> Library:
-        """A library of the templates for which ``keep`` is true."""
+        """Return a library of the templates for which ``keep`` is true."""
         found = Library(self.lexicon)
         for verb in self._by_verb:
             for template in self._by_verb[verb]:
@@ -85,7 +81,7 @@ class Library:
         return found
 
     def extended(self, taught: Iterable[Taught], order: Mapping[str, int]) -> Library:
-        """A library with more templates, as if all had been learned together.
+        """Return a library with more templates, as if all had been learned together.
 
         Args:
             taught: What is new.
@@ -101,11 +97,11 @@ class Library:
         return found
 
     def templates(self, verb: str) -> Sequence[Template]:
-        """The templates of a canonical verb."""
+        """Return the templates of a canonical verb."""
         return self._by_verb.get(verb, ())
 
     def verbs(self) -> list[str]:
-        """The verbs there are templates for, sorted."""
+        """Return the verbs there are templates for, sorted."""
         return sorted(self._by_verb)
 
     def __len__(self) -> int:
@@ -113,19 +109,19 @@ class Library:
 
 
 class WholeLibrary(Library):
-    """A library that proposes all it has, whatever the clause: for a robot that was told nothing."""
+    """A library that proposes all its templates for every clause, for models without language."""
 
     def propose(self, clause: VerbClause) -> Sequence[Template]:
-        """Every template, verb by verb."""
+        """Return every template, verb by verb."""
         return [template for verb in self.verbs() for template in self.templates(verb)]
 
     def distinct(self, clause: VerbClause, world: World) -> Sequence[Template]:
-        """The same without repetitions."""
+        """Return the same without repetitions."""
         return [template for verb in self.verbs() for template in self._distinct_of(verb, world)]
 
 
 def _grouped(templates: Iterable[Template]) -> list[list[Template]]:
-    """Templates that are alike but for who made them, where, and what the things were called there."""
+    """Return templates that are alike but for who made them, where, and what the things were called there."""
     numbers: dict[tuple[object, ...], int] = {}
     profiles: dict[int, int] = {}
     clauses: dict[int, tuple[object, ...]] = {}
@@ -154,7 +150,7 @@ def _grouped(templates: Iterable[Template]) -> list[list[Template]]:
 
 
 def whole(library: Library) -> WholeLibrary:
-    """The same templates, proposed for anything."""
+    """Return the same templates, proposed for anything."""
     found = WholeLibrary(library.lexicon)
     for verb in library.verbs():
         for template in library.templates(verb):
@@ -181,14 +177,14 @@ def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], Wor
 
 @dataclass(frozen=True, slots=True)
 class Taught:
-    """What one demonstration adds to a library."""
+    """The templates of one demonstration."""
 
     templates: tuple[Template, ...]
     unaligned: tuple[tuple[str, str], ...]
 
 
 def teach(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Taught:
-    """What a demonstration shows, as templates."""
+    """Make the templates of a demonstration."""
     templates: list[Template] = []
     unaligned: list[tuple[str, str]] = []
     for lesson in lessons(demonstration, world, lexicon):
@@ -210,7 +206,7 @@ def teach(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Taugh
 
 @dataclass(frozen=True, slots=True)
 class Lesson:
-    """What was done for one clause.
+    """The instructions for one clause of a demonstration.
 
     Attributes:
         clause: The clause; ``None`` where none was found for the text.
@@ -226,7 +222,7 @@ class Lesson:
 
 
 def lessons(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Iterator[Lesson]:
-    """What a demonstration shows, clause by clause, in order."""
+    """Yield the lessons of a demonstration, clause by clause, in order."""
     state = world.task.init
     for clauses, segments in align(parse(demonstration.text, lexicon).clauses, demonstration.segments):
         instructions = tuple(i for segment in segments for i in segment.instructions)
@@ -243,7 +239,7 @@ def lessons(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Ite
 
 
 def align(clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[tuple[list[Clause], list[Segment]]]:
-    """The segments in their order, each with the clauses that have most of their words there.
+    """Return the segments in their order, each with the clauses that have most of their words there.
 
     A segment without a clause joins its neighbour if the neighbour's clause begins or ends in it: in *when it
     boils, add the ramen* the waiting serves the adding. Otherwise it stands alone, with no clause.
@@ -264,7 +260,7 @@ def align(clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[tuple[
 
 
 def _neighbour(index: int, owners: Sequence[list[Clause]], segments: Sequence[Segment]) -> list[Clause]:
-    """The clauses of a segment: its own, or those of a neighbour that reach into it."""
+    """Return the clauses of a segment: its own, or those of a neighbour that reach into it."""
     if owners[index]:
         return owners[index]
     for near, nearest in ((index + 1, 0), (index - 1, -1)):
@@ -274,7 +270,7 @@ def _neighbour(index: int, owners: Sequence[list[Clause]], segments: Sequence[Se
 
 
 def _overlap(clause: Clause, segment: Segment) -> int:
-    """How many characters of the clause lie in the segment; its condition, duration and purpose do not count."""
+    """Return how many characters of a clause are in a segment, without its condition, duration and purpose."""
     start, end = max(clause.span.start, segment.start), min(clause.span.end, segment.end)
     count = max(0, end - start)
     for aside in (clause.condition, clause.duration, clause.purpose):
@@ -289,7 +285,7 @@ def _touches(clause: Clause, segment: Segment) -> bool:
 
 
 def run(world: World, state: int, instructions: Iterable[Instruction]) -> int:
-    """The state after ``instructions``; one that can never apply here changes nothing."""
+    """Return the state after ``instructions``; one that can never apply here changes nothing."""
     for instruction in instructions:
         operator = world.task.by_instruction.get(instruction)
         if operator is not None:
@@ -298,7 +294,7 @@ def run(world: World, state: int, instructions: Iterable[Instruction]) -> int:
 
 
 def tidy(instructions: Sequence[Instruction], world: World, state: Bits) -> tuple[Instruction, ...]:
-    """The instructions without detours, begun in ``state``; one that can never apply here is left where it is."""
+    """Return the instructions without detours, begun in ``state``; one that can never apply here stays."""
     kept: list[Instruction] = []
     states = [state]
     for instruction in instructions:

@@ -1,4 +1,4 @@
-"""Where domains, problems and environments are looked for, and what a name for one of them means."""
+"""The directories of domains and problems, and the meaning of names for what is in them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Roots:
     problems: Path | None = None
 
     def folder(self, name: str) -> DomainFolder:
-        """The domain ``name``, or the domain in the directory of that name where it is written as a path.
+        """Return the domain ``name``, or the domain in the directory of that name where it is written as a path.
 
         Raises:
             TmdError: There is none.
@@ -39,7 +39,7 @@ class Roots:
         return find_domain(name, self.domains)
 
     def sources(self, name: str) -> DomainFolder:
-        """As :meth:`folder`, for a domain whose ``domain.pddl`` may be still to be compiled.
+        """Find a domain as :meth:`folder` does; its ``domain.pddl`` need not be compiled yet.
 
         Raises:
             TmdError: There is none, or it has no object graphs.
@@ -61,7 +61,7 @@ class Roots:
         )
 
     def corpus(self, folder: DomainFolder) -> Corpus:
-        """The bundled environments and demonstrations of a domain.
+        """Return the bundled environments and demonstrations of a domain.
 
         Raises:
             TmdError: There is no directory of problems.
@@ -72,7 +72,7 @@ class Roots:
         return Corpus(folder, find_problems(folder.name, self.problems))
 
     def lexicon(self, name: str) -> Lexicon:
-        """The words of a domain.
+        """Return the words of a domain.
 
         Raises:
             TmdError: There is no such domain, or its file of words is wrong.
@@ -83,7 +83,7 @@ class Roots:
         return read_lexicon(folder.lexicon_path, folder.kinds)
 
     def domain(self, name: str) -> Domain:
-        """The PDDL domain in a file, in a directory, or of a bundled name.
+        """Return the PDDL domain in a file, in a directory, or of a bundled name.
 
         Raises:
             TmdError: There is none, or it is wrong.
@@ -96,7 +96,7 @@ class Roots:
         return self.folder(name).domain
 
     def problem(self, path: Path, domain: str | None = None) -> Problem:
-        """A PDDL problem with its domain.
+        """Return a PDDL problem with its domain.
 
         That is the one that was asked for, else ``domain.pddl`` beside the problem, else the domain whose folder has
         the name of the directory in which the problem lies (``problems/02_table/``), else the one that the problem
@@ -123,7 +123,7 @@ class Roots:
         return read_problem(path, found)
 
     def path(self, name: str) -> Path:
-        """The file or directory of that name; where there is none, the folder of the domain of that name.
+        """Return the file or directory of that name; where there is none, the folder of the domain of that name.
 
         Raises:
             TmdError: There is neither.
@@ -134,7 +134,7 @@ class Roots:
         return self.folder(name).path
 
     def pddl_file(self, name: str) -> Path:
-        """The PDDL file of a domain: that file, or the one of a bundled domain or of a domain folder.
+        """Return the PDDL file of a domain: that file, or the one of a bundled domain or of a domain folder.
 
         Raises:
             TmdError: There is none.
@@ -145,7 +145,7 @@ class Roots:
         return self.folder(name).path / "domain.pddl"
 
     def environment(self, name: str, domain: str | None) -> Path:
-        """The file of an environment: the one at that path, or the bundled one of that name.
+        """Return the file of an environment: the one at that path, or the bundled one of that name.
 
         Raises:
             TmdError: There is none, or several domains have one.
@@ -177,7 +177,7 @@ class Roots:
         )
 
     def world(self, environment: str, domain: str | None = None) -> tuple[Corpus, World]:
-        """An environment, ready for grounding, and the corpus of its domain.
+        """Return an environment, ready for grounding, and the corpus of its domain.
 
         Args:
             environment: A file (YAML, or a PDDL problem), or the name of a bundled environment.
@@ -215,7 +215,7 @@ class Roots:
         return corpus, make_world(path.stem if domain is None else problem.name, problem, corpus.lexicon)
 
     def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:
-        """An environment of which the robot's scene can be built, and its domain.
+        """Return an environment of which the robot's scene can be built, and its domain.
 
         Raises:
             TmdError: It is missing or wrong, or does not say where things stand.

@@ -56,7 +56,7 @@ def read_sentences(path: Path) -> list[SentenceTest]:
 
 
 def domain_sentences(directory: Path) -> list[SentenceTest]:
-    """The sentence tests beside the problems of a domain.
+    """Return the sentence tests beside the problems of a domain.
 
     Raises:
         TmdError: There are none, or a file of them is wrong.

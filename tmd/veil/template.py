@@ -97,7 +97,7 @@ def generalise(
 
 
 def _meant(clause: Clause, names: Mapping[str, str], mentions: Mentions, state: Bits) -> dict[str, str]:
-    """For each noun the variable of the object it most likely meant, among those that were used."""
+    """Return for each noun the variable of the object that it most likely meant, among those that were used."""
     found: dict[str, str] = {}
     for noun in clause.resolved():
         for match in mentions.of(noun, state):
@@ -108,7 +108,7 @@ def _meant(clause: Clause, names: Mapping[str, str], mentions: Mentions, state: 
 
 
 def _wanted(instructions: Sequence[Instruction], variable: str, profiles: Profiles) -> tuple[tuple[str, ...], ...]:
-    """The types of every parameter that ``variable`` stands for in ``instructions``, each once."""
+    """Return the types of every parameter that ``variable`` stands for in ``instructions``, each once."""
     schemas = {action.name: action for action in profiles.task.problem.domain.actions}
     found: dict[tuple[str, ...], None] = {}
     for instruction in instructions:
@@ -162,7 +162,7 @@ def instantiate(
 
 
 def replace(instructions: Sequence[Instruction], grounding: Mapping[str, str]) -> tuple[Instruction, ...]:
-    """The instructions with each variable replaced by its object: the paper's *replace*."""
+    """Return the instructions with each variable replaced by its object: the paper's *replace*."""
     return tuple(Instruction(i.name, tuple(grounding.get(a, a) for a in i.args)) for i in instructions)
 
 
@@ -188,7 +188,7 @@ def _settle(grounding: dict[str, str], pairs: Iterator[tuple[str, str]]) -> None
 def _by_order(
     template: Template, clause: VerbClause, grounding: Mapping[str, str], world: World, state: Bits
 ) -> Iterator[tuple[str, str]]:
-    """The extension: nouns of one clause only, paired in order of mention where the types allow it."""
+    """Yield the extension: nouns of one clause only, paired in order of mention where the types allow it."""
     ours = [noun for noun in clause.resolved() if noun not in template.mentions]
     theirs = [
         noun
@@ -238,7 +238,7 @@ def _by_states(
 
 
 def _joined_alike(template: Template, variable: str, name: str, grounding: Mapping[str, str], world: World) -> int:
-    """How many edges to objects already chosen are as they were in the template."""
+    """Return how many edges to objects already chosen are as in the template."""
     count = 0
     for other, chosen in grounding.items():
         for ours, theirs in (((name, chosen), (variable, other)), ((chosen, name), (other, variable))):
@@ -247,5 +247,5 @@ def _joined_alike(template: Template, variable: str, name: str, grounding: Mappi
 
 
 def _fits(template: Template, variable: str, name: str, world: World) -> bool:
-    """Whether every instruction of the template accepts ``name`` for ``variable``."""
+    """Return whether every instruction of the template accepts ``name`` for ``variable``."""
     return all(world.objects.is_a(name, types) for types in template.wanted[variable])

@@ -5,7 +5,7 @@ What a state says of one object: the vertex labels of its object graph, as compa
 A profile maps a *state name* to whether it holds. A state name is an atom about the object with the object taken
 out: ``(contains mug1 water)`` is ``("contains", "water")`` of ``mug1``. The states of an object's parts belong to
 its profile too, under the part's name. What never changes (an affordance, say) is part of the profile where it
-holds. Atoms that relate two objects are no states; nor are the robot's own.
+holds. Atoms that relate two objects are not states; nor are the robot's own.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from tmd.world.verb_clause import VerbClause
 
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
 class World:
-    """What templates are made from and instantiated in."""
+    """An environment, ready for grounding."""
 
     name: str
     task: Task
@@ -84,7 +84,7 @@ class Mentions:
         return NounMatch(name, kind, above, _words(name, self.profiles.wholes.get(name)))
 
     def of(self, noun: str, state: Bits) -> list[Match]:
-        """The objects that ``noun`` may mean in ``state``, likeliest first; empty for what is not there."""
+        """Return the objects that ``noun`` may mean in ``state``, likeliest first; empty for what is not there."""
         found: dict[str, Match] = {}
         for match in self.ranked(noun):
             if match.name not in self.profiles.constants:
@@ -97,17 +97,17 @@ class Mentions:
         return sorted(found.values(), key=lambda m: -m.score)
 
     def constants(self, noun: str) -> list[str]:
-        """The constants of the domain, substances say, that ``noun`` may mean, likeliest first."""
+        """Return the constants of the domain, substances say, that ``noun`` may mean, likeliest first."""
         return [match.name for match in self.ranked(noun) if match.name in self.profiles.constants]
 
     def ranked(self, noun: str) -> tuple[Match, ...]:
-        """The objects and constants that ``noun`` may name, likeliest first, whatever contains them."""
+        """Return the objects and constants that ``noun`` may name, likeliest first, whatever contains them."""
         if noun not in self._known:
             self._known[noun] = tuple(rank(noun, self._candidates, self.lexicon))
         return self._known[noun]
 
     def meant(self, clause: VerbClause, used: Collection[str], state: Bits) -> tuple[str, ...]:
-        """The clause's objects: for each noun what it may mean among the objects ``used``, or the likeliest.
+        """Return the clause's objects: for each noun what it may mean among the objects ``used``, or the likeliest.
 
         Of several that are equally likely it is the one with the most edges to what was used: the burner of the
         knob that was turned.
@@ -129,7 +129,7 @@ class Mentions:
 
 
 def _words(name: str, whole: str | None) -> tuple[str, ...]:
-    """The words in an object's name; a part also answers to the name of its whole."""
+    """Return the words in an object's name; a part also answers to the name of its whole."""
     words = [word.rstrip("0123456789") for word in name.replace("-", "_").split("_")]
     return tuple(dict.fromkeys([w for w in words if w] + ([whole.rstrip("0123456789")] if whole else [])))
 
@@ -172,7 +172,7 @@ class Profiles:
         return {part: whole for whole, parts in self.parts.items() for _, part in parts}
 
     def unit(self, name: str) -> tuple[str, ...]:
-        """``name``, and the object that it is a part of."""
+        """Return ``name``, and the object that it is a part of."""
         whole = self.wholes.get(name)
         return (name,) if whole is None else (name, whole)
 
@@ -187,7 +187,7 @@ class Profiles:
         return {pair: frozenset(predicates) for pair, predicates in found.items()}
 
     def of(self, name: str, state: Bits) -> Profile:
-        """The profile of the object ``name`` in ``state``."""
+        """Return the profile of the object ``name`` in ``state``."""
         if name not in self._relevant:
             self._relevant[name] = self._atoms_of(name)
         key = name, state & self._relevant[name]
@@ -200,7 +200,7 @@ class Profiles:
         return known
 
     def _atoms_of(self, name: str) -> Bits:
-        """The atoms that the profile of ``name`` depends on."""
+        """Return the atoms that the profile of ``name`` depends on."""
         bits = 0
         for thing in (name, *(part for _, part in self.parts.get(name, ()))):
             for atom, _ in self._fluent.get(thing, ()):
@@ -208,14 +208,14 @@ class Profiles:
         return bits
 
     def own(self, name: str, state: Bits) -> dict[tuple[str, ...], bool]:
-        """The profile of ``name`` without that of its parts."""
+        """Return the profile of ``name`` without that of its parts."""
         profile = {key: True for _, key in self._static.get(name, ())}
         for atom, key in self._fluent.get(name, ()):
             profile[key] = bool(state >> self.task.index[atom] & 1)
         return profile
 
     def containers(self, constant: str, state: Bits) -> list[str]:
-        """The objects that have ``constant`` in a state of theirs now (*contains mug1 water*), in the problem's order.
+        """Return the objects with ``constant`` in a state (*contains mug1 water*), in the problem's order.
 
         Only states that some action changes count: an affordance contains nothing.
         """
@@ -250,7 +250,7 @@ class Profiles:
 
 
 def differences(one: Profile, other: Profile) -> float:
-    """The share of the states of either object in which the two differ (Δ_env for one variable, section VI-A.1).
+    """Return the share of the states of either object in which the two differ (Δ_env for one variable, section VI-A.1).
 
     A state that only one of them can have counts as a difference. 0 where neither has any.
     """
@@ -261,5 +261,5 @@ def differences(one: Profile, other: Profile) -> float:
 
 
 def shared(one: Profile, other: Profile) -> int:
-    """How many states the two have in common (rule 3 of section V-A)."""
+    """Return how many states two profiles have in common (rule 3 of section V-A)."""
     return sum(other.get(name) == value for name, value in one.items())

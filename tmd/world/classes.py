@@ -117,7 +117,7 @@ class Classes:
             source.recover(None, self.get, name)
 
     def new_types(self) -> Iterator[tuple[str, str]]:
-        """The types that classes add, with their parents, parents first."""
+        """Yield the types that classes add, with their parents, parents first."""
         done: set[str] = set()
         for name in self.entries.classes:
             for ancestor in reversed(self.line(name)):
@@ -126,7 +126,7 @@ class Classes:
                     yield ancestor, self._parent(ancestor)
 
     def get(self, name: str) -> ObjectClass:
-        """The class ``name`` with all it inherits.
+        """Return the class ``name`` with all it inherits.
 
         Raises:
             TmdError: There is no such class.
@@ -140,7 +140,7 @@ class Classes:
         return self._resolved[name]
 
     def is_below(self, name: str, above: str) -> bool:
-        """Whether ``name`` is the class or type ``above``, or inherits from it.
+        """Return whether ``name`` is the class or type ``above``, or inherits from it.
 
         Raises:
             TmdError: There is no class ``name``.
@@ -148,7 +148,7 @@ class Classes:
         return above in self.line(name)
 
     def suggest(self, name: str) -> str | None:
-        """A hint with the class names nearest to ``name``."""
+        """Return a hint with the class names nearest to ``name``."""
         return nearest(name, [*self.entries.classes, *self._types])
 
     def _check_name(self, name: str) -> None:
@@ -168,7 +168,7 @@ class Classes:
         )
 
     def line(self, name: str) -> list[str]:
-        """``name`` and its ancestors, nearest first.
+        """Return ``name`` and its ancestors, nearest first.
 
         Raises:
             TmdError: There is no such class, or it is its own ancestor.
@@ -261,12 +261,12 @@ class Classes:
 
 
 def _words(fact: str) -> tuple[str, ...]:
-    """``allows self on`` (brackets may stand around it) as a tuple."""
+    """Return ``allows self on`` (brackets may stand around it) as a tuple."""
     return tuple(fact.strip().strip("()").split())
 
 
 def no_classes(name: str) -> TmdError:
-    """The error for an environment of a domain that has no object graphs."""
+    """Return the error for an environment of a domain that has no object graphs."""
     return TmdError(
         f"domain '{name}' has no objects.yaml, so it has no environments in YAML",
         hint="give a PDDL problem instead",

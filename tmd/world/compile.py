@@ -63,7 +63,7 @@ def update_domain(folder: DomainFolder, *, write: bool = True) -> bool:
 
 
 def compile_domain(folder: DomainFolder) -> str:
-    """The text of ``domain.pddl`` for a folder with object graphs.
+    """Return the text of ``domain.pddl`` for a folder with object graphs.
 
     Raises:
         TmdError: A source is wrong; with its place.
@@ -92,7 +92,7 @@ def compile_domain(folder: DomainFolder) -> str:
 
 
 def compile_problem(environment: Environment, folder: DomainFolder) -> Problem:
-    """The environment as a PDDL problem with an empty goal.
+    """Return the environment as a PDDL problem with an empty goal.
 
     Raises:
         TmdError: The environment does not fit the domain; with the place in its file.
@@ -101,7 +101,7 @@ def compile_problem(environment: Environment, folder: DomainFolder) -> Problem:
 
 
 class _Compiler:
-    """Compiles one environment; holds what the steps share."""
+    """The compilation of one environment."""
 
     def __init__(self, environment: Environment, folder: DomainFolder) -> None:
         self.environment = environment
@@ -188,7 +188,7 @@ class _Compiler:
             )
 
     def _bind(self, fact: Sequence[str], name: str, vertex: str) -> tuple[str, ...]:
-        """A fact of a class with its names replaced: ``self``, ``root`` and the object's parts."""
+        """Return a fact of a class with its names replaced: ``self``, ``root`` and the object's parts."""
         parts = self.folder.classes.get(self.environment.objects[name].class_name).vertices
         bound = [fact[0]]
         for term in fact[1:]:
@@ -249,7 +249,7 @@ class _Compiler:
 
 
 def derive(problem: Problem, folder: DomainFolder, state: State) -> State:
-    """``state`` with the ``derive`` rules of ``objects.yaml`` applied, in their order.
+    """Return ``state`` with the ``derive`` rules of ``objects.yaml`` applied, in their order.
 
     Raises:
         TmdError: A rule is wrong; with its place.
@@ -263,7 +263,7 @@ def derive(problem: Problem, folder: DomainFolder, state: State) -> State:
 
 
 def derive_rules(folder: DomainFolder) -> Iterable[tuple[ActionSchema, Location, str]]:
-    """The ``derive`` rules of ``objects.yaml`` as actions without parameters, each with its place and its text.
+    """Return the ``derive`` rules of ``objects.yaml`` as actions without parameters, each with its place and its text.
 
     Raises:
         TmdError: A rule is wrong; with its place.

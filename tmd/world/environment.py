@@ -1,4 +1,4 @@
-"""Environments: which objects there are, where they stand and what state they are in.
+"""Environments: objects with their places and states.
 
 An environment is a YAML file::
 

@@ -76,7 +76,7 @@ class DomainFolder:
 
 
 def find_roots(kind: str, given: Path | None = None) -> list[Path]:
-    """The directories of ``domains`` or ``problems``, the first to be asked first.
+    """Return the directories of ``domains`` or ``problems``, the first to be asked first.
 
     ``given`` alone; or ``./<kind>``, the copy in the installed package, the copy beside the package (a checkout), as
     far as they are there.
@@ -99,7 +99,7 @@ def find_roots(kind: str, given: Path | None = None) -> list[Path]:
 
 
 def find_root(kind: str, given: Path | None = None) -> Path:
-    """The first of :func:`find_roots`.
+    """Return the first of :func:`find_roots`.
 
     Raises:
         TmdError: There is none.
@@ -108,7 +108,7 @@ def find_root(kind: str, given: Path | None = None) -> Path:
 
 
 def find_domain(name: str, domains: Path | None = None) -> DomainFolder:
-    """The folder of domain ``name``: your own hides a bundled one of the same name.
+    """Return the folder of domain ``name``: your own hides a bundled one of the same name.
 
     Raises:
         TmdError: There is none; the hint names the nearest.
@@ -123,7 +123,7 @@ def find_domain(name: str, domains: Path | None = None) -> DomainFolder:
 
 
 def find_problems(name: str, problems: Path | None = None) -> Path:
-    """The directory ``<problems>/<name>`` of a domain: the first there is, or else where it would be.
+    """Return the directory ``<problems>/<name>`` of a domain: the first there is, or else where it would be.
 
     Raises:
         TmdError: There is no directory of problems.

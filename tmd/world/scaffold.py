@@ -40,7 +40,7 @@ _DOMAIN_NAME = re.compile(r"\(define\s+\(domain\s+([^\s()]+)\s*\)")
 
 @dataclass(frozen=True, slots=True)
 class Scaffold:
-    """What was made.
+    """A new domain.
 
     Attributes:
         folder: The domain's folder.
@@ -94,7 +94,7 @@ def _check(name: str, start: str) -> None:
 
 
 def _texts(name: str, start: str, folder: Path, place: Path) -> dict[Path, str]:
-    """What every file of the copy holds."""
+    """Return the text of every file of the copy."""
     source = find_domain(STARTS[start])
     shown = find_problems(STARTS[start])
     own = _DOMAIN_NAME.search(read_text(source.path / "domain.pddl"))

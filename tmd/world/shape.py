@@ -1,4 +1,4 @@
-"""What a thing looks like, as ``objects.yaml`` says it, for the robot's scene; PDDL knows nothing of it.
+"""The shape of a thing for the robot's scene, as in ``objects.yaml``; PDDL does not use it.
 
 A shape is a *kind* that the scene knows how to build, or a file: a *mesh* of a thing in one piece, or a *urdf* with
 links and joints. What a file does not say (what can be put where, how the thing is taken, which joint is the door)
@@ -34,7 +34,7 @@ class _Part(BaseModel):
 
 
 class GraspEntry(_Part):
-    """How a hand takes the thing: at a point, along ``approach``, with the fingers along ``across``.
+    """A grasp of the thing: at a point, along ``approach``, with the fingers along ``across``.
 
     ``width`` is that of what is between the fingers.
     """
@@ -70,7 +70,7 @@ class RegionEntry(_Part):
 
 
 class HandleEntry(_Part):
-    """Where the robot works a joint.
+    """The place where the robot works a joint.
 
     Attributes:
         part: The part that it opens, turns or presses; the whole by default.
@@ -110,14 +110,14 @@ class LampEntry(_Part):
 
 
 class Placement(_Part):
-    """Where the origin of a file is in the frame of the thing: metres, and roll, pitch, yaw in degrees."""
+    """The origin of a file in the frame of the thing: metres, and roll, pitch, yaw in degrees."""
 
     xyz: Point = (0.0, 0.0, 0.0)
     rpy: Point = (0.0, 0.0, 0.0)
 
 
 class Shape(_Part):
-    """What a thing looks like.
+    """The shape of a thing.
 
     Attributes:
         kind: Which of the kinds of :mod:`tmd.robot.assets.shapes` builds it.
@@ -181,7 +181,7 @@ class Shape(_Part):
         return self.mesh or self.urdf
 
     def over(self, inherited: Shape | None) -> Shape:
-        """This shape, with what it leaves open from ``inherited`` if that is of the same kind or file."""
+        """Return this shape, completed from ``inherited`` if that is of the same kind or file."""
         if inherited is None or (inherited.kind, inherited.file) != (self.kind, self.file):
             return self
         return inherited.model_copy(update={name: getattr(self, name) for name in self.model_fields_set})

@@ -42,7 +42,7 @@ class YamlSource:
         self._root = compose(self.text, str(path))
 
     def load(self, model: type[Model]) -> Model:
-        """The file as ``model``.
+        """Return the file as ``model``.
 
         Raises:
             TmdError: With the place of the first key that does not fit.
@@ -62,7 +62,7 @@ class YamlSource:
             raise first from None
 
     def _data(self) -> object:
-        """What the nodes stand for, without reading the text again."""
+        """Return the data of the nodes, without reading the text again."""
         loader = Loader("")
         try:
             return loader.construct_document(self._root)
@@ -72,7 +72,7 @@ class YamlSource:
     def error(
         self, path: Sequence[str | int], message: str, hint: str | None = None, code: str = "bad-value"
     ) -> TmdError:
-        """An error at the node that ``path`` (keys and indices from the root) leads to."""
+        """Return an error at the node that ``path`` (keys and indices from the root) leads to."""
         location = self.locate(path)
         return TmdError(message, location=location, hint=hint, source=self._line(location.line), code=code)
 
@@ -83,7 +83,7 @@ class YamlSource:
         self.report(error)
 
     def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
-        """What ``read`` returns; where it fails and faults are reported, ``otherwise``."""
+        """Return the result of ``read``, or ``otherwise`` where it fails and faults are reported."""
         if self.report is None:
             return read(*arguments, **named)
         try:
@@ -93,7 +93,7 @@ class YamlSource:
             return otherwise
 
     def locate(self, path: Sequence[str | int]) -> Location:
-        """Where the node that ``path`` leads to begins; the deepest node that exists where it breaks off."""
+        """Return the place of the node that ``path`` leads to, or of the deepest node that exists."""
         node, mark = self._root, None
         for part in path:
             step = _child(node, part)
@@ -105,7 +105,7 @@ class YamlSource:
         return self._place(mark)
 
     def _from_model(self, error: ValidationError) -> list[TmdError]:
-        """The faults; an unknown key goes before the key that is missed because of it."""
+        """Return the faults; an unknown key goes before the key that is missed because of it."""
         faults = error.errors(include_url=False)
         unknown = [fault for fault in faults if fault["type"] == "extra_forbidden"]
         missed = {fault["loc"][:-1] for fault in unknown}
@@ -154,7 +154,7 @@ _HINTS = {
 
 
 def _expectation(fault: ErrorDetails) -> str:
-    """What is wrong with a value, in words of YAML instead of pydantic's."""
+    """Return the fault of a value in words of YAML instead of pydantic's."""
     if fault["type"] == "string_pattern_mismatch":
         return "should be a colour" if "#" in fault.get("ctx", {}).get("pattern", "") else "should be a name"
     said = " ".join(fault["msg"].removeprefix("Value error, ").split())

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmd.cli.errors import one_line, pointed
+from tmd.cli.inputs.options import json_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 @click.option("--notes", is_flag=True, help="Print notes as well.")
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option("--explain", metavar="VERB", help="Print all that is known of a verb, in the domains that are named.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 @click.pass_obj
 def command(
     roots: Roots,
@@ -84,7 +85,7 @@ def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> Ex
 
 
 def _summary(report: CheckReport, shown: bool) -> str:
-    """How many files and problems there are; notes only where there are some."""
+    """Return the numbers of files and problems; notes only where there are some."""
     errors, warnings, notes = report.counts.values()
     said = f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)"
     if notes:

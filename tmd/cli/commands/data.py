@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from tmd.cli.inputs.options import json_option
 from tmd.cli.output import emit
 
 
@@ -16,7 +17,7 @@ def command() -> None:
 
 @command.command("check")
 @click.argument("directory", metavar="DIR", type=click.Path(path_type=Path))
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 def check(directory: Path, as_json: bool) -> None:
     """Read a copy of VEIL-500 and count what was found, repaired and dropped.
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Show a bar once there is progress; what it yields is told the number of parts done and of all parts."""
+    """Show a bar once there is progress; yields a function of the number of parts done and of all parts."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
@@ -42,7 +42,7 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
 
 
 class _ToUser(logging.Handler):
-    """Shows what the log of a run warns of."""
+    """A log handler that shows warnings to the user."""
 
     def emit(self, record: logging.LogRecord) -> None:
         emit(f"{record.getMessage()}\n", error=True)
@@ -65,7 +65,7 @@ _PIECE = re.compile(r"\s*(\d{1,4})\s*(?:-\s*(\d{1,4})\s*)?")
 
 
 def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, ...] | None:
-    """What an option of numbers says: each number once, in ascending order (a callback of :mod:`click`).
+    """Parse an option of numbers: each number once, in ascending order (a callback of :mod:`click`).
 
     Raises:
         click.BadParameter: It says anything else.
@@ -85,7 +85,7 @@ def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
 
 
 def names(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[str, ...] | None:
-    """What an option of names says: each name once, in the order given (a callback of :mod:`click`).
+    """Parse an option of names: each name once, in the order given (a callback of :mod:`click`).
 
     Raises:
         click.BadParameter: It names nothing.
@@ -99,7 +99,7 @@ def names(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
 
 
 def share(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
-    """``2/8``, the second of eight shares (a callback of :mod:`click`).
+    """Parse a share: ``2/8`` is the second of eight (a callback of :mod:`click`).
 
     Raises:
         click.BadParameter: It is not a share.
@@ -113,10 +113,10 @@ def share(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
 
 
 def probability(ctx: click.Context, param: click.Parameter, value: float) -> float:
-    """A number from 0 to below 1 (a callback of :mod:`click`).
+    """Check a number from 0 to below 1 (a callback of :mod:`click`).
 
     Raises:
-        click.BadParameter: It is none; ``nan`` is none either.
+        click.BadParameter: It is another number, or ``nan``.
     """
     if not 0 <= value < 1:
         raise click.BadParameter(f"{value} is not in the range 0 to below 1", ctx, param)
@@ -266,7 +266,7 @@ def _trials(config: ExperimentConfig, mode: str) -> None:
 
 
 def _processors() -> int:
-    """The processors that this process may use: on a cluster, fewer than the machine has."""
+    """Return the processors that this process may use: on a cluster, fewer than the machine has."""
     from joblib import cpu_count
 
     return max(1, int(cpu_count()))

@@ -8,8 +8,7 @@ from pathlib import Path
 import click
 
 from tmd.cli.errors import one_line
-from tmd.cli.inputs.limits import limit_options
-from tmd.cli.inputs.reading import ReadingOptions, reading_options
+from tmd.cli.inputs.options import ReadingOptions, json_option, limit_options, overwrite_option, reading_options, said
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -41,8 +40,8 @@ _ALL = "all"
 )
 @click.option("--example", metavar="ID", help="Of a run: which example.")
 @click.option("--model", metavar="NAME", help="Of a run: whose prediction.")
-@click.option("--overwrite", is_flag=True, help="DIR may hold files; those of the same names are replaced.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@overwrite_option
+@json_option
 @click.pass_obj
 def command(
     roots: Roots,
@@ -71,7 +70,6 @@ def command(
     others back: why is told, and the exit code is that of the first failure.
     """
     from tmd.cli.inputs.export import ExportRequest, NoPlan, planned_source
-    from tmd.cli.inputs.text import said
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
     from tmd.language.parser import short_enough
@@ -109,7 +107,7 @@ def _told(
 
 
 def _chosen(given: Sequence[str]) -> list[str]:
-    """The names of the formats that were asked for, each once.
+    """Return the names of the formats that were asked for, each once.
 
     Raises:
         click.UsageError: There is no such format.

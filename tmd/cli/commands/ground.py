@@ -6,9 +6,17 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.grounding import GroundingOptions, answer, grounding_options
-from tmd.cli.inputs.reading import ReadingOptions, ask_on_terminal, reading_options
-from tmd.cli.inputs.text import said, text_options
+from tmd.cli.inputs.grounding import answer, ask_on_terminal
+from tmd.cli.inputs.options import (
+    GroundingOptions,
+    ReadingOptions,
+    environment_domain_option,
+    grounding_options,
+    json_option,
+    reading_options,
+    said,
+    text_options,
+)
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -26,14 +34,14 @@ if TYPE_CHECKING:
     help="An environment (YAML), a PDDL problem, or the name of a bundled environment.",
 )
 @text_options
-@click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
+@environment_domain_option
 @grounding_options
 @reading_options
 @click.option("--ask", is_flag=True, help="Ask on the terminal which of several readings is meant.")
 @click.option("--verbose", is_flag=True, help="Print tokens, seconds, corrections and reasons of the language model.")
 @click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
 @click.option("--goal-only", is_flag=True, help="Print what shall hold at the end as a PDDL problem, and no plan.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 @click.pass_obj
 def command(
     roots: Roots,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.grounding import learned_option
+from tmd.cli.inputs.options import json_option, learned_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 @learned_option
 @click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 @click.pass_obj
 def command(
     roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int, as_json: bool

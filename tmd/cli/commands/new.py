@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmd.cli.inputs.options import json_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     metavar="plain|graph",
     help="Begin with plain PDDL, or with classes of things that have parts.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 @click.pass_obj
 def command(roots: Roots, domain: str, start: str, as_json: bool) -> ExitCode:
     """Begin the domain DOMAIN.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from tmd.cli.inputs.text import said, text_options
+from tmd.cli.inputs.options import json_option, said, text_options
 from tmd.cli.output import emit, emit_json
 from tmd.veil.roots import Roots
 
@@ -12,7 +12,7 @@ from tmd.veil.roots import Roots
 @click.command("parse", short_help="Split a text into verb clauses.")
 @text_options
 @click.option("--domain", "domain_name", metavar="NAME", help="Use the words of this domain as well.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 @click.pass_obj
 def command(roots: Roots, text: str | None, text_file: str | None, domain_name: str | None, as_json: bool) -> None:
     """Split a text into verb clauses, and show what no clause accounts for."""

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from tmd.cli.inputs.limits import limit_options
+from tmd.cli.inputs.options import json_option, limit_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -21,7 +21,7 @@ from tmd.veil.roots import Roots
 )
 @limit_options
 @click.option("--output", type=click.Path(path_type=Path), metavar="FILE", help="Write the plan to this file.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 @click.pass_obj
 def command(
     roots: Roots,

@@ -8,9 +8,16 @@ from pathlib import Path
 
 import click
 
-from tmd import __version__
-from tmd.cli.inputs.grounding import environment_file, learned_option
-from tmd.cli.inputs.reading import ReadingOptions, reading_options
+from tmd.cli.inputs.grounding import environment_file
+from tmd.cli.inputs.options import (
+    ReadingOptions,
+    environment_domain_option,
+    learned_option,
+    reading_options,
+    robot_options,
+    said,
+    text_options,
+)
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.veil.roots import Roots
@@ -47,23 +54,19 @@ def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
 @click.option(
     "--environment", required=True, metavar="FILE|NAME", help="An environment (YAML), or the name of a bundled one."
 )
-@click.option("--text", metavar="TEXT", help="What was said.")
-@click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input.")
+@text_options
 @click.option(
     "--plan", "plan_file", type=click.Path(path_type=Path), metavar="FILE", help="Carry out this plan, not a text."
 )
 @click.option("--goal", metavar="CONDITION", help="Find a plan for this PDDL condition, such as (on a b).")
-@click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
+@environment_domain_option
 @learned_option
 @reading_options
 @click.option("--planner", metavar="NAME", help="Planner for gaps and replanning; in-process by default.")
 @click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="Maximum number of replannings.")
 @click.option("--kinematic", is_flag=True, help="Kinematic mode: no physics; faster, less realistic.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
-@click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro.")
-@click.option(
-    "--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 or TIAGo Pro than the packaged."
-)
+@robot_options
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
 @click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
 @click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
@@ -121,24 +124,16 @@ def command(
     """
     if sum(given is not None for given in (text, text_file, plan_file, goal)) != 1:
         raise click.UsageError("give one of --text, --text-file, --plan and --goal")
-    if robot is not None and urdf is not None:
-        raise click.UsageError("give one of --robot and --urdf")
     if rate is not None and trajectory is None:
         raise click.UsageError("--rate is for --trajectory")
 
     from tmd.cli.inputs.plan import orders_of_file, orders_of_goal, orders_of_text
-    from tmd.cli.inputs.text import said
-    from tmd.cli.show.run import RunLog, Telling
-    from tmd.export.trajectory import DEFAULT_RATE, open_trajectory, recorders
+    from tmd.cli.show.run import RunLog, Telling, without_plan
     from tmd.files import check_writable
     from tmd.language.parser import short_enough
     from tmd.planning.backends import IN_PROCESS
-    from tmd.records.run import OrderRecord, RunRecord, RunRequest
-    from tmd.robot.pr2.urdf import packaged_robot
-    from tmd.robot.run_plan import Filming, run_plan
     from tmd.robot.skills.results import SkillStatus
-    from tmd.robot.video.captions import pillow
-    from tmd.robot.video.film import TILE, open_movie
+    from tmd.robot_trials.plan_runner import PlanRunner
 
     spoken = None if plan_file is not None or goal is not None else short_enough(said(text, text_file))
     path = roots.environment(environment, domain_name)
@@ -148,55 +143,33 @@ def command(
             hint="tmd scene shows the room",
         )
     room, folder = roots.room(environment, domain_name)
-    for output in filter(None, (video, strip, log, trajectory)):
-        check_writable(output)
+    if log is not None:
+        check_writable(log)
     corpus, world = roots.world(environment, domain_name)
     chosen = planner or IN_PROCESS
-    model = urdf if robot is None else packaged_robot(robot)
-    orders = orders_of_file(plan_file, world) if plan_file is not None else None
+    runner = PlanRunner(
+        room, folder, world.task.problem, kinematic=kinematic, seed=seed, planner=chosen, repairs=repairs,
+        video=video, strip=strip, size=size, trajectory=trajectory, rate=rate, robot=robot, urdf=urdf, gui=gui,
+    )  # fmt: skip
     with ExitStack() as stack:
-        movie = stack.enter_context(open_movie(video, size)) if video else None
-        if strip:
-            pillow()
-        if orders is None and goal is not None:
+        stack.enter_context(runner)  # before what takes long: whether films can be made is known at once
+        if plan_file is not None:
+            orders = orders_of_file(plan_file, world)
+        elif goal is not None:
             orders = orders_of_goal(goal, world, planner)
-        elif orders is None:
+        else:
             orders = orders_of_text(spoken or "", corpus, world, environment, chosen, reading, learned)
         for line in orders.remarks:
             emit(line, error=True)
-        asked = RunRequest(
-            text=spoken,
-            domain=corpus.folder.name,
-            environment=world.name,
-            mode="kinematic" if kinematic else "physics",
-            seed=seed,
-            planner=chosen,
-            plan=tuple(map(OrderRecord.of, orders.orders)),
-            version=__version__,
-            environment_file=environment_file(environment),
-            strip=strip.name if strip else None,
-            grounding=orders.grounding,
-            **({"goal": goal} if goal is not None else {}),
-        )
+        file, goal_given = environment_file(environment), {} if goal is None else {"goal": goal}
+        asked = runner.request(orders.orders, spoken, environment_file=file, grounding=orders.grounding, **goal_given)
         if orders.status:
             if as_json:
-                nothing = {"steps": (), "repairs": 0, "seconds": 0.0}
-                ended = {"status": orders.status, "reason": orders.remarks[-1].strip()}
-                emit_json(RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value())
+                emit_json(without_plan(asked, orders))
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
-        recording = stack.enter_context(open_trajectory(trajectory)) if trajectory else None
         told = Telling(asked, orders.orders, journal, as_json=as_json)
-        filming = Filming(told.heading, spoken or "", movie, strip, size or TILE) if movie or strip else None
-        run = run_plan(
-            room, folder, world.task.problem, orders.orders,
-            prepare=lambda session: (
-                *told.prepare(session), *recorders(session, recording, rate or DEFAULT_RATE),
-            ),
-            filming=filming,
-            planner=chosen, repairs=repairs,
-            kinematic=kinematic, seed=seed, urdf=model, gui=gui,
-        )  # fmt: skip
+        run = runner.run(orders.orders, told.prepare, told.heading, spoken or "")
         told.log_ending(run.execution, run.sim_steps)
     told.print_ending(run.execution, run.sim_steps)
     return ExitCode.NOT_EXECUTED if run.execution.status is SkillStatus.STOPPED else ExitCode.OK

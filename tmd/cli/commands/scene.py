@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmd.cli.inputs.options import environment_domain_option, json_option, overwrite_option, robot_options
 from tmd.cli.output import emit, emit_json
 from tmd.veil.roots import Roots
 
@@ -26,20 +27,17 @@ if TYPE_CHECKING:
     metavar="FILE|NAME",
     help="An environment (YAML), the name of a bundled one, or a room of VEIL-500 (XML).",
 )
-@click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
+@environment_domain_option
 @click.option("--reach", is_flag=True, help="Print a base pose for grasping every object.")
 @click.option(
     "--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed for placement jitter; 0 disables it."
 )
-@click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro.")
-@click.option(
-    "--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 or TIAGo Pro than the packaged."
-)
+@robot_options
 @click.option("--picture", type=click.Path(path_type=Path), metavar="FILE", help="A picture of the room: out.png.")
 @click.option("--export", type=click.Path(path_type=Path), metavar="DIR", help="Write the room for other simulators.")
 @click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), mjcf.")
-@click.option("--overwrite", is_flag=True, help="DIR may hold files; those of the same names are replaced.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@overwrite_option
+@json_option
 @click.pass_obj
 def command(
     roots: Roots,
@@ -61,8 +59,6 @@ def command(
     """
     if export is None and (formats or overwrite):
         raise click.UsageError("--format and --overwrite are for --export")
-    if robot is not None and urdf is not None:
-        raise click.UsageError("give one of --robot and --urdf")
     if picture is not None and picture.suffix != ".png":
         raise click.UsageError(f"--picture: '{picture}' does not end in .png")
 

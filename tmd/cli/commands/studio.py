@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.grounding import learned_option
+from tmd.cli.inputs.options import learned_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -60,7 +60,7 @@ def command(
 
 
 def _opened(roots: Roots, domain: str | None, environment: str | None) -> tuple[Corpus, Path | None]:
-    """The domain: that of the environment, unless one is named; and the environment's file."""
+    """Return the domain: that of the environment, unless one is named; and the environment's file."""
     from tmd.world.environment import load_environment
 
     path = roots.environment(environment, domain) if environment else None

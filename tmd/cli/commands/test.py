@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmd.cli.inputs.grounding import learned_option
-from tmd.cli.inputs.reading import ReadingOptions, reading_options
+from tmd.cli.inputs.options import ReadingOptions, json_option, learned_option, reading_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.inference.config import DEFAULT
@@ -35,7 +34,7 @@ if TYPE_CHECKING:
 @click.option("--compare", metavar="A,B", help="Run the tests with two readers, and compare them: rules,llm.")
 @click.option("--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Processes.")
 @learned_option
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 @click.pass_obj
 def command(
     roots: Roots,

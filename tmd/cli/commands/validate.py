@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from tmd.cli.inputs.options import json_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 @click.argument("domain")
 @click.argument("problem", metavar="PROBLEM|ENVIRONMENT")
 @click.argument("plan", type=click.Path(path_type=Path))
-@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@json_option
 @click.pass_obj
 def command(roots: Roots, domain: str, problem: str, plan: Path, as_json: bool) -> ExitCode:
     """Execute PLAN in PROBLEM and name the first precondition that does not hold.
@@ -61,7 +62,7 @@ def command(roots: Roots, domain: str, problem: str, plan: Path, as_json: bool) 
 
 
 def _read(roots: Roots, domain: str, name: str) -> Problem:
-    """The problem in a PDDL file, or that of an environment, which has no goal.
+    """Return the problem in a PDDL file, or that of an environment, which has no goal.
 
     Raises:
         TmdError: It is missing or wrong.

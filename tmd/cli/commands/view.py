@@ -8,9 +8,14 @@ from typing import TYPE_CHECKING
 import click
 from click.core import ParameterSource
 
-from tmd.cli.inputs.grounding import GroundingOptions, grounding_options
-from tmd.cli.inputs.reading import ReadingOptions, reading_options
-from tmd.cli.inputs.text import text_options
+from tmd.cli.inputs.options import (
+    GroundingOptions,
+    ReadingOptions,
+    grounding_options,
+    reading_options,
+    said,
+    text_options,
+)
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -69,7 +74,6 @@ def command(
     if source is None and (environment is None or (problem, demonstration, strip) != (None, None, None)):
         raise click.UsageError("give PLAN|RUN, or --environment and --text")
 
-    from tmd.cli.inputs.text import said
     from tmd.files import write_text
     from tmd.language.parser import short_enough
     from tmd.view.page import render
@@ -124,7 +128,7 @@ def _subject_of_text(
 
 
 def _refuse_to_overwrite(target: str, *shown: str | Path | None) -> None:
-    """A page does not take the place of what it shows."""
+    """Refuse to write a page over a file that it shows."""
     for path in shown:
         if path is not None and target != "-" and Path(target).resolve() == Path(path).resolve():
             raise click.UsageError(f"the page would overwrite {path}: give another --out")

@@ -1,4 +1,4 @@
-"""What commands are given: texts, environments, plans, artefacts, read from options, files and standard input.
+"""The inputs of commands: options, texts, plans and problems.
 
-Begin with :mod:`tmd.cli.inputs.grounding`, the options of ``tmd ground`` that many commands share.
+Begin with :mod:`tmd.cli.inputs.options`, the options that many commands share.
 """

@@ -1,4 +1,4 @@
-"""What is to be exported: a problem with a plan that a planner finds, a text's plan, or a plan that is in a file."""
+"""The source of an export: a problem with the plan of a planner, of a text, or of a file."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from tmd.cli.inputs.reading import ReadingOptions
+from tmd.cli.inputs.options import ReadingOptions
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.pddl.model import TRUE, Instruction, Problem
@@ -42,14 +42,14 @@ class ExportRequest:
 
 @dataclass(frozen=True, slots=True)
 class NoPlan:
-    """There is no plan: why, and what the program ends with because of that."""
+    """The reason why there is no plan, and the exit code for it."""
 
     reason: str
     code: ExitCode
 
 
 def planned_source(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
-    """The problem and the plan that were asked for.
+    """Return the problem and the plan that were asked for.
 
     Raises:
         TmdError: Something is missing or wrong.
@@ -104,7 +104,7 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
 
 
 def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan:
-    """A plan of ``tmd ground --json``, or what ``tmd export --format json`` wrote."""
+    """Return a plan of ``tmd ground --json``, or what ``tmd export --format json`` wrote."""
     from tmd.export.record import parse_record
     from tmd.json_record import json_value
     from tmd.records.grounding import GroundingRecord
@@ -125,7 +125,7 @@ def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan
 
 
 def _goal(asked: ExportRequest, stated: str | None) -> str | None:
-    """The goal for the plan of a text; ``None`` for everything that the plan changes.
+    """Return the goal for the plan of a text; ``None`` for everything that the plan changes.
 
     Raises:
         TmdError: What the text asks for is wanted, and not known.
@@ -141,7 +141,7 @@ def _goal(asked: ExportRequest, stated: str | None) -> str | None:
 
 
 def _checked(problem: Problem, plan: tuple[Instruction, ...], goal: str | None) -> Planned | NoPlan:
-    """A plan that reaches ``goal``; where none is stated, what the plan brings about is its goal."""
+    """Return a plan that reaches ``goal``; where none is stated, what the plan brings about is its goal."""
     refused = _refusal(with_goal(problem, goal) if goal else problem, Plan(plan))
     if refused:
         return refused
@@ -149,7 +149,7 @@ def _checked(problem: Problem, plan: tuple[Instruction, ...], goal: str | None) 
 
 
 def _read_plan(problem: Problem, path: Path) -> Plan:
-    """The plan in a file, which may be one for the exported STRIPS."""
+    """Return the plan in a file, which may be one for the exported STRIPS."""
     from tmd.export.strips import restored
 
     read = read_plan(path)

@@ -1,4 +1,4 @@
-"""What the robot is to do: the best plan of a text, a plan for a goal, or the plan of a file."""
+"""The plan of a run: the best plan of a text, a plan for a goal, or the plan of a file."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from tmd.diagnostics import ExitCode, TmdError
 from tmd.robot.monitor.listeners import Order
 
 if TYPE_CHECKING:
-    from tmd.cli.inputs.reading import ReadingOptions
+    from tmd.cli.inputs.options import ReadingOptions
     from tmd.records.grounding import GroundingRecord
     from tmd.veil.corpus import Corpus
     from tmd.veil.world import World

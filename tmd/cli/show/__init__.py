@@ -1,1 +1,1 @@
-"""What commands print: clauses, goals, plans, runs and warnings, as JSON and as lines for people."""
+"""The results of commands as lines for people: clauses, goals, plans, runs and warnings."""

@@ -1,4 +1,4 @@
-"""What a planner answered, as a plan file, as JSON and as an exit code."""
+"""The answer of a planner as a plan file, as JSON and as an exit code."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
 
 
 def plan_text(answer: Solved, domain: Domain) -> str:
-    """The plan as the planning competitions write it, and in a comment whether it is optimal."""
+    """Return the plan as the planning competitions write it, and in a comment whether it is optimal."""
     unit = all(action.cost is None for action in domain.actions)
     known = "optimal: no plan is cheaper" if answer.optimal else "found: a cheaper plan may exist"
     return f"; {known}\n{format_plan(answer.plan, answer.cost, unit=unit)}"
 
 
 def answer_json(answer: Solution, planner: str) -> dict[str, object]:
-    """The answer; what says nothing of a plan is null where there is none, ``reason`` where there is one."""
+    """Return the answer; what says nothing of a plan is null where there is none, ``reason`` where there is one."""
     found = answer if isinstance(answer, Solved) else None
     status = {Solved: "solved", Unreachable: "unreachable", GaveUp: "gave_up"}[type(answer)]
     return {
@@ -30,7 +30,7 @@ def answer_json(answer: Solution, planner: str) -> dict[str, object]:
 
 
 def why_none(answer: Unreachable | GaveUp) -> str:
-    """Why there is no plan, in one line."""
+    """Return why there is no plan, in one line."""
     if isinstance(answer, Unreachable):
         return f"{answer.reason}; this is proven"
     return f"the planner gave up at {answer.limit}; nothing is proven"

@@ -22,7 +22,7 @@ _MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
 
 
 def parsed_text(parsed: Parsed) -> str:
-    """The clauses, numbered from 1, the constraints, and what was skipped."""
+    """Return the clauses, numbered from 1, the constraints, and what was skipped."""
     lines = ["clauses"] if parsed.clauses else ["no clause"]
     lines += [f"  {number}. {_clause_text(clause)}" for number, clause in enumerate(parsed.clauses, start=1)]
     if parsed.constraints:
@@ -44,7 +44,7 @@ def _noted(clause: Clause, notes: list[str]) -> str:
 
 
 def _notes(clause: Clause) -> list[str]:
-    """What else was said: what pronouns mean, the state that something shall be in, when and how."""
+    """Return further parts of a clause: antecedents of pronouns, the result, conditions and the like."""
     return [
         *(f"{name} = {' + '.join(clause.meant(name))}" for name in clause.antecedents if name),
         *(f"no {name}" for name, phrase in clause.phrases.items() if phrase.quantifier is Quantifier.NONE),
@@ -57,18 +57,18 @@ def _notes(clause: Clause) -> list[str]:
 
 
 def _condition_text(condition: Condition) -> str:
-    """A condition as written, and as it was read."""
+    """Return a condition as written, and as it was read."""
     read = " and ".join(_within(clause) for clause in condition.clauses)
     return f"{_flat(condition.text)}: {'not ' if condition.negated else ''}{read or 'not understood'}"
 
 
 def _within(clause: Clause) -> str:
-    """A clause of a condition, what else was said within its brackets."""
+    """Return a clause of a condition, what else was said within its brackets."""
     return "; ".join([print_clause(clause).removesuffix(")"), *_notes(clause)]) + ")"
 
 
 def _as_written(clause: Clause) -> Iterator[str]:
-    """Conditions and the like that were not read any further."""
+    """Yield conditions and the like that were not read any further."""
     read = {_flat(condition.text).lower() for condition in clause.conditions}
     purpose = any(condition.word == "to" for condition in clause.conditions)
     for word in ("condition", "duration", "purpose", "setting"):
@@ -82,7 +82,7 @@ def _flat(text: str) -> str:
 
 
 def goals_text(plan: RankedPlan, clauses: Sequence[Clause], problem: Problem) -> str:
-    """The goals of a plan's steps: in words, as PDDL, and where their meaning comes from."""
+    """Return the goals of a plan's steps: in words, as PDDL, and where their meaning comes from."""
     lines = ["goals"]
     for shown in in_words(plan.goals, problem):
         lines.append(f"  {shown.goal.clause + 1}. {_of_part(shown, clauses)}{_told(shown)}")
@@ -91,7 +91,7 @@ def goals_text(plan: RankedPlan, clauses: Sequence[Clause], problem: Problem) ->
 
 
 def _of_part(shown: ShownGoal, clauses: Sequence[Clause]) -> str:
-    """What was said, where it is only a part of the clause: *when you have taken the cup*."""
+    """Return the text of a step that is only a part of its clause: *when you have taken the cup*."""
     clause = clauses[shown.goal.clause] if shown.goal.clause < len(clauses) else None
     whole = "" if clause is None else " ".join(clause.text.split())
     return "" if shown.goal.text == whole else f'"{shown.goal.text}": '
@@ -102,7 +102,7 @@ def _told(shown: ShownGoal) -> str:
 
 
 def _below(shown: ShownGoal) -> list[str]:
-    """The goal as PDDL with its source, and what was not taken into account."""
+    """Return the goal as PDDL with its source, and what was not taken into account."""
     goal = shown.goal
     if goal.formula is None or not shown.asked:
         return []
@@ -112,7 +112,7 @@ def _below(shown: ShownGoal) -> list[str]:
 
 
 def whole_goal_text(grounded: Grounded) -> str:
-    """The environment as a PDDL problem whose goal is what the text asks for; empty where there is no plan."""
+    """Return the environment as a PDDL problem whose goal is what the text asks for; empty where there is no plan."""
     problem = asked_problem(grounded)
     return "" if problem is None else format_problem(problem)
 
@@ -149,7 +149,7 @@ def usage_text(usage: Usage) -> str:
 
 
 def grounded_text(grounded: Grounded) -> str:
-    """Clauses, what was skipped, what the steps ask for, then each plan with its energy and why it is not first."""
+    """Return clauses, skipped pieces and goals, then each plan with its energy and why it is not first."""
     parts = [parsed_text(grounded.parsed)]
     told: list[str] = []
     for number, (plan, verdict) in enumerate(zip(grounded.plans, grounded.verdicts, strict=True), start=1):
@@ -161,7 +161,7 @@ def grounded_text(grounded: Grounded) -> str:
 
 
 def _goals_text(plan: RankedPlan, grounded: Grounded) -> str:
-    """What the steps ask for; empty where the model has no goals."""
+    """Return the goals of the steps; empty where the model has no goals."""
     if not plan.goals:
         return ""
     return goals_text(plan, grounded.parsed.clauses, grounded.world.task.problem)

@@ -1,4 +1,4 @@
-"""A run as it is told: lines for people, one JSON value, and a log that grows."""
+"""The report of a run: lines for people, one JSON value, and a log that grows."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Literal, Self
 
+from tmd.cli.inputs.plan import Orders
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import OutputError
 from tmd.json_record import JsonRecord
@@ -31,11 +32,11 @@ from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 _FACTS = 2
 """Maximum number of facts of each kind on a line."""
 _SILENCE = 10.0
-"""Seconds after which it is told what a robot is looking for that does not move."""
+"""Seconds of no movement after which the current search is shown."""
 
 
 class Telling:
-    """Tells a run as it goes: a line for each instruction, or one JSON value in the end; and the log.
+    """The report of a run as it goes: a line for each instruction, or one JSON value in the end; and the log.
 
     Args:
         asked: What was asked, as the beginning of the record.
@@ -67,20 +68,20 @@ class Telling:
         self.heading = f"{_count(len(orders), 'instruction')} in {asked.environment}, {how}"
 
     def prepare(self, session: SimulationSession) -> tuple[Self]:
-        """The run begins in this simulation; see :data:`tmd.robot.run_plan.Prepare`."""
+        """Return the run begins in this simulation; see :data:`tmd.robot.run_plan.Prepare`."""
         session.cell.doing = self._looks_for
         self._print(f"plan: {self.heading}\n")
         self._log(PlanEvent(event="plan", **self._asked.given()))
         return (self,)
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
-        """An instruction begins: the log of a run that was killed says what it was doing."""
+        """Log the beginning of an instruction, which the log of a killed run ends with."""
         self._title, self._begun = title, time.monotonic()
         self._last_told = self._begun
         self._log(BeginEvent(event="begin", number=title.number, instruction=str(title.instruction)))
 
     def _looks_for(self, doing: str) -> None:
-        """A sign of life on standard error, where an instruction takes long."""
+        """Print a sign of life on standard error where an instruction takes long."""
         now = time.monotonic()
         if self._as_json or self._title is None or now - self._last_told < _SILENCE:
             return
@@ -88,7 +89,7 @@ class Telling:
         emit(f"       {self._title.instruction}: {now - self._begun:.0f} s, looking for {doing}\n", error=True)
 
     def end(self, title: Title, step: ExecutedStep) -> None:
-        """It is over."""
+        """Print and log an instruction that is over."""
         told = RanStep.of(title, step)
         self._steps.append(told)
         self._log(StepEvent(event="step", **told.given()))
@@ -97,11 +98,11 @@ class Telling:
         self._print(f"  {number:>3}. {step.instruction!s:<{self._width}}  {origin:<{self._origin}}  {_found(step)}\n")
 
     def log_ending(self, execution: Execution, steps: int) -> None:
-        """The last line of the log: how it ended, after so many steps of physics."""
+        """Log the outcome after ``steps`` steps of physics, as the last line."""
         self._log(EndEvent(event="end", **how_it_ended(execution, steps)))
 
     def print_ending(self, execution: Execution, steps: int) -> None:
-        """What is printed last, when all files are written: how it ended, or the whole record."""
+        """Print the outcome, or the whole record, when all files are written."""
         if self._as_json:
             record = RunRecord.of(self._asked, self._steps, execution, steps)
             emit_json(record.to_value())
@@ -119,8 +120,15 @@ class Telling:
             self._journal.write(entry)
 
 
+def without_plan(asked: RunRequest, orders: Orders) -> dict[str, object]:
+    """Return the record of a run that has no plan."""
+    ended = {"status": orders.status, "reason": orders.remarks[-1].strip()}
+    nothing = {"steps": (), "repairs": 0, "seconds": 0.0}
+    return RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value()
+
+
 def _found(step: ExecutedStep) -> str:
-    """What was seen, in one line; all of it is in the JSON record."""
+    """Return the observations in one line; all of them are in the JSON record."""
     if step.failure:
         return f"failed: {step.failure}"
     if step.mismatches:
@@ -136,7 +144,7 @@ def _found(step: ExecutedStep) -> str:
 
 
 def _first(things: Sequence[object], most: int) -> str:
-    """The first of some things, and how many more there are."""
+    """Return the first of some things, and how many more there are."""
     more = f" and {len(things) - most} more" if len(things) > most else ""
     return " ".join(str(thing) for thing in things[:most]) + more
 
@@ -160,7 +168,7 @@ def _ending(execution: Execution, steps: int) -> str:
 
 
 def _known_by(execution: Execution) -> str:
-    """How many effects are measured, inferred and assumed, and which are assumed."""
+    """Return how many effects are measured, inferred and assumed, and which are assumed."""
     effects = [effect for step in execution.steps for effect in step.effects]
     counts = [(basis, sum(effect.basis is basis for effect in effects)) for basis in Basis]
     told = ", ".join(f"{count} {basis}" for basis, count in counts if count)
@@ -217,7 +225,7 @@ class RunLog:
             raise self._error(error) from error
 
     def _close(self, error: BaseException | None) -> None:
-        """Close the file; what is still to be written may find the disk full, which is told unless worse happened."""
+        """Close the file; a full disk is reported unless something worse happened."""
         file, self._file = self._file, None
         try:
             if file is not None:

@@ -24,18 +24,18 @@ class VeilObjectClass:
 
 
 def class_of(object_name: str) -> str:
-    """The class that an object's name says: ``Mug_1`` is a Mug, ``Counter1_1`` a Counter."""
+    """Return the class that an object's name says: ``Mug_1`` is a Mug, ``Counter1_1`` a Counter."""
     return re.sub(r"[_\d]+\Z", "", object_name)
 
 
 def is_true(value: str) -> bool:
-    """A state's value as a Boolean: ``True`` and positive whole numbers are true, all else is false."""
+    """Return a state's value as a Boolean: ``True`` and positive whole numbers are true, all else is false."""
     value = value.strip()
     return value == "True" or (value.isdecimal() and int(value) > 0)
 
 
 def read_classes(path: Path) -> dict[str, VeilObjectClass]:
-    """The classes of ``Objects.xml``. Blocks about one class add up; the first default of a state counts.
+    """Return the classes of ``Objects.xml``. Blocks about one class add up; the first default of a state counts.
 
     Raises:
         DataError: The file is missing, broken or without classes.
@@ -61,7 +61,7 @@ def read_classes(path: Path) -> dict[str, VeilObjectClass]:
 
 
 def _states(block: Element) -> list[tuple[str, bool]]:
-    """All ``stateName``/``default`` pairs of a block, wherever they stand."""
+    """Return all ``stateName``/``default`` pairs of a block, wherever they stand."""
     found = []
     for element in block.walk():
         for name, default in zip(element.all("stateName"), element.all("default"), strict=False):

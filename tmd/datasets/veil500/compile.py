@@ -83,7 +83,7 @@ _STATE_FACTS = frozenset({"works", "swings", "stops"})
 
 
 def _television() -> Iterator[NamedFact]:
-    """The buttons on the screen and on the remote; the remote's mute button wants the robot at the screen."""
+    """Yield the buttons on the screen and on the remote; the remote's mute button wants the robot at the screen."""
     for carrier in (TV, REMOTE):
         yield ("works", f"{carrier}PowerButton", TV, "ison")
         yield ("raises", f"{carrier}VolumeUpButton", TV)
@@ -107,7 +107,7 @@ def _television() -> Iterator[NamedFact]:
 
 
 def rule_facts(environment: VeilEnvironment) -> Iterator[NamedFact]:
-    """The facts of the literal rules that hold among the objects an environment has."""
+    """Yield the facts of the literal rules that hold among the objects an environment has."""
     present = environment.by_name
     declared = {thing.name: {state.lower() for state in thing.states} for thing in environment.objects}
     constants = {state for states in declared.values() for state in states} | {
@@ -132,7 +132,7 @@ def rule_facts(environment: VeilEnvironment) -> Iterator[NamedFact]:
 
 
 def sane_facts(environment: VeilEnvironment) -> Iterator[NamedFact]:
-    """What the sane domain knows beyond :func:`rule_facts`: supports, doors round insides, burners."""
+    """Yield the facts of the sane domain beyond :func:`rule_facts`: supports, doors, burners."""
     present = environment.by_name
     for thing in environment.objects:
         if "IsPlaceableOn" in thing.affordances:
@@ -171,7 +171,7 @@ DOMAINS = {"literal": "veil500_literal", "sane": "veil500_sane"}
 
 
 def domain_path(semantics: Semantics) -> Path:
-    """The ``domain.pddl`` of a semantics: in a checkout, or in the installed package.
+    """Return the ``domain.pddl`` of a semantics: in a checkout, or in the installed package.
 
     Raises:
         TmdError: Unknown semantics, or the file is not there.
@@ -188,7 +188,7 @@ def domain_path(semantics: Semantics) -> Path:
 
 @lru_cache(maxsize=4)
 def veil_domain(semantics: Semantics) -> Domain:
-    """The PDDL domain of a semantics (read once).
+    """Return the PDDL domain of a semantics (read once).
 
     Raises:
         TmdError: As :func:`domain_path`.
@@ -201,7 +201,7 @@ def compile_environment(
     semantics: Semantics = "literal",
     relations: RelationRule | None = None,
 ) -> Problem:
-    """The PDDL problem of an environment at its start, without a goal.
+    """Return the PDDL problem of an environment at its start, without a goal.
 
     Args:
         environment: What to compile.
@@ -241,7 +241,7 @@ def absent_types(environment: VeilEnvironment) -> dict[str, str]:
 
 
 def _type(thing: VeilObject, semantics: Semantics) -> str:
-    """The PDDL type: what the rules choose by name has its own, the sane domain knows what can be carried."""
+    """Return the PDDL type: what the rules choose by name has its own, the sane domain knows what can be carried."""
     special = DISPATCH.get(thing.name)
     if semantics == "sane":
         carried = "IsGraspable" in thing.affordances
@@ -253,7 +253,7 @@ def _type(thing: VeilObject, semantics: Semantics) -> str:
 
 
 def _with_states(domain: Domain, environment: VeilEnvironment) -> Domain:
-    """The domain with a constant for every state of the environment's classes that it does not know."""
+    """Return the domain with a constant for every state of the environment's classes that it does not know."""
     known = {constant.name for constant in domain.constants}
     states = {state.lower() for thing in environment.objects for state in thing.states}
     missing = tuple(TypedName(state, ("state",)) for state in sorted(states - known))
@@ -261,7 +261,7 @@ def _with_states(domain: Domain, environment: VeilEnvironment) -> Domain:
 
 
 def _adapted(facts: Iterable[NamedFact]) -> Iterator[NamedFact]:
-    """The literal rules as the sane domain has them: mute needs the remote, gates are ``closed_off``."""
+    """Yield the literal rules as the sane domain has them: mute needs the remote, gates are ``closed_off``."""
     for fact in facts:
         if fact[0] in ("graspable", "gated") or fact == ("worked_freely", "Tv_1Remote_1MuteButton"):
             continue
@@ -271,7 +271,7 @@ def _adapted(facts: Iterable[NamedFact]) -> Iterator[NamedFact]:
 
 
 def _shut_away(placed: Iterable[GroundAtom], init: frozenset[GroundAtom]) -> Iterator[GroundAtom]:
-    """The things that are behind a closed door at the start: no door round their place is open."""
+    """Yield the things that are behind a closed door at the start: no door round their place is open."""
     open_doors: set[str] = set()
     enclosed: set[str] = set()
     for fact in init:

@@ -35,7 +35,7 @@ class VeilSegment:
 
     @property
     def has_words(self) -> bool:
-        """Whether there is a word in it."""
+        """Return whether there is a word in it."""
         return bool(_WORD.search(self.text))
 
 
@@ -62,7 +62,7 @@ def clean(raw: str) -> CleanText:
 
 
 def _join(pieces: list[str]) -> tuple[str, tuple[VeilSegment, ...]]:
-    """The pieces as one text with single blanks between those that hold anything."""
+    """Return the pieces as one text with single blanks between those that hold anything."""
     text = ""
     segments = []
     for piece in pieces:
@@ -156,7 +156,7 @@ class VeilData:
     classes: dict[str, VeilObjectClass]
 
     def environment_of(self, point: Point) -> VeilEnvironment:
-        """The environment that a demonstration was made in."""
+        """Return the environment that a demonstration was made in."""
         return self.environments[point.key]
 
 
@@ -191,7 +191,7 @@ def load(directory: str | Path) -> VeilData:
 
 
 def environment_path(root: Path, world: str, number: int) -> Path:
-    """Where an environment's file is."""
+    """Return the file of an environment."""
     folder = FOLDERS[world]
     return root / ENVIRONMENTS / folder / f"{folder}{number}.xml"
 
@@ -253,13 +253,13 @@ def _environment(element: Element) -> tuple[str, int]:
 
 
 def task_slug(objective: str) -> str:
-    """A short name: ``Making Ramen`` is ``ramen``, ``Prepare Room for Game Night`` is ``game_night``."""
+    """Return a short name: ``Making Ramen`` is ``ramen``, ``Prepare Room for Game Night`` is ``game_night``."""
     words = _OBJECTIVE_FILLER.sub("", objective.strip())
     return re.sub(r"[^a-z0-9]+", "_", words.lower()).strip("_")
 
 
 def _groups(sequence: Element, segments: int) -> tuple[VeilGroup, ...]:
-    """The actions, split at the marks. The last group belongs to all segments that are left."""
+    """Return the actions, split at the marks. The last group belongs to all segments that are left."""
     runs: list[list[Instruction]] = [[]]
     for child in sequence.children:
         if child.tag == "change_of_alignment":

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -14,117 +14,27 @@ from tmd.datasets.veil500.forms import pddl_name
 from tmd.datasets.veil500.xml import Element, read_xml
 from tmd.diagnostics import DataError
 
-
-@dataclass(frozen=True, slots=True)
-class VeilVertex:
-    """A part: its name in the graph, the object of the data set that stands for it, and its states."""
-
-    part: str
-    object: str
-    states: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class PartGraph:
-    """The directed graph of one object: the first vertex is the object itself."""
-
-    object: str
-    vertices: tuple[VeilVertex, ...]
-    edges: tuple[tuple[str, str], ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class _Kind:
-    """What is known of a class of wholes. ``{0}`` in a part's object stands for the whole's name."""
-
-    body: str
-    body_states: tuple[str, ...]
-    parts: tuple[tuple[str, str, tuple[str, ...]], ...]
-    edges: tuple[tuple[str, str], ...]
-
-
-_TV_BUTTONS = ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown")
-
-
-def _buttons(kinds: Iterable[str]) -> tuple[tuple[str, str, tuple[str, ...]], ...]:
-    return tuple((f"{kind}Button", f"{{0}}{kind}Button", ()) for kind in kinds)
-
-
-_KINDS = {
-    "Microwave": _Kind(
-        "body",
-        ("MicrowaveIsOn",),
-        (("door", "MicrowaveDoor", ("DoorIsOpen",)), ("button", "MicrowaveButton", ())),
-        (("button", "body"), ("door", "body")),
-    ),
-    "Fridge": _Kind(
-        "body",
-        (),
-        (
-            ("left_door", "FridgeLeftDoor", ("LeftDoorIsOpen",)),
-            ("right_door", "FridgeRightDoor", ("RightDoorIsOpen",)),
-            ("dispenser", "Fridge", ("WaterDispenserIsOpen",)),
-            ("button", "FridgeButton", ()),
-        ),
-        (("button", "dispenser"), ("left_door", "dispenser")),
-    ),
-    "Stove": _Kind(
-        "body",
-        (),
-        tuple((f"knob_{k}", f"StoveKnob_{k}", ()) for k in range(1, 5))
-        + tuple((f"fire_{k}", f"StoveFire_{k}", (f"StoveFire{k}",)) for k in range(1, 5)),
-        tuple((f"knob_{k}", f"fire_{k}") for k in range(1, 5)),
-    ),
-    "Sink": _Kind("basin", (), (("knob", "SinkKnob", ("TapIsOn",)),), (("knob", "basin"),)),
-    "Tv": _Kind(
-        "screen",
-        ("IsOn", "Channel1", "Channel2", "Channel3", "Channel4", "Channel5", "Channel6", "Volume"),
-        _buttons(_TV_BUTTONS),
-        tuple((f"{kind}Button", "screen") for kind in _TV_BUTTONS),
-    ),
-    "Tv_1Remote": _Kind(
-        "remote",
-        (),
-        (*_buttons((*_TV_BUTTONS, "Mute")), ("screen", "Tv_1", ("IsOn", "Volume"))),
-        tuple((f"{kind}Button", "screen") for kind in (*_TV_BUTTONS, "Mute")),
-    ),
-    "Xbox": _Kind("slot", ("CD",), (("cd", "Cd_1", ("CD",)),), (("cd", "slot"),)),
-    "Spoon": _Kind("bowl", ("ScoopsLeft",), (("scoop", "IceCreamScoop", ()),), (("scoop", "bowl"),)),
-    "BagOfChips": _Kind("bag", ("IsOpen", "HasChips"), (), ()),
+_TV_BUTTONS = tuple(f"{{0}}{kind}Button" for kind in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown"))
+# the parts of wholes by class; {0} stands for the name of the whole; all other classes have no parts
+_PARTS: Mapping[str, tuple[str, ...]] = {
+    "Microwave": ("MicrowaveDoor", "MicrowaveButton"),
+    "Fridge": ("FridgeLeftDoor", "FridgeRightDoor", "FridgeButton"),
+    "Stove": tuple(f"Stove{kind}_{k}" for kind in ("Knob", "Fire") for k in range(1, 5)),
+    "Sink": ("SinkKnob",),
+    "Tv": _TV_BUTTONS,
+    "Tv_1Remote": (*_TV_BUTTONS, "{0}MuteButton"),
+    "Spoon": ("IceCreamScoop",),
 }
-"""The wholes, by class. All other classes are a single vertex."""
-
-_NOT_PARTS = frozenset({"Tv_1", "Cd_1", "Fridge"})
-"""Objects that a graph mentions although they are things of their own."""
 
 
-def graph_of(name: str, object_class: str, states: Iterable[str], present: frozenset[str]) -> PartGraph:
-    """The part graph of an object, with only the parts that the environment has."""
-    kind = _KINDS.get(object_class)
-    declared = tuple(states)
-    if kind is None:
-        return PartGraph(name, (VeilVertex("root", name, declared),))
-    vertices = [VeilVertex(kind.body, name, kind.body_states)]
-    for part, pattern, own in kind.parts:
-        instance = pattern.format(name)
-        if instance in present:
-            vertices.append(VeilVertex(part, instance, own))
-    known = {vertex.part for vertex in vertices}
-    edges = tuple(edge for edge in kind.edges if edge[0] in known and edge[1] in known)
-    return PartGraph(name, tuple(vertices), edges)
-
-
-def parents(classes: dict[str, str]) -> dict[str, str]:
-    """The whole of every part, given the class of every object of an environment."""
+def parents(classes: Mapping[str, str]) -> dict[str, str]:
+    """Return the whole of every part, given the class of every object of an environment."""
     found: dict[str, str] = {}
     for name, object_class in classes.items():
-        kind = _KINDS.get(object_class)
-        if kind is None:
-            continue
-        for _, pattern, _ in kind.parts:
-            instance = pattern.format(name)
-            if instance in classes and instance not in _NOT_PARTS and instance != name:
-                found.setdefault(instance, name)
+        for pattern in _PARTS.get(object_class, ()):
+            part = pattern.format(name)
+            if part in classes:
+                found.setdefault(part, name)
     return found
 
 
@@ -212,20 +122,9 @@ class VeilEnvironment:
         """PDDL name to VEIL name, for :func:`tmd.datasets.veil500.forms.to_veil`."""
         return {o.pddl: o.name for o in self.objects}
 
-    def graph(self, name: str) -> PartGraph:
-        """The part graph of an object.
-
-        Raises:
-            DataError: There is no object of that name.
-        """
-        if name not in self.by_name:
-            raise DataError(f"{self.world} {self.number} has no object '{name}'", hint="names are case-sensitive")
-        thing = self.by_name[name]
-        return graph_of(name, thing.kind, thing.states, frozenset(self.by_name))
-
 
 def read_environment(path: Path, world: str, number: int, classes: Mapping[str, VeilObjectClass]) -> VeilEnvironment:
-    """An environment file.
+    """Return an environment file.
 
     Raises:
         DataError: The file is missing or broken, or holds a name or a position that cannot be read.
@@ -280,7 +179,7 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
 
 
 def _states(name: str, element: Element, own: VeilObjectClass) -> tuple[Mapping[str, bool], list[tuple[str, str]]]:
-    """An object's states, and the file's states that its class does not declare."""
+    """Return an object's states, and the file's states that its class does not declare."""
     states = dict(own.states)
     dropped = []
     for state in element.all("state"):
@@ -296,7 +195,7 @@ def _states(name: str, element: Element, own: VeilObjectClass) -> tuple[Mapping[
 
 
 def _vector(thing: Element, tag: str, default: tuple[float, float, float]) -> Vector:
-    """Three numbers, with or without brackets round them; the default where nothing is said."""
+    """Return three numbers, with or without brackets round them; the default where nothing is said."""
     found = thing.all(tag)
     if not found:
         return Vector(*default)

@@ -49,13 +49,13 @@ _FROM_RELATION = {word.lower(): constant for constant, word in RELATIONS.items()
 
 
 def pddl_name(name: str) -> str:
-    """The PDDL name of an object or state of VEIL: ``Mug_1`` is ``mug_1``."""
+    """Return the PDDL name of an object or state of VEIL: ``Mug_1`` is ``mug_1``."""
     lower = name.lower()
     return f"{lower}_thing" if lower in RESERVED else lower
 
 
 def from_veil(text: str, location: Location | None = None) -> Instruction:
-    """The instruction that a VEIL action is.
+    """Return the instruction that a VEIL action is.
 
     A verb without a rule or a wrong number of arguments is kept as it stands: it names no action schema, so
     it is not executable and does nothing.
@@ -88,7 +88,7 @@ def from_veil(text: str, location: Location | None = None) -> Instruction:
 
 
 def to_veil(instruction: Instruction, names: Mapping[str, str]) -> str:
-    """The VEIL action of an instruction.
+    """Return the VEIL action of an instruction.
 
     Args:
         instruction: An instruction of the VEIL domains.
@@ -117,7 +117,7 @@ def to_veil(instruction: Instruction, names: Mapping[str, str]) -> str:
 
 
 def mentioned(instruction: Instruction) -> tuple[str, ...]:
-    """The objects that the VEIL action names, relation words left out (what the metrics call the cover)."""
+    """Return the objects that the VEIL action names, relation words left out (what the metrics call the cover)."""
     match instruction.name, len(instruction.args):
         case "keep", 3:
             return instruction.args[:2]

@@ -1,4 +1,4 @@
-"""What is on or in what at the start: VEIL-500 gives positions only.
+"""Relations between things at the start: VEIL-500 gives positions only.
 
 ``literal`` is the rule of the released code, which measures in the plane of width and *height* and so puts a
 kettle on a burner that it is far from. Scores that are to be compared need it. ``honest`` looks at the
@@ -29,7 +29,7 @@ class VeilRelation(NamedTuple):
 
 
 class _Support(NamedTuple):
-    """Where things on furniture are: at most ``radius`` away seen from above, between two heights over it."""
+    """The space of things on furniture: at most ``radius`` away seen from above, between two heights over it."""
 
     name: str
     radius: float
@@ -63,7 +63,7 @@ _ON_FLOOR = frozenset({"GarbageBag", "GarbageBin"})
 
 
 def initial_relations(environment: VeilEnvironment, rule: RelationRule = "literal") -> tuple[VeilRelation, ...]:
-    """The relations at the start, in file order of the things.
+    """Return the relations at the start, in file order of the things.
 
     Raises:
         TmdError: The rule has another name.
@@ -76,7 +76,7 @@ def initial_relations(environment: VeilEnvironment, rule: RelationRule = "litera
 
 
 def unsupported(environment: VeilEnvironment) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The honest rule's leftovers: things on the floor, and things whose support cannot be told."""
+    """Return the honest rule's leftovers: things on the floor, and things whose support cannot be told."""
     return ((), ()) if environment.world == KITCHEN else _living_room(environment)[1:]
 
 
@@ -103,7 +103,7 @@ def _literal(environment: VeilEnvironment) -> tuple[VeilRelation, ...]:
 
 
 def _plan(a: VeilObject, b: VeilObject) -> float:
-    """The distance seen from above."""
+    """Return the distance seen from above."""
     return math.hypot(a.position.x - b.position.x, a.position.z - b.position.z)
 
 
@@ -152,7 +152,7 @@ def _living_room(
 
 
 def _rests(thing: VeilObject, place: VeilObject) -> bool:
-    """Whether a thing of the living room stands on a piece of furniture, judged by positions."""
+    """Return whether a thing of the living room stands on a piece of furniture, judged by positions."""
     for support in _SUPPORTS:
         if support.name in (place.kind, place.name):
             above = thing.position.y - place.position.y

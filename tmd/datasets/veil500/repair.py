@@ -9,7 +9,7 @@ cannot be known.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from tmd.datasets.veil500.compile import compile_environment
@@ -40,7 +40,7 @@ class Repaired:
 
 @dataclass(frozen=True, slots=True)
 class Executability:
-    """How many demonstrations can be executed from start to end, and how many single steps cannot."""
+    """The number of demonstrations that can be executed as a whole, and of single steps that cannot."""
 
     points: int
     executable: int
@@ -49,17 +49,27 @@ class Executability:
 
 
 class Repairer:
-    """Repairs demonstrations; keeps one simulator for each environment."""
+    """A repairer of demonstrations, with one literal simulator for each environment.
 
-    def __init__(self, data: VeilData) -> None:
+    Args:
+        data: The data set.
+        exclusive_near: Let coming near one thing end being near the others, as the data set's authors meant.
+        repairs: Whether to ground the instructions of repairs as well.
+    """
+
+    def __init__(self, data: VeilData, *, exclusive_near: bool = False, repairs: bool = True) -> None:
         self._simulators: dict[tuple[str, int], ForcedExecution] = {}
-        recorded = _recorded(data.points)
+        recorded: dict[tuple[str, int], list[Instruction]] = defaultdict(list)
+        for point in data.points:
+            recorded[point.key] += point.instructions
         for key, environment in data.environments.items():
             problem = compile_environment(environment)
-            self._simulators[key] = ForcedExecution(problem, [*recorded[key], *_candidates(environment)])
+            problem = _exclusive(problem) if exclusive_near else problem
+            candidates = _candidates(environment) if repairs else ()
+            self._simulators[key] = ForcedExecution(problem, [*recorded[key], *candidates])
 
     def simulator(self, point: Point) -> ForcedExecution:
-        """The literal simulator of a demonstration's environment."""
+        """Return the simulator of a demonstration's environment."""
         return self._simulators[point.key]
 
     def repair(self, point: Point) -> Repaired:
@@ -86,8 +96,26 @@ class Repairer:
         return Repaired(replace(point, groups=groups), fix, step)
 
     def executability(self, points: Sequence[Point], *, two_hands: bool = False) -> Executability:
-        """:func:`executability` of some demonstrations under the literal rules."""
-        return _count(points, self._simulators, two_hands)
+        """Execute demonstrations by force and count what was not executable.
+
+        Args:
+            points: The demonstrations.
+            two_hands: Count grasping a third thing as not executable.
+        """
+        executable = failing = steps = 0
+        for point in points:
+            done = self._simulators[point.key].run(point.instructions)
+            failures = set(done.failures)
+            if two_hands:
+                holding = sum(1 << n for n, atom in enumerate(done.task.atoms) if atom.predicate == "holding")
+                for step, instruction in enumerate(point.instructions):
+                    full = (done.states[step] & holding).bit_count() >= HANDS
+                    if instruction.name == "grasp" and full:
+                        failures.add(step)
+            executable += not failures
+            failing += len(failures)
+            steps += len(point.instructions)
+        return Executability(len(points), executable, steps, failing)
 
 
 def repair(point: Point, data: VeilData) -> Repaired:
@@ -96,56 +124,19 @@ def repair(point: Point, data: VeilData) -> Repaired:
 
 
 def repaired(data: VeilData) -> VeilData:
-    """The data set with every demonstration repaired where possible."""
+    """Return the data set with every demonstration repaired where possible."""
     repairer = Repairer(data)
     return replace(data, points=tuple(repairer.repair(point).point for point in data.points))
 
 
 def executability(data: VeilData, *, two_hands: bool = False, exclusive_near: bool = False) -> Executability:
-    """Execute every demonstration by force and count what was not executable.
-
-    Args:
-        data: The data set.
-        two_hands: Count grasping a third thing as not executable.
-        exclusive_near: Let coming near one thing end being near the others, as the data set's authors meant.
-    """
-    recorded = _recorded(data.points)
-    simulators = {}
-    for key, environment in data.environments.items():
-        problem = compile_environment(environment)
-        simulators[key] = ForcedExecution(_exclusive(problem) if exclusive_near else problem, recorded[key])
-    return _count(data.points, simulators, two_hands)
-
-
-def _count(
-    points: Sequence[Point], simulators: Mapping[tuple[str, int], ForcedExecution], two_hands: bool
-) -> Executability:
-    executable = failing = steps = 0
-    for point in points:
-        done = simulators[point.key].run(point.instructions)
-        failures = set(done.failures)
-        if two_hands:
-            holding = _mask(done.task, "holding")
-            for step, instruction in enumerate(point.instructions):
-                full = (done.states[step] & holding).bit_count() >= HANDS
-                if instruction.name == "grasp" and full:
-                    failures.add(step)
-        executable += not failures
-        failing += len(failures)
-        steps += len(point.instructions)
-    return Executability(len(points), executable, steps, failing)
-
-
-def _recorded(points: Sequence[Point]) -> dict[tuple[str, int], list[Instruction]]:
-    """All instructions of the demonstrations of each environment."""
-    found: dict[tuple[str, int], list[Instruction]] = defaultdict(list)
-    for point in points:
-        found[point.key] += point.instructions
-    return found
+    """Execute every demonstration of a data set; see :meth:`Repairer.executability`."""
+    repairer = Repairer(data, exclusive_near=exclusive_near, repairs=False)
+    return repairer.executability(data.points, two_hands=two_hands)
 
 
 def _candidates(environment: VeilEnvironment) -> list[Instruction]:
-    """Everything that a repair may put back."""
+    """Return everything that a repair may put back."""
     openable = ("microwave", "fridgeleftdoor", "fridgerightdoor")
     verbs = ("moveto", "grasp", "release")
     found = [Instruction(verb, (thing.pddl,)) for thing in environment.objects for verb in verbs]
@@ -153,7 +144,7 @@ def _candidates(environment: VeilEnvironment) -> list[Instruction]:
 
 
 def _single_missing(cubes: Sequence[Cube], state: Bits, task: Task) -> tuple[GroundAtom, bool] | None:
-    """The only literal that keeps one of the cubes from holding, as an atom and whether it should be true."""
+    """Return the only literal that keeps one of the cubes from holding, as an atom and whether it should be true."""
     for cube in cubes:
         absent, present = cube.positive & ~state, cube.negative & state
         if absent.bit_count() + present.bit_count() == 1:
@@ -162,7 +153,7 @@ def _single_missing(cubes: Sequence[Cube], state: Bits, task: Task) -> tuple[Gro
 
 
 def _giving(missing: tuple[GroundAtom, bool], problem: Problem) -> Instruction | None:
-    """The instruction that makes a literal hold."""
+    """Return the instruction that makes a literal hold."""
     atom, positive = missing
     if atom.predicate == "near" and positive:
         return Instruction("moveto", atom.args[1:])
@@ -174,12 +165,8 @@ def _giving(missing: tuple[GroundAtom, bool], problem: Problem) -> Instruction |
     return None
 
 
-def _mask(task: Task, predicate: str) -> Bits:
-    return sum(1 << number for number, atom in enumerate(task.atoms) if atom.predicate == predicate)
-
-
 def _exclusive(problem: Problem) -> Problem:
-    """The problem with ``moveto`` also ending being near every other thing that is not held."""
+    """Return the problem with ``moveto`` also ending being near every other thing that is not held."""
     other = TypedName("?other", ("thing",))
     away = And((Not(Equals("?x", "?other")), Not(Atom("holding", ("pr2", "?other")))))
     leave = Effect(Atom("near", ("pr2", "?other")), False, away, (other,))

@@ -1,4 +1,4 @@
-"""What is in a copy of VEIL-500: what was found, repaired and dropped (``tmd data check``)."""
+"""The report on a copy of VEIL-500: counts of what was found, repaired and dropped (``tmd data check``)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class DataReport:
     remarks: tuple[str, ...] = field(default=())
 
     def text(self) -> str:
-        """The report for people."""
+        """Return the report for people."""
         lines = [f"VEIL-500 in {self.directory}"]
         for section, numbers in self.counts.items():
             lines += ["", section]
@@ -44,7 +44,7 @@ class DataReport:
         return "\n".join(lines) + "\n"
 
     def json(self) -> str:
-        """The report for programs."""
+        """Return the report for programs."""
         return json.dumps(asdict(self), indent=2) + "\n"
 
 
@@ -73,12 +73,12 @@ def check_veil500(directory: str | Path) -> DataReport:
 
 
 def words(text: str) -> tuple[str, ...]:
-    """The words of a text in lower case: what texts are compared by."""
+    """Return the words of a text in lower case: what texts are compared by."""
     return tuple(_WORD.findall(text.lower()))
 
 
 def unknown_objects(data: VeilData) -> list[tuple[Point, str]]:
-    """Every mention of an object that the environment of its demonstration does not have."""
+    """Return every mention of an object that the environment of its demonstration does not have."""
     names = {key: frozenset(environment.names) for key, environment in data.environments.items()}
     return [
         (point, name)
@@ -90,7 +90,7 @@ def unknown_objects(data: VeilData) -> list[tuple[Point, str]]:
 
 
 def unknown_forms(data: VeilData) -> list[tuple[Point, str]]:
-    """Every action whose verb and number of arguments no rule has."""
+    """Return every action whose verb and number of arguments no rule has."""
     arity = {action.name: len(action.parameters) for action in veil_domain("literal").actions}
     return [
         (point, str(instruction))
@@ -203,7 +203,7 @@ def _placement(data: VeilData) -> dict[str, int]:
 
 
 def _remarks(data: VeilData) -> tuple[str, ...]:
-    """One line for each thing that could not be used as it stands."""
+    """Return one line for each thing that could not be used as it stands."""
     remarks = [
         f"point {point.index} (line {point.line}): no object '{name}' in {point.world} {point.environment}"
         for point, name in unknown_objects(data)

@@ -58,11 +58,11 @@ class _XmlFile(YamlSource):
         self.path = path
 
     def error(self, path: Sequence[str | int], message: str, hint: str | None = None, code: str = "") -> TmdError:
-        """The hint of a YAML file (other sizes, other places) is none for the data set."""
+        """Return the hint of a YAML file (other sizes, other places) is none for the data set."""
         return TmdError(message, location=self.locate(path), code=code)
 
     def locate(self, path: Sequence[str | int]) -> Location:
-        """The file."""
+        """Return the file."""
         return Location(str(self.path), 1, 1)
 
 
@@ -84,7 +84,7 @@ class VeilScene:
 
 
 def read_room(path: Path) -> VeilEnvironment:
-    """One environment file of a copy of VEIL-500: ``DIR/Environments/kitchen/kitchen3.xml``.
+    """Read one environment file of a copy of VEIL-500: ``DIR/Environments/kitchen/kitchen3.xml``.
 
     Raises:
         DataError: The file, or ``DIR/Objects.xml``, is missing or wrong, or lies elsewhere.
@@ -102,7 +102,7 @@ def read_room(path: Path) -> VeilEnvironment:
 
 
 def scene_of(room: VeilEnvironment) -> VeilScene:
-    """An environment of VEIL-500 as one that can be built.
+    """Return an environment of VEIL-500 as one that can be built.
 
     Raises:
         TmdError: ``scene.yaml`` is missing or wrong.
@@ -132,12 +132,12 @@ def scene_of(room: VeilEnvironment) -> VeilScene:
 
 
 def _place(at: tuple[str, ...] | None, names: Mapping[str, str]) -> str | None:
-    """Where a thing is, in the words of an environment: ``on stove_fire_1``."""
+    """Return the place of a thing in the words of an environment: ``on stove_fire_1``."""
     return None if at is None else f"{at[1]} {names.get(at[0], at[0])}"
 
 
 def _kind(thing: VeilObject, classes: Classes) -> str:
-    """The class that says what a thing looks like."""
+    """Return the class that says what a thing looks like."""
     kind = thing.kind.lower()
     if kind in classes.entries.classes:
         return kind
@@ -145,7 +145,7 @@ def _kind(thing: VeilObject, classes: Classes) -> str:
 
 
 def _entry(things: Sequence[VeilObject], classes: Classes, place: str | None, remarks: list[str]) -> ObjectEntry:
-    """An object as an environment has it; ``things`` are the object and its parts."""
+    """Return an object as an environment has it; ``things`` are the object and its parts."""
     thing = things[0]
     kind = _kind(thing, classes)
     if kind != thing.kind.lower():
@@ -166,7 +166,7 @@ def _plain(sort: str) -> str:
 def _states(
     things: Sequence[VeilObject], kind: str, classes: Classes
 ) -> tuple[dict[str, StateValue], dict[str, dict[str, StateValue]]]:
-    """What is seen of an object's states: of itself, and of its parts."""
+    """Return the visible states of an object, and of its parts."""
     known = classes.get(kind)
     states: dict[str, StateValue] = {}
     parts: dict[str, dict[str, StateValue]] = {}
@@ -183,7 +183,7 @@ def _states(
 
 
 def _part(thing: VeilObject, whole: VeilObject, classes: Classes, remarks: list[str]) -> str:
-    """The name, in the scene, of the part that an object of the data set stands for; of its whole if there is none."""
+    """Return the name in the scene of the part that an object of the data set is; of its whole if there is none."""
     vertices = classes.get(_kind(whole, classes)).vertices
     said = _bare(thing.pddl).removeprefix(_bare(whole.pddl))
     part = next((name for name in vertices if _bare(name) == said), None)
@@ -194,5 +194,5 @@ def _part(thing: VeilObject, whole: VeilObject, classes: Classes, remarks: list[
 
 
 def _bare(name: str) -> str:
-    """A name without what its spelling adds."""
+    """Return a name without what its spelling adds."""
     return name.replace("_", "")

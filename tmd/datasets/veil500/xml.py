@@ -32,17 +32,17 @@ class Element:
     children: list[Element] = field(default_factory=list)
 
     def all(self, tag: str) -> list[Element]:
-        """The children of that name."""
+        """Return the children of that name."""
         return [child for child in self.children if child.tag == tag]
 
     def walk(self) -> Iterator[Element]:
-        """This element and everything below it, in file order."""
+        """Yield this element and everything below it, in file order."""
         yield self
         for child in self.children:
             yield from child.walk()
 
     def need(self, tag: str) -> Element:
-        """The first child of that name.
+        """Return the first child of that name.
 
         Raises:
             DataError: There is none.
@@ -57,7 +57,7 @@ class Element:
         )
 
     def get(self, tag: str, default: str = "") -> str:
-        """The stripped text of the first child of that name."""
+        """Return the stripped text of the first child of that name."""
         for child in self.children:
             if child.tag == tag:
                 return child.text.strip()
@@ -65,7 +65,7 @@ class Element:
 
 
 def read_bytes(path: Path) -> bytes:
-    """The bytes of a file of the data set.
+    """Return the bytes of a file of the data set.
 
     Raises:
         DataError: The file is missing or cannot be read.
@@ -82,7 +82,7 @@ def read_bytes(path: Path) -> bytes:
 
 
 def read_xml(path: Path, root: str) -> Element:
-    """The tree of an XML file whose outermost element is ``root``.
+    """Return the tree of an XML file whose outermost element is ``root``.
 
     Raises:
         DataError: The file is missing, is not well-formed (truncated, say) or has another outermost element.

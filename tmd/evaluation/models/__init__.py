@@ -1,4 +1,4 @@
-"""What an experiment compares: the models of the paper and their rivals, each of which learns and predicts.
+"""The models that experiments compare: those of the paper and their rivals.
 
 Begin with :mod:`tmd.evaluation.models.model`, the protocol; :mod:`~tmd.evaluation.models.paper_models` has the rows of
 Table II.

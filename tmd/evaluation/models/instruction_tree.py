@@ -77,7 +77,7 @@ class InstructionTree:
         return self
 
     def predict(self, example: Example, data: Worlds, random: np.random.Generator) -> Prediction:
-        """The sequence of the greatest reward for each clause, one clause after the other."""
+        """Return the sequence of the greatest reward for each clause, one clause after the other."""
         policy = self.policy(example.environment, example.world, data)
         if policy is None:
             return Prediction()
@@ -89,7 +89,7 @@ class InstructionTree:
         return by_clause(served)
 
     def policy(self, environment: str, world: str, data: Worlds) -> Policy | None:
-        """What was learned, ready for one environment; ``None`` in a kind of world that training did not have."""
+        """Return the learned policy for one environment; ``None`` in a kind of world that training did not have."""
         reward = self.rewards_.get(world)
         if reward is None:
             return None

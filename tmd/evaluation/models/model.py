@@ -1,4 +1,4 @@
-"""What is compared. A model learns from examples and predicts an instruction sequence for another one."""
+"""The rows of the table: models that learn from examples and predict an instruction sequence for another one."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ class Model(Protocol):
         ...
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
-        """The instructions for the example's text in its environment; its own sequence is not looked at."""
+        """Return the instructions for the example's text in its environment; its own sequence is not looked at."""
         ...
 
 
 class Empty:
-    """Predicts nothing: the floor that every metric has."""
+    """The empty prediction: the floor of every metric."""
 
     def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
-        """Nothing is learned."""
+        """Learn nothing."""
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
-        """Nothing."""
+        """Return an empty prediction."""
         return Prediction()
 
 
@@ -63,7 +63,7 @@ class Chance:
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
-        """A random sequence."""
+        """Return a random sequence."""
         operators = data.world(example.environment).task.operators
         draws = random.integers(len(operators), size=self.lengths_.get(example.world, 0))
         return Prediction(tuple(operators[int(draw)].instruction for draw in draws))
@@ -83,7 +83,7 @@ class NearestEnvironment:
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
-        """The nearest template of each clause, one after the other."""
+        """Return the nearest template of each clause, one after the other."""
         world = data.world(example.environment)
         library = self.libraries_.get(example.world) or Library(data.lexicon)
         state = world.task.init
@@ -128,7 +128,7 @@ _RENAMED = {
 
 
 def make_model(name: str) -> Model:
-    """A new model.
+    """Return a new model.
 
     Raises:
         TmdError: There is none of that name.

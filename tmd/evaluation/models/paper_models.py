@@ -29,7 +29,6 @@ from tmd.language.clause import Clause, Parsed
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.result import Planner
 from tmd.readers.interface import Dialogue
-from tmd.readers.rules import ClauseDialogue
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn, run, whole
 from tmd.veil.world import World
@@ -47,7 +46,7 @@ _PLANNERS: WeakKeyDictionary[Worlds, dict[tuple[str, int], Planner]] = WeakKeyDi
 
 
 def planner_for(data: Worlds, environment: str, cap: int) -> Planner:
-    """The planner of an environment, which gives up after ``cap`` generated states."""
+    """Return the planner of an environment, which gives up after ``cap`` generated states."""
     known = _PLANNERS.setdefault(data, {})
     if (environment, cap) not in known:
         known[environment, cap] = make(IN_PROCESS, data.world(environment).task, cap=cap)
@@ -73,7 +72,7 @@ def _policy_of(examples: tuple[Example, ...], data: Worlds) -> InstructionTree:
 
 @dataclass(frozen=True, slots=True)
 class _Taught:
-    """What examples teach, but for the weights."""
+    """The knowledge that examples teach, without the weights."""
 
     library: Library
     statistics: Statistics
@@ -134,7 +133,7 @@ class Crf:
         return self
 
     def restore(self, examples: Sequence[Example], data: Worlds, saved: dict[str, Any]) -> Self:
-        """The model as :meth:`fit` left it: the library is built again, the weights are those ``saved``.
+        """Return the model as :meth:`fit` left it: the library is built again, the weights are those ``saved``.
 
         Raises:
             TmdError: What was saved is not what this model learns.
@@ -162,12 +161,12 @@ class Crf:
         return Learned(Weights(weights), curve)
 
     def predict(self, example: Example, data: Worlds, random: np.random.Generator) -> Prediction:
-        """The plan of least energy."""
+        """Return the plan of least energy."""
         plans = self.plans(example, data, top=1)
         return as_prediction(plans[0], self._clauses(example, data)) if plans else Prediction()
 
     def plans(self, example: Example, data: Worlds, *, top: int) -> tuple[RankedPlan, ...]:
-        """The best plans, cheapest first; none in a world that was not learned."""
+        """Return the best plans, cheapest first; none in a world that was not learned."""
         if example.world not in self.libraries_:
             return ()
         world = example.world
@@ -189,7 +188,7 @@ class Crf:
         self.weights_ = dict.fromkeys(self.libraries_, mine)
 
     def _learn(self, name: str, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Learned:
-        """Weights for one kind of world. A training example never sees what its own environment taught.
+        """Return weights for one kind of world. A training example never sees what its own environment taught.
 
         What corrects a plan is learned from in any case. It sees what was known when that plan was proposed: all but
         itself, so that the plan is among the proposals again. (The policy is that of all examples.)
@@ -215,7 +214,7 @@ class Crf:
         )
 
     def _without(self, name: str, group: frozenset[str], examples: Sequence[Example], data: Worlds) -> _Taught:
-        """What the other examples teach."""
+        """Return the knowledge of the other examples."""
         others = [e for e in examples if e.demonstration.id not in group]
         library = self.libraries_[name].filtered(lambda template: template.source not in group)
         if not self.config.language:
@@ -224,13 +223,13 @@ class Crf:
         return _Taught(library, count(library), self._policy(others, data), goals)
 
     def _before(self, name: str, example: Example) -> _Taught:
-        """What all but ``example`` teach."""
+        """Return the knowledge of all examples but one."""
         own = example.demonstration.id
         library = self.libraries_[name].filtered(lambda template: template.source != own)
         return _Taught(library, count(library), self.tree_, self.goals_.get(name))
 
     def _goals(self, name: str, examples: Sequence[Example], data: Worlds) -> GoalTable:
-        """What the examples of one kind of world teach about what verbs mean."""
+        """Return the goals of verbs that the examples of one kind of world teach."""
         own = (e.demonstration for e in examples if e.world == name)
         return learn_goals(own, data.world, data.lexicon)
 
@@ -246,7 +245,7 @@ class Crf:
         *,
         top: int,
     ) -> tuple[RankedPlan, ...]:
-        """What inference finds. Told nothing it finds the same for every example in an environment."""
+        """Return the plans of inference. Without language they are the same for every example in an environment."""
         infer = partial(self._infer, example, data, taught, weights, top=top)
         if self.config.language:
             return infer()
@@ -274,9 +273,9 @@ class Crf:
             config = replace(config, guess=True)
         if config.language:
             reader = reader_of(config, taught.library, taught.goals)
-            dialogue: Dialogue = reader.begin(example.demonstration.text, world, world.task.init)
+            dialogue = reader.begin(example.demonstration.text, world, world.task.init)
         else:
-            dialogue = ClauseDialogue(Parsed("", self._clauses(example, data)))
+            dialogue = Dialogue(Parsed("", self._clauses(example, data)))
         restoration = restoration_of(taught.goals, config)
         return infer(
             dialogue, world, taught.library, energy, planners, config, policy=policy, restoration=restoration, top=top
@@ -290,7 +289,7 @@ class Crf:
 
 
 def _groups(examples: Sequence[Example]) -> dict[str | int, frozenset[str]]:
-    """For each example those that must teach it nothing: all of its environment, or it alone where there is but one."""
+    """Return for each example those to leave out: all of its environment, or itself where there is only one."""
     places = {e.environment for e in examples}
     if len(places) == 1:
         return {e.id: frozenset({e.demonstration.id}) for e in examples}
@@ -299,12 +298,12 @@ def _groups(examples: Sequence[Example]) -> dict[str | int, frozenset[str]]:
 
 
 def _corrects(example: Example) -> bool:
-    """Whether it is a correction of a plan that was proposed."""
+    """Return whether it is a correction of a plan that was proposed."""
     return example.demonstration.proposed is not None
 
 
 def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
-    """A plan with what it does for each clause, or for each step of it where the model has goals, and why."""
+    """Return a plan with what it does for each clause, or for each step of it where the model has goals, and why."""
     numbers = [goal.clause for goal in plan.goals] if plan.goals else range(len(clauses))
     served = tuple(
         Served(
@@ -321,7 +320,7 @@ def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
 
 
 def loss(plan: RankedPlan, example: Example, world: World) -> float:
-    """How far a plan is from what the person did, from 0 to 1: half IED, half END under the planning rules.
+    """Return the distance of a plan from the demonstration, from 0 to 1: half IED, half END under the planning rules.
 
     The one who judges knows those rules, whatever the robot knows. A plan that a person corrected is as far as can be.
     """
@@ -334,7 +333,7 @@ def loss(plan: RankedPlan, example: Example, world: World) -> float:
 
 
 def libraries(examples: Sequence[Example], data: Worlds) -> dict[str, Library]:
-    """A library for each kind of world."""
+    """Return a library for each kind of world."""
     return {
         world: learn((e.demonstration for e in examples if e.world == world), data.world, data.lexicon)
         for world in sorted({example.world for example in examples})
@@ -342,7 +341,7 @@ def libraries(examples: Sequence[Example], data: Worlds) -> dict[str, Library]:
 
 
 def _usual_steps(examples: Sequence[Example], world: str) -> int:
-    """The median number of segments with instructions in the demonstrations of a world."""
+    """Return the median number of segments with instructions in the demonstrations of a world."""
     done = [sum(bool(s.instructions) for s in e.demonstration.segments) for e in examples if e.world == world]
     return int(median(done)) if done else 0
 
@@ -361,7 +360,7 @@ ROWS: dict[str, Callable[[], Crf]] = {
 
 
 def weights_of(corpus: Corpus, random: np.random.Generator) -> Learned:
-    """Weights for the model ``goals``, learned on all demonstrations of a domain.
+    """Return weights for the model ``goals``, learned on all demonstrations of a domain.
 
     Raises:
         TmdError: A demonstration is wrong.

@@ -63,7 +63,7 @@ class PredefinedTemplates:
         self.libraries_: dict[str, PredefinedLibrary] = {}
 
     def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
-        """Nothing is learned; the library is read again.
+        """Learn nothing; read the library.
 
         Raises:
             TmdError: There is none, or it is wrong.
@@ -74,7 +74,7 @@ class PredefinedTemplates:
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
-        """The template of each clause, one after the other.
+        """Return the template of each clause, one after the other.
 
         Raises:
             TmdError: The domain has no library, or a wrong one.
@@ -99,7 +99,7 @@ class PredefinedTemplates:
 def serve(
     library: PredefinedLibrary, clause: Clause, world: World, state: Bits, lexicon: Lexicon
 ) -> tuple[tuple[Instruction, ...], str | None]:
-    """The instructions for ``clause`` and the template they come from; nothing, from ``None``, where none fits.
+    """Return the instructions for ``clause`` and the template they come from; nothing, from ``None``, where none fits.
 
     Of the templates that fit it is the one of most :attr:`~PredefinedTemplate.weight`, then the first of the file.
     """
@@ -116,7 +116,7 @@ def serve(
 def _groundings(
     template: PredefinedTemplate, kinds: Sequence[TemplateKind], clause: Clause, world: World, state: Bits
 ) -> Iterator[Mapping[str, str]]:
-    """The objects of the variables, for each way to read the clause as the template, in order of mention."""
+    """Yield the objects of the variables, for each way to read the clause as the template, in order of mention."""
     nouns = list(clause.resolved())
     spoken = None
     if template.says:
@@ -131,7 +131,7 @@ def _groundings(
 
 
 def _beginnings(template: PredefinedTemplate, clause: Clause, nouns: Sequence[str]) -> Iterator[tuple[str, ...]]:
-    """The nouns that the template's first variables may have: related ones, else any one."""
+    """Yield the nouns that the template's first variables may have: related ones, else any one."""
     if not template.objects:
         yield ()
     elif not template.relations:
@@ -152,7 +152,7 @@ def _ground(
     world: World,
     state: Bits,
 ) -> Mapping[str, str] | None:
-    """An object for each variable, or ``None``: those of ``first``, then of other nouns, then what fits first."""
+    """Return an object for each variable: of ``first``, then of other nouns, then any that fits; or else ``None``."""
     grounding: dict[str, str] = {}
     left = [noun for noun in nouns if noun not in first]
     for place, variable in enumerate(template.objects):
@@ -174,12 +174,12 @@ def _ground(
 
 
 def _among(noun: str, words: Sequence[str]) -> bool:
-    """Whether ``noun``, or what is left of it without its modifiers, is one of ``words``."""
+    """Return whether ``noun``, or what is left of it without its modifiers, is one of ``words``."""
     return noun in words or noun.rpartition("_")[2] in words
 
 
 def _meant(noun: str, kinds: Sequence[TemplateKind], world: World, state: Bits) -> Iterator[str]:
-    """The objects that ``noun`` may mean, likeliest first."""
+    """Yield the objects that ``noun`` may mean, likeliest first."""
     matches = world.mentions.of(noun, state)
     yield from (match.name for match in matches if match.how not in _LOOSE)
     for kind in kinds:
@@ -189,7 +189,7 @@ def _meant(noun: str, kinds: Sequence[TemplateKind], world: World, state: Bits) 
 
 
 def _fits(template: PredefinedTemplate, variable: str, name: str, grounding: Mapping[str, str], world: World) -> bool:
-    """Whether ``variable`` may stand for the object ``name``, the others being as in ``grounding``."""
+    """Return whether ``variable`` may stand for the object ``name``, the others being as in ``grounding``."""
     if name in grounding.values() or not template.variables[variable].has(name, world.objects):
         return False
     facts = replace(template.where, {**grounding, f"?{variable}": name})

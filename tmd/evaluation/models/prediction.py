@@ -1,4 +1,4 @@
-"""What a model says of one example: the instructions, and how it came to them where it can tell."""
+"""The prediction of a model for one example: the instructions, and their origin where it is known."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from tmd.pddl.model import Instruction
 
 @dataclass(frozen=True, slots=True)
 class Served:
-    """What was done for one clause.
+    """The instructions for one clause.
 
     Attributes:
         text: The words of the clause.
@@ -45,6 +45,6 @@ class Prediction:
 
 
 def by_clause(done: Iterable[tuple[Clause, tuple[Instruction, ...], str | None]]) -> Prediction:
-    """A prediction from what was done for each clause, and the template each time."""
+    """Return a prediction from what was done for each clause, and the template each time."""
     served = tuple(Served(clause.text, clause.verb, said=said, source=source) for clause, said, source in done)
     return Prediction(tuple(i for s in served for i in s.said), served)

@@ -75,7 +75,7 @@ WEIGHTS: Mapping[str, float] = {
 
 @dataclass(frozen=True, slots=True)
 class Candidates:
-    """What may be done for one text.
+    """The candidate plans for one text.
 
     Attributes:
         plans: The distinct candidates, C of them.
@@ -108,13 +108,13 @@ class Ranked:
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
-        """The candidate with the greatest weighed sum; of equal ones the first."""
+        """Return the candidate with the greatest weighed sum; of equal ones the first."""
         found = self.candidates(example, data)
         best = int(np.argmax(np.round(found.features @ self.weights, 9)))
         return Prediction(found.plans[best])
 
     def candidates(self, example: Example, data: Dataset) -> Candidates:
-        """What every proposer proposes for a text; the sequence of the example is not looked at."""
+        """Return the candidates of all proposers for a text; the sequence of the example is not used."""
         world = data.world(example.environment)
         completer = SequenceCompleter(world, planner_for(data, example.environment, POLICY.cap))
         tree = self._models["policy"].tree_
@@ -140,7 +140,7 @@ class Ranked:
         return Candidates(tuple(plans), proposed, _features(plans, proposed, under, usual))
 
     def _neighbours(self, example: Example) -> tuple[list[Example], NDArray[np.float64]]:
-        """The training examples of the nearest texts, by the cosine of their words' tf-idf, and how near they are."""
+        """Return the training examples of the nearest texts, and their similarity: the cosine of the words' tf-idf."""
         pool = [other for other in self._examples if other.world == example.world]
         bags = [Counter(re.findall(r"[a-z0-9']+", e.demonstration.text.lower())) for e in (example, *pool)]
         frequency = Counter(word for bag in bags[1:] for word in bag)
@@ -156,7 +156,7 @@ class Ranked:
 
 
 def _mean(similar: NDArray[np.float64], weights: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The weighed mean over people of shape (2, C, people), as (2, C); 0 where there are none."""
+    """Return the weighed mean over people of shape (2, C, people), as (2, C); 0 where there are none."""
     total = weights.sum()
     found: NDArray[np.float64] = similar @ weights / total if total else np.zeros(similar.shape[:2])
     return found

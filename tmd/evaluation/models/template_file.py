@@ -24,13 +24,13 @@ FILE = "templates.yaml"
 
 @dataclass(frozen=True, slots=True)
 class TemplateKind:
-    """What a variable may stand for.
+    """The objects that a variable may be.
 
     Attributes:
         types: Types of the domain, any of which will do.
         called: Names, with or without their numbers, any of which will do; empty for all. VEIL-500 needs them: its
-            classes are no types.
-        words: Nouns for such objects, besides those that the environment and the lexicon know; they go before what
+            classes are not types.
+        words: Nouns for such objects, beside those that the environment and the lexicon know; they go before what
             is merely similar, or what something may contain.
     """
 
@@ -39,7 +39,7 @@ class TemplateKind:
     words: tuple[str, ...] = ()
 
     def has(self, name: str, objects: Universe) -> bool:
-        """Whether the object ``name`` is of this kind."""
+        """Return whether the object ``name`` is of this kind."""
         names = {name, re.sub(r"[_\d]+\Z", "", name)}
         return objects.is_a(name, self.types) and (not self.called or not names.isdisjoint(self.called))
 
@@ -72,20 +72,20 @@ class PredefinedTemplate:
 
     @property
     def weight(self) -> tuple[int, bool]:
-        """How much of a clause it accounts for: words, then whether their relation matters."""
+        """The part of a clause that it covers: words, then whether their relation matters."""
         return len(self.objects) + bool(self.says), bool(self.relations)
 
 
 @dataclass(frozen=True, slots=True)
 class PredefinedLibrary:
-    """What is in a file: the templates in their order, and its kinds, whose words hold for every template."""
+    """The content of a file: the templates in order, and its kinds, whose words hold for every template."""
 
     templates: tuple[PredefinedTemplate, ...]
     kinds: tuple[TemplateKind, ...] = ()
 
 
 def load_templates(folder: DomainFolder) -> PredefinedLibrary:
-    """The library of a domain.
+    """Return the library of a domain.
 
     Raises:
         TmdError: There is none, or something in it is wrong; with file, line and column.
@@ -150,7 +150,7 @@ class _File(BaseModel):
 
 
 class _Reader:
-    """Checks entries against the domain."""
+    """A reader that checks entries against the domain."""
 
     def __init__(self, source: YamlSource, domain: Domain, verbs: Mapping[str, Sequence[str]]) -> None:
         self.source = source
@@ -162,7 +162,7 @@ class _Reader:
         self.predicates = {p.name: p.parameters for p in domain.predicates}
 
     def kind(self, at: _Path, entry: _KindEntry) -> TemplateKind:
-        """A kind of the file's own."""
+        """Return a kind of the file's own."""
         if self.hierarchy.known(str(at[-1])):
             raise self.source.error(at, f"'{at[-1]}' is a type of the domain", "give the kind another name")
         for place, name in enumerate(entry.types):
@@ -173,7 +173,7 @@ class _Reader:
     def template(
         self, at: _Path, entry: _TemplateEntry, kinds: Mapping[str, TemplateKind], folder: str
     ) -> PredefinedTemplate:
-        """A template whose variables, facts and instructions all fit together."""
+        """Return a template whose variables, facts and instructions all fit together."""
         for key in ("verb", "instructions"):
             if not getattr(entry, key):
                 raise self.source.error((*at, key), f"'{key}' is empty", "a template has at least one")
@@ -206,7 +206,7 @@ class _Reader:
         )
 
     def _variable(self, at: _Path, words: Sequence[str], kinds: Mapping[str, TemplateKind]) -> TemplateKind:
-        """One kind of the file's own, or some types."""
+        """Return one kind of the file's own, or some types."""
         if len(words) == 1 and words[0] in kinds:
             return kinds[words[0]]
         for place, name in enumerate(words):
@@ -222,7 +222,7 @@ class _Reader:
         signatures: Mapping[str, tuple[TypedName, ...]],
         what: str,
     ) -> Instruction:
-        """An action or a predicate with its arguments."""
+        """Return an action or a predicate with its arguments."""
         name, *args = text.lower().split() or [""]
         if name not in signatures:
             raise self._unknown(at, what, name, list(signatures))

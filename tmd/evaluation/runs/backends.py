@@ -1,4 +1,4 @@
-"""Who does the units: this process, processes on this machine, or a cluster."""
+"""Execution backends: this process, processes on this machine, or a cluster."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], j
     with warnings.catch_warnings(), parallel_config(backend="loky", inner_max_num_threads=1):
         # a worker that has grown is replaced between two units: nothing is lost by it
         warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")
-        # what joblib cannot write, it does without; what we cannot write is told by us
+        # joblib does without files that it cannot write; those of ours are reported by us
         warnings.filterwarnings("ignore", module=r"joblib\b")
         workers = Parallel(n_jobs=min(jobs, len(tasks)), return_as="generator_unordered", batch_size=1)
         try:

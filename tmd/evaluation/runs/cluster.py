@@ -43,7 +43,7 @@ _ONE_AT_A_TIME = threading.Lock()
 
 @dataclass(frozen=True, slots=True)
 class Expected:
-    """What a worker must have.
+    """The version and data that a worker must have.
 
     Attributes:
         version: Of tmd.
@@ -87,7 +87,7 @@ def on_cluster(config: ExperimentConfig, units: Sequence[EvaluationJob], fingerp
 
 
 def _caller() -> Callable[[bytes], bytes]:
-    """The function that is sent: being local it travels with its code, and what it says and is told is mere bytes.
+    """Return the function that is sent: being local it travels with its code, and takes and returns bytes.
 
     So the scheduler needs no tmd, and a worker without it fails in the unit, with an error that can be told.
     """
@@ -103,7 +103,7 @@ def _caller() -> Callable[[bytes], bytes]:
 
 
 def _sent(config: ExperimentConfig) -> ExperimentConfig:
-    """What a worker is told: directories do not depend on where it was started."""
+    """Return the configuration for workers, with absolute directories."""
     veil500, domains, problems = (p and p.resolve() for p in (config.veil500, config.domains, config.problems))
     return replace(config, out=Path(), jobs=1, shard=None, veil500=veil500, domains=domains, problems=problems)
 
@@ -143,7 +143,7 @@ def remote(config: ExperimentConfig, unit: EvaluationJob, expected: Expected) ->
 
 @lru_cache(maxsize=1)
 def source_digest(package: Path = PACKAGE) -> str:
-    """A digest of the code below a directory, as it was when this process asked for the first time."""
+    """Return a digest of the code below a directory, as it was when this process asked for the first time."""
     digest = hashlib.sha256()
     for path in sorted(package.rglob("*.py")):
         content = path.read_bytes()
@@ -157,7 +157,7 @@ def _build(version: str, source: str) -> str:
 
 
 def _here() -> str:
-    """The worker's address, or the machine's name."""
+    """Return the worker's address, or the machine's name."""
     with suppress(Exception):
         from distributed import get_worker
 
@@ -214,7 +214,7 @@ def _ended(
     address: str,
     gone_since: float | None,
 ) -> tuple[set[Any], float | None]:
-    """What of ``waiting`` has ended meanwhile, and since when all workers are gone: ``None`` if they are not.
+    """Return the futures that have ended, and since when all workers are gone; ``None`` if they are not.
 
     Raises:
         MissingToolError: They are gone for too long.
@@ -235,7 +235,7 @@ def _ended(
 
 
 def _outcome(distributed: ModuleType, future: Any, address: str) -> JobOutcome:  # noqa: ANN401
-    """What came out of a unit, or the error that it ended with."""
+    """Return the outcome of a unit, or raise its error."""
     with _connected(address):
         error = future.exception()
         if error is None:
@@ -257,7 +257,7 @@ def _outcome(distributed: ModuleType, future: Any, address: str) -> JobOutcome: 
 
 @contextmanager
 def _connected(address: str) -> Iterator[None]:
-    """Whatever the transport raises within means that the scheduler is lost."""
+    """Report any error of the transport as a lost scheduler."""
     try:
         yield
     except (OSError, CancelledError):

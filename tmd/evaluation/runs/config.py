@@ -1,4 +1,4 @@
-"""What a run is asked to do, and which part of that decides its outcome."""
+"""The configuration of a run, and the part of it that decides the outcome."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ class Shard:
     of: int
 
     def has(self, index: int) -> bool:
-        """Whether the unit of that number belongs to the share."""
+        """Return whether the unit of that number belongs to the share."""
         return index % self.of == self.number % self.of
 
 
 @dataclass(frozen=True, slots=True)
 class ExperimentConfig:
-    """What a run is to do.
+    """The configuration of a run.
 
     Attributes:
         task: A task of the data, or ``all``.
@@ -79,7 +79,7 @@ class ExperimentConfig:
     shard: Shard | None = None
 
     def identity(self, fingerprint: str) -> dict[str, Any]:
-        """What decides the outcome: not the places, and not how the work is shared out.
+        """Return the settings that decide the outcome, without directories and the distribution of the work.
 
         Args:
             fingerprint: Of the data.

@@ -1,14 +1,14 @@
-"""What an experiment needs of a data set, and the two that there are: the bundled one and VEIL-500."""
+"""Data sets for experiments: the bundled one and VEIL-500."""
 
 from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from tmd.diagnostics import DataError, TmdError
 from tmd.evaluation.metrics import Scorer
@@ -22,6 +22,9 @@ from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration, Segment, read_goal
 from tmd.veil.world import World, make_world
 from tmd.world.folder import find_domain, find_problems
+
+if TYPE_CHECKING:
+    from tmd.datasets.veil500.data import Point
 
 ALL = "all"
 """The task that stands for every task."""
@@ -51,12 +54,12 @@ class Example:
 
     @property
     def gold(self) -> tuple[Instruction, ...]:
-        """What the person did."""
+        """The instructions that the person gave."""
         return self.demonstration.instructions
 
 
 class Worlds(Protocol):
-    """What a model needs to learn from examples and to predict: the worlds they were made in, and the words."""
+    """The worlds that examples were made in, and the words: needed for learning and predicting."""
 
     @property
     def lexicon(self) -> Lexicon:
@@ -64,41 +67,64 @@ class Worlds(Protocol):
         ...
 
     def world(self, environment: str) -> World:
-        """The environment, as planning sees it."""
+        """Return an environment as planning sees it."""
         ...
 
 
-class Dataset(Worlds, Protocol):
-    """Examples, and the worlds they were made in."""
+class Dataset:
+    """Examples, and the worlds they were made in.
 
-    @property
-    def examples(self) -> tuple[Example, ...]:
-        """All examples of the task that was asked for, in the data set's order: what may be tested."""
-        ...
+    Args:
+        lexicon: The words of the domain.
+        pool: All examples of all tasks, in the data set's order. They may be trained on.
+        tested: Tasks of which examples are tested.
+        files: Files that the data were read from, for the fingerprint: directory and patterns by kind.
 
-    @property
-    def pool(self) -> tuple[Example, ...]:
-        """All examples of all tasks, in the data set's order: what may be trained on."""
-        ...
+    Attributes:
+        examples: All examples of ``tested``, in the data set's order.
+    """
+
+    def __init__(
+        self,
+        lexicon: Lexicon,
+        pool: tuple[Example, ...],
+        tested: Collection[str],
+        files: Mapping[str, tuple[Path, tuple[str, ...]]],
+    ) -> None:
+        self.lexicon = lexicon
+        self.pool = pool
+        self.examples = tuple(example for example in pool if example.task in tested)
+        self._fingerprint = _digest(files)
+        self._scorers: dict[str, Scorer] = {}
 
     def trained_with(self, task: str) -> frozenset[str]:
-        """The tasks that ``task`` is trained with under the protocol of the data, itself among them."""
-        ...
+        """Return the tasks that ``task`` is trained with under the protocol of the data, itself among them."""
+        raise NotImplementedError
+
+    def world(self, environment: str) -> World:
+        """Return an environment as planning sees it."""
+        raise NotImplementedError
 
     def scorer(self, environment: str) -> Scorer:
-        """The metrics in the environment, as scoring sees it."""
-        ...
+        """Return the metrics in an environment, as scoring sees it."""
+        if environment not in self._scorers:
+            scorer = self._scorers[environment] = self._scorer(environment)
+            scorer.prepare(e.gold for e in self.examples if e.environment == environment)
+        return self._scorers[environment]
+
+    def _scorer(self, environment: str) -> Scorer:
+        raise NotImplementedError
 
     def written(self, environment: str, instructions: Iterable[Instruction]) -> list[str]:
-        """The instructions in the data set's own notation."""
-        ...
+        """Return instructions in the data set's own notation, such as ``keep(mug1, counter1, on)``."""
+        return [str(instruction) for instruction in instructions]
 
     def fingerprint(self) -> str:
-        """A digest of the data as they were read; two runs on different data have different ones."""
-        ...
+        """Return a digest of the files as they were read; two runs on different data have different ones."""
+        return self._fingerprint
 
 
-class BundledData:
+class BundledData(Dataset):
     """The demonstrations in ``problems/``.
 
     Args:
@@ -119,26 +145,23 @@ class BundledData:
         known = self.corpus.tasks()
         tested = frozenset(known) if task == ALL else frozenset({d.task for d in self.corpus.demonstrations(task)})
         self._groups = read_protocol(self.corpus.directory / FILE, known)
-        self._pool = tuple(self._example(d) for name in known for d in self.corpus.demonstrations(name))
-        self._check(known)
-        self._examples = tuple(example for example in self._pool if example.task in tested)
-        self._fingerprint = _digest(
-            {
-                "domain": (folder.path, ("*.pddl", "*.yaml", "*.txt")),
-                "problems": (self.corpus.directory, ("*.jsonl", "*.yaml")),
-            }
-        )
-        self._scorers: dict[str, Scorer] = {}
+        pool = tuple(self._example(d) for name in known for d in self.corpus.demonstrations(name))
+        self._check(pool, known)
+        files = {
+            "domain": (folder.path, ("*.pddl", "*.yaml", "*.txt")),
+            "problems": (self.corpus.directory, ("*.jsonl", "*.yaml")),
+        }
+        super().__init__(self.corpus.lexicon, pool, tested, files)
 
     def _example(self, d: Demonstration) -> Example:
-        """A demonstration with its goal, read once: a faulty one is told before anything is done."""
+        """Return a demonstration with its goal; a faulty goal is reported before anything is done."""
         goal = read_goal(d, self.corpus.world(d.environment).task.problem)
         return Example(d.id, d.task, self.corpus.folder.name, d.environment, _number(d.environment), d, goal)
 
-    def _check(self, known: Sequence[str]) -> None:
-        """A task is the folder it lies in, and a number stands for one environment."""
+    def _check(self, pool: Sequence[Example], known: Sequence[str]) -> None:
+        """Refuse a task that is not named after its folder, and two environments of one number."""
         names: dict[int, str] = {}
-        for example in self._pool:
+        for example in pool:
             if example.task not in known:
                 raise TmdError(
                     f"the demonstration '{example.id}' in {self.corpus.directory} is of a task '{example.task}'",
@@ -151,52 +174,26 @@ class BundledData:
                     hint="environments are chosen by number: give each its own",
                 )
 
-    @property
-    def examples(self) -> tuple[Example, ...]:
-        """All demonstrations of the task."""
-        return self._examples
-
-    @property
-    def pool(self) -> tuple[Example, ...]:
-        """All demonstrations of the domain."""
-        return self._pool
-
     def trained_with(self, task: str) -> frozenset[str]:
-        """Its group in ``protocol.yaml``; all tasks if it stands in none."""
-        everything = frozenset(example.task for example in self._pool)
+        """Return the group of a task in ``protocol.yaml``; all tasks where it is in none."""
+        everything = frozenset(example.task for example in self.pool)
         return next((group for group in self._groups if task in group), everything)
 
-    @property
-    def lexicon(self) -> Lexicon:
-        """The words of the domain."""
-        return self.corpus.lexicon
-
     def world(self, environment: str) -> World:
-        """The environment, ground."""
+        """Return an environment, ground."""
         return self.corpus.world(environment)
 
-    def scorer(self, environment: str) -> Scorer:
-        """The metrics under the domain's own rules."""
-        if environment not in self._scorers:
-            scorer = Scorer(self.corpus.world(environment).task.problem)
-            scorer.prepare(e.gold for e in self._examples if e.environment == environment)
-            self._scorers[environment] = scorer
-        return self._scorers[environment]
-
-    def written(self, environment: str, instructions: Iterable[Instruction]) -> list[str]:
-        """``keep(mug1, counter1, on)``."""
-        return [str(instruction) for instruction in instructions]
-
-    def fingerprint(self) -> str:
-        """A digest of the demonstrations, the environments, the protocol and the domain."""
-        return self._fingerprint
+    def _scorer(self, environment: str) -> Scorer:
+        return Scorer(self.corpus.world(environment).task.problem)
 
 
-class VeilDataset:
+class VeilDataset(Dataset):
     """VEIL-500 from a directory of the user's: planning by the sane rules, scoring by the literal ones.
 
+    Ids are places in ``data.xml``, environments go by file number.
+
     Args:
-        directory: Where the data set is.
+        directory: The directory of the data set.
         task: A task, or ``all``.
 
     Raises:
@@ -211,84 +208,60 @@ class VeilDataset:
         tasks = sorted({point.task for point in self._data.points})
         if task != ALL and task not in tasks:
             raise DataError(f"VEIL-500 has no task '{task}'", hint=nearest(task, tasks) or ", ".join(tasks))
-        self._task = task
-        self._fingerprint = _digest(
-            {
-                "data": (self._data.directory, ("*.xml",)),
-                "domains": (domain_path("sane").parent, ("*.pddl", "*.yaml")),
-            }
+        domains = domain_path("sane").parent
+        words = domains / "lexicon.yaml"
+        super().__init__(
+            read_lexicon(words) if words.is_file() else Lexicon(),
+            tuple(map(_example_of, self._data.points)),
+            tasks if task == ALL else [task],
+            {"data": (self._data.directory, ("*.xml",)), "domains": (domains, ("*.pddl", "*.yaml"))},
         )
         self._worlds: dict[str, World] = {}
-        self._scorers: dict[str, Scorer] = {}
-
-    @cached_property
-    def examples(self) -> tuple[Example, ...]:
-        """All points of the task."""
-        return tuple(example for example in self.pool if self._task in (ALL, example.task))
 
     def trained_with(self, task: str) -> frozenset[str]:
-        """All tasks of its world: nothing is carried from kitchens to living rooms."""
+        """Return all tasks of the world of a task: nothing is carried from kitchens to living rooms."""
         worlds = {example.world for example in self.pool if example.task == task}
         return frozenset(example.task for example in self.pool if example.world in worlds)
 
-    @cached_property
-    def pool(self) -> tuple[Example, ...]:
-        """All points; ids are places in ``data.xml``, environments go by file number."""
-        found = []
-        for point in self._data.points:
-            name = f"{point.world}{point.environment}"
-            segments: list[Segment] = []
-            for group in point.groups:
-                pieces = [s for s in (point.segments[i] for i in group.segments) if s.has_words]
-                start = pieces[0].start if pieces else (segments[-1].end if segments else 0)
-                end = pieces[-1].end if pieces else start
-                segments.append(Segment(start, end, group.instructions))
-            demonstration = Demonstration(str(point.index), point.task, name, point.text, tuple(segments))
-            found.append(Example(point.index, point.task, point.world, name, point.environment, demonstration))
-        return tuple(found)
-
-    @cached_property
-    def lexicon(self) -> Lexicon:
-        """The built-in words, with those of the sane domain if it has any."""
-        from tmd.datasets.veil500.compile import domain_path
-
-        path = domain_path("sane").parent / "lexicon.yaml"
-        return read_lexicon(path) if path.is_file() else Lexicon()
-
     def world(self, environment: str) -> World:
-        """The environment under the sane rules."""
+        """Return an environment under the sane rules."""
         if environment not in self._worlds:
             from tmd.datasets.veil500.compile import compile_environment
 
-            problem = compile_environment(self._data.environments[self._key(environment)], "sane")
+            problem = compile_environment(self._data.environments[_key(environment)], "sane")
             self._worlds[environment] = make_world(environment, problem, self.lexicon, _kinds(problem))
         return self._worlds[environment]
 
-    def scorer(self, environment: str) -> Scorer:
-        """The metrics under the literal rules."""
-        if environment not in self._scorers:
-            from tmd.datasets.veil500.compile import absent_types, compile_environment
-            from tmd.datasets.veil500.forms import mentioned
+    def _scorer(self, environment: str) -> Scorer:
+        from tmd.datasets.veil500.compile import absent_types, compile_environment
+        from tmd.datasets.veil500.forms import mentioned
 
-            place = self._data.environments[self._key(environment)]
-            scorer = Scorer(compile_environment(place, "literal"), mentioned, absent_types(place))
-            scorer.prepare(e.gold for e in self.examples if e.environment == environment)
-            self._scorers[environment] = scorer
-        return self._scorers[environment]
+        place = self._data.environments[_key(environment)]
+        return Scorer(compile_environment(place, "literal"), mentioned, absent_types(place))
 
     def written(self, environment: str, instructions: Iterable[Instruction]) -> list[str]:
-        """``keep Mug_1 On Sink``."""
+        """Return instructions as VEIL-500 writes them, such as ``keep Mug_1 On Sink``."""
         from tmd.datasets.veil500.forms import to_veil
 
-        names = self._data.environments[self._key(environment)].names
+        names = self._data.environments[_key(environment)].names
         return [to_veil(instruction, names) for instruction in instructions]
 
-    def fingerprint(self) -> str:
-        """A digest of every file of the set, and of what the domain says of it."""
-        return self._fingerprint
 
-    def _key(self, environment: str) -> tuple[str, int]:
-        return environment.rstrip("0123456789"), _number(environment)
+def _example_of(point: Point) -> Example:
+    """Return a point of VEIL-500; its groups of actions become segments."""
+    name = f"{point.world}{point.environment}"
+    segments: list[Segment] = []
+    for group in point.groups:
+        pieces = [s for s in (point.segments[i] for i in group.segments) if s.has_words]
+        start = pieces[0].start if pieces else (segments[-1].end if segments else 0)
+        end = pieces[-1].end if pieces else start
+        segments.append(Segment(start, end, group.instructions))
+    demonstration = Demonstration(str(point.index), point.task, name, point.text, tuple(segments))
+    return Example(point.index, point.task, point.world, name, point.environment, demonstration)
+
+
+def _key(environment: str) -> tuple[str, int]:
+    return environment.rstrip("0123456789"), _number(environment)
 
 
 def _kinds(problem: Problem) -> dict[str, str]:
@@ -304,7 +277,7 @@ def _number(environment: str) -> int:
 
 
 def _digest(places: Mapping[str, tuple[Path, tuple[str, ...]]]) -> str:
-    """Of the names and contents of files below directories, by kind; not of where the directories are."""
+    """Return a digest of the names and contents of files, by kind; the place of their directories does not count."""
     digest = hashlib.sha256()
     for kind, (directory, patterns) in places.items():
         for path in sorted({path for pattern in patterns for path in directory.rglob(pattern)}):
@@ -315,7 +288,7 @@ def _digest(places: Mapping[str, tuple[Path, tuple[str, ...]]]) -> str:
 
 
 def open_dataset(config: ExperimentConfig) -> Dataset:
-    """The data of a run, read once in each process.
+    """Return the data of a run, read once in each process.
 
     Raises:
         TmdError: They are not there, or wrong.

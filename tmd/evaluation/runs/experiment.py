@@ -30,7 +30,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, slots=True)
 class _Plan:
-    """What a configuration means."""
+    """A configuration with its data, folds and directory."""
 
     config: ExperimentConfig
     data: Dataset

@@ -1,4 +1,4 @@
-"""What a finished run left in its directory, read and checked."""
+"""The files of a finished run, read and checked."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Run:
     fits: dict[str, Fit] = field(default_factory=dict)
 
     def of(self, model: str) -> list[PredictionRecord]:
-        """The predictions of one row."""
+        """Return the predictions of one row."""
         return [line for line in self.lines if line.model == model]
 
 
@@ -66,7 +66,7 @@ def _text(path: Path) -> str:
 def predicted_plan(
     roots: Roots, run: Path, example: str | None, model: str | None
 ) -> tuple[Problem, tuple[Instruction, ...]]:
-    """The environment and the predicted plan of one example of a run on the bundled data.
+    """Return the environment and the predicted plan of one example of a run on the bundled data.
 
     Args:
         roots: Where domains and problems are.
@@ -85,7 +85,7 @@ def predicted_plan(
 
 
 def _domain(run: Path) -> str | None:
-    """The domain of a run on the bundled data."""
+    """Return the domain of a run on the bundled data."""
     path = run / "config.json"
     if not path.is_file() or not (run / "predictions.jsonl").is_file():
         raise TmdError(
@@ -104,7 +104,7 @@ def _domain(run: Path) -> str | None:
 
 
 def _chosen(rows: Sequence[PredictionRecord], example: str | None, model: str | None) -> PredictionRecord:
-    """The one prediction that is meant."""
+    """Return the one prediction that is meant."""
     left = _filtered(rows, "model", "--model", model)
     left = _filtered(left, "id", "--example", example)
     if not left:

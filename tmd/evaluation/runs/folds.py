@@ -1,4 +1,4 @@
-"""Who is tested on what, trained on what. A model is never tested in an environment it was trained in."""
+"""The folds of a run. A model is never tested in an environment that it was trained in."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _ELSEWHERE = "give other --train-tasks, or demonstrations in a second environmen
 
 
 def folds_of(config: ExperimentConfig, data: Dataset) -> list[Fold]:
-    """The folds of a run: for each group of tasks that are trained together its own.
+    """Return the folds of a run: for each group of tasks that are trained together its own.
 
     Raises:
         TmdError: They cannot be made.
@@ -76,7 +76,7 @@ def given_fold(
     test: Collection[int] | None,
     pool: Sequence[Example] | None = None,
 ) -> list[Fold]:
-    """The one fold that environment numbers say; what is not said is all the others.
+    """Return the one fold that environment numbers say; what is not said is all the others.
 
     Args:
         examples: What may be tested.
@@ -107,7 +107,7 @@ def given_fold(
 
 
 def halves(examples: Sequence[Example], pool: Sequence[Example] | None = None) -> list[Fold]:
-    """Each environment in turn, its examples in two halves: ten folds for five environments.
+    """Return each environment in turn, its examples in two halves: ten folds for five environments.
 
     Args:
         examples: What is tested.
@@ -131,7 +131,7 @@ def halves(examples: Sequence[Example], pool: Sequence[Example] | None = None) -
 
 
 def pairs(examples: Sequence[Example], pool: Sequence[Example] | None = None) -> list[Fold]:
-    """The four folds over environments 1-8 of VEIL-500.
+    """Return the four folds over environments 1-8 of VEIL-500.
 
     Args:
         examples: What is tested.
@@ -163,7 +163,7 @@ def _fold(
 
 
 def ranges(numbers: Iterable[int]) -> str:
-    """Numbers as people write them: ``1,3-5``."""
+    """Format numbers as people write them: ``1,3-5``."""
     runs: list[list[int]] = []
     for number in sorted(set(numbers)):
         if runs and number == runs[-1][-1] + 1:
@@ -174,7 +174,7 @@ def ranges(numbers: Iterable[int]) -> str:
 
 
 def _label(tasks: Sequence[str], pool: Sequence[Example]) -> str:
-    """A name for some tasks: ``all``, the kind of world that has just these, or all of their names.
+    """Return a name for some tasks: ``all``, the kind of world that has just these, or all of their names.
 
     Names become names of files, so very many tasks are counted instead, with a digest that tells them apart.
     """

@@ -8,22 +8,22 @@ from __future__ import annotations
 
 import json
 import zlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.evaluation.models.model import Model, make_model
+from tmd.evaluation.models.paper_models import Crf
 from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, Example, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.files import make_directory, write_text
-from tmd.inference.energy import Weights
 from tmd.json_record import DIGITS
 from tmd.language.clause import Span
 from tmd.language.syntax.tokens import Kind, tokenise
@@ -38,7 +38,7 @@ _KEY = zlib.crc32(b"drop-sentences")
 
 
 def sentences(text: str) -> tuple[Span, ...]:
-    """Where the sentences of a text stand: together they are the whole text.
+    """Return the spans of the sentences of a text; together they are the whole text.
 
     A sentence ends with a full stop, a question or an exclamation mark, as the clause parser sees them ("2.5" has
     none), or with the line; marks and quotes that close it, and blanks, belong to it. A piece without a word is
@@ -63,7 +63,7 @@ def sentences(text: str) -> tuple[Span, ...]:
 
 
 def leave_out(example: Example, probability: float, seed: int) -> Example:
-    """The example with each sentence of its text left out with some probability, but never all of them.
+    """Return the example with each sentence of its text left out with some probability, but never all of them.
 
     What is drawn depends on the seed and the example's id only, so all models read the same text; a sentence that is
     left out at one probability is left out at every higher one. Of the sentences, the one with the largest draw
@@ -104,46 +104,9 @@ class WorkerLostError(TmdError):
     exit_code = ExitCode.GAVE_UP
 
 
-class LearnedWorld(Protocol):
-    """What was learned for one kind of world."""
-
-    @property
-    def weights(self) -> Weights:
-        """The weights."""
-        ...
-
-    @property
-    def curve(self) -> Iterable[Any]:
-        """How learning went: numbers, or objects that JSON can hold."""
-        ...
-
-
-@runtime_checkable
-class Learner(Protocol):
-    """A model that tells what it has learned."""
-
-    learned_: Mapping[str, LearnedWorld]
-
-
-@runtime_checkable
-class Journaled(Protocol):
-    """A model that writes down what it has done so far, and goes on from there when it is fitted again."""
-
-    journal: Path | None
-
-
-@runtime_checkable
-class Restorable(Protocol):
-    """A model that can be made from what was learned before."""
-
-    def restore(self, examples: Sequence[Example], data: Dataset, saved: dict[str, Any]) -> Model:
-        """The model as it was after ``fit`` on the same examples; ``saved`` is what :func:`fit_text` wrote."""
-        ...
-
-
 @dataclass(frozen=True, slots=True)
 class EvaluationJob:
-    """What is done in one go.
+    """One unit of work.
 
     Attributes:
         model: The model's name.
@@ -165,7 +128,7 @@ class EvaluationJob:
 
 @dataclass(frozen=True, slots=True)
 class JobOutcome:
-    """What came out of a unit.
+    """The outcome of a unit.
 
     Attributes:
         unit: The unit.
@@ -179,7 +142,7 @@ class JobOutcome:
 
 
 def units_of(models: Sequence[str], folds: Sequence[Fold]) -> list[EvaluationJob]:
-    """All units of a run, always in the same order."""
+    """Return all units of a run, always in the same order."""
     sets: dict[str, list[str]] = {}
     for fold in folds:
         sets.setdefault(fold.training_set, []).append(fold.name)
@@ -205,9 +168,9 @@ def do(config: ExperimentConfig, unit: EvaluationJob, fits: Path | None) -> JobO
 def _fitted(
     config: ExperimentConfig, unit: EvaluationJob, fold: Fold, data: Dataset, fits: Path | None
 ) -> tuple[Model, str | None]:
-    """The model, learned or restored, and the text that tells what it learned."""
+    """Return the model, learned or restored, and the text that tells what it learned."""
     model = make_model(unit.model)
-    if unit.saved is not None and isinstance(model, Restorable):
+    if unit.saved is not None and isinstance(model, Crf):
         return model.restore(fold.train, data, unit.saved), None
     random = np.random.default_rng([config.seed, _key(unit.model), _key(unit.training_set)])
     with _journal(model, unit, fits):
@@ -221,7 +184,7 @@ def _fitted(
 @contextmanager
 def _journal(model: Model, unit: EvaluationJob, fits: Path | None) -> Iterator[None]:
     """Give the model its journal. Where another process is at the same unit, that one has it, and this one has none."""
-    if fits is None or not isinstance(model, Journaled):
+    if fits is None or not isinstance(model, Crf):
         yield
         return
     path = make_directory(fits) / f"{unit.name}.journal.jsonl"
@@ -232,7 +195,7 @@ def _journal(model: Model, unit: EvaluationJob, fits: Path | None) -> Iterator[N
 
 @contextmanager
 def _alone(lock: Path) -> Iterator[bool]:
-    """Whether this process alone holds the lock; a lock ends with its process, however that ends."""
+    """Return whether this process alone holds the lock; a lock ends with its process, however that ends."""
     try:
         import fcntl
     except ImportError:  # not a system that has such locks
@@ -248,14 +211,14 @@ def _alone(lock: Path) -> Iterator[bool]:
 
 
 def journal_files(fits: Path, unit: EvaluationJob) -> tuple[Path, ...]:
-    """What a finished unit needs no more."""
+    """Return the files that a finished unit no longer needs."""
     journal = fits / f"{unit.name}.journal.jsonl"
     return journal, journal.with_suffix(".lock")
 
 
 def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
-    """What a model has learned, as JSON; ``None`` for a model that does not tell, or learned nothing."""
-    if not isinstance(model, Learner) or not model.learned_:
+    """Return the learned weights of a model as JSON; ``None`` for a model that learned none."""
+    if not isinstance(model, Crf) or not model.learned_:
         return None
     worlds = {
         world: WorldFit(
@@ -270,7 +233,7 @@ def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
 
 
 def _tested(config: ExperimentConfig, unit: EvaluationJob, model: Model, fold: Fold, data: Dataset) -> str:
-    """The lines on one fold."""
+    """Return the lines on one fold."""
     done = []
     for example in fold.test:
         read = leave_out(example, config.drop_sentences, config.seed)
@@ -285,14 +248,14 @@ def _tested(config: ExperimentConfig, unit: EvaluationJob, model: Model, fold: F
 
 
 def _key(name: str) -> int:
-    """A number for a name, the same on every machine."""
+    """Return a number for a name, the same on every machine."""
     return zlib.crc32(name.encode())
 
 
 def _record(
     data: Dataset, example: Example, read: str, prediction: Prediction, model: str, fold: str
 ) -> PredictionRecord:
-    """What is kept of one prediction; ``read`` is the text that the model read."""
+    """Return the record of one prediction; ``read`` is the text that the model read."""
 
     def written(instructions: Iterable[Instruction]) -> tuple[str, ...]:
         return tuple(data.written(example.environment, instructions))

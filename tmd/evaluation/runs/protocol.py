@@ -1,4 +1,4 @@
-"""Which tasks are trained together (section VII).
+"""The tasks that are trained together (section VII).
 
 "…the first two tasks trained together and then the next two tasks trained together." The file
 ``problems/<domain>/protocol.yaml`` says so for a domain::
@@ -46,7 +46,7 @@ class TrainingGroup:
 
 
 def read_protocol(path: Path, tasks: Collection[str]) -> tuple[frozenset[str], ...]:
-    """The groups of tasks in a protocol file; none where there is no file.
+    """Return the groups of tasks in a protocol file; none where there is no file.
 
     Args:
         path: The file.
@@ -77,7 +77,7 @@ def training_groups(
     train_tasks: Sequence[str] | None,
     tasks: Collection[str],
 ) -> list[TrainingGroup]:
-    """The tested tasks, put together by what they are trained on, in the order of their first tasks.
+    """Return the tested tasks, put together by what they are trained on, in the order of their first tasks.
 
     Args:
         tested: The tasks that are tested.

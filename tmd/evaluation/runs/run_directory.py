@@ -29,7 +29,7 @@ from tmd.records.prediction import PredictionRecord
 PREDICTIONS = "predictions.jsonl"
 METRICS_FILE = "metrics.json"
 LOG = "tmd.experiment"
-"""The logger above those of all runs; what it is told at the level of a warning is for the user as well."""
+"""The logger above those of all runs; its warnings are shown to the user as well."""
 
 
 class _Log(logging.FileHandler):
@@ -54,7 +54,7 @@ class RunDirectory:
 
     @property
     def fits(self) -> Path:
-        """Where what was learned is kept."""
+        """The directory of learned weights."""
         return self.path / "fits"
 
     @contextmanager
@@ -110,7 +110,7 @@ class RunDirectory:
         return handler
 
     def left_of(self, unit: EvaluationJob, folds: dict[str, Fold]) -> EvaluationJob | None:
-        """The unit with the folds that are not done, and with what it learned before; ``None`` if all are done."""
+        """Return the unit with its unfinished folds and its learned weights; ``None`` if all folds are done."""
         waiting = tuple(name for name in unit.folds if self.part(unit.model, folds[name]) is None)
         if not waiting:
             self._tidy(unit)
@@ -118,7 +118,7 @@ class RunDirectory:
         return EvaluationJob(unit.model, unit.training_set, waiting, self._saved(unit))
 
     def part(self, model: str, fold: Fold) -> list[PredictionRecord] | None:
-        """The predictions of one model on one fold; ``None`` if there are none, or they are damaged."""
+        """Return the predictions of one model on one fold; ``None`` if there are none, or they are damaged."""
         path = self._part_path(model, fold.name)
         if not path.exists():
             return None
@@ -181,12 +181,12 @@ class RunDirectory:
 
 
 def _lacks_success(line: PredictionRecord, example: Example) -> bool:
-    """Whether a line does not tell what its example's goal asks for; one of an earlier version does not."""
+    """Return whether a line does not tell what its example's goal asks for; one of an earlier version does not."""
     return (example.goal is None) != (line.success is None)
 
 
 def _difference(found: str, identity: dict[str, Any]) -> str:
-    """In what the run that was found differs: the first thing."""
+    """Return the first setting in which an existing run differs, as part of a message."""
     try:
         other = json.loads(found)
     except ValueError:
@@ -199,7 +199,7 @@ def _difference(found: str, identity: dict[str, Any]) -> str:
 
 
 def _revision() -> str:
-    """The revision of the checkout, if this is one."""
+    """Return the revision of the checkout, if this is one."""
     here = Path(__file__).resolve().parent
     try:
         found = subprocess.run(

@@ -15,7 +15,7 @@ _DIGITS = 4
 
 
 def summarise(predictions: Sequence[dict[str, Any]], models: Sequence[str]) -> dict[str, Any]:
-    """The numbers of ``metrics.json``.
+    """Return the numbers of ``metrics.json``.
 
     Returns:
         ``{"models": {NAME: {"n", METRIC, METRIC_se, …, "tasks": {TASK: …}, "average": …}}, "floor", "significance"}``.
@@ -34,7 +34,7 @@ def summarise(predictions: Sequence[dict[str, Any]], models: Sequence[str]) -> d
 
 
 def average(tasks: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    """The mean of means of tasks, each task counting alike; ``n`` is the number of examples, ``goals`` of goals."""
+    """Return the mean of the means of tasks; ``n`` is the number of examples, ``goals`` that of goals."""
     rows = list(tasks)
     found: dict[str, Any] = {"n": sum(row["n"] for row in rows), "goals": sum(row["goals"] for row in rows)}
     for column in COLUMNS:
@@ -54,7 +54,7 @@ def _means(predictions: Sequence[dict[str, Any]]) -> dict[str, Any]:
 
 
 def _column(column: str, mean: float, error: float, count: int) -> dict[str, float | None]:
-    """A mean and its standard error; success of nothing is not told, for 0 would say that all failed."""
+    """Return a mean and its standard error; success of nothing is not told, for 0 would say that all failed."""
     if column == SUCCESS and not count:
         return {column: None, f"{column}_se": None}
     return {column: round(mean, _DIGITS), f"{column}_se": round(error, _DIGITS)}

@@ -1,4 +1,4 @@
-"""What a robot did with predictions of a run: ``robot/`` in its directory.
+"""The records of robot trials: ``robot/`` in the directory of a run.
 
 ``ENVIRONMENT.json`` is one trial, with its film and its filmstrip beside it; ``skipped.json`` says why there are none.
 """
@@ -32,7 +32,7 @@ class Trials:
 
 
 def read_trials(run: Path) -> Trials | None:
-    """The trials in a run's directory; ``None`` where nobody asked for any.
+    """Return the trials in a run's directory; ``None`` where nobody asked for any.
 
     Raises:
         TmdError: A record is damaged.
@@ -49,7 +49,7 @@ def read_trials(run: Path) -> Trials | None:
 
 
 def read_trial(path: Path) -> Trial:
-    """One record.
+    """Return one record.
 
     Raises:
         TmdError: It is damaged, or cannot be read.
@@ -61,7 +61,7 @@ _MEDIA = frozenset({".mp4", ".gif", ".png", ".jpg"})
 
 
 def films(trials: Trials | None) -> dict[str, str]:
-    """Films, posters and filmstrips by file name, as addresses from the run's directory: they stay files beside it."""
+    """Return films, posters and filmstrips by file name, as addresses relative to the run's directory."""
     found = trials.found if trials else ()
     names = [name for trial in found for name in (trial.film, trial.strip, trial.poster)]
     return {

@@ -1,4 +1,4 @@
-"""What a model proposes, checked against the domain: nothing is believed that PDDL does not accept."""
+"""Checks of a model's reply against the domain: every formula must be accepted by PDDL."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class ModelReading:
 
 
 class ReplyChecker:
-    """Checks the replies to one request in one environment.
+    """The checks of replies to one request in one environment.
 
     Args:
         request: The request.
@@ -103,6 +103,19 @@ class ReplyChecker:
         if len(reply.steps) > _MOST_STEPS:
             return [f"the reply has {len(reply.steps)} steps, more than {_MOST_STEPS}"]
         clauses = tuple(self._clause(step, f"steps[{n}]") for n, step in enumerate(reply.steps))
+        steps, question = self._steps(reply, clauses)
+        constraints, avoided = self._constraints(reply.constraints)
+        if self.faults:
+            return self.faults
+        skipped = self._uncovered([clause.span for clause in (*clauses, *avoided)])
+        if not avoided and not any(step.when is not None or step.otherwise for step in steps):
+            turning = [_short(piece.text) for piece in skipped if _turns(piece.text)]
+            if turning:
+                return [f"no step and no constraint covers '{text}', which changes what is asked" for text in turning]
+        parsed = Parsed(self.request, clauses, skipped, avoided)
+        return ModelReading(parsed, tuple(steps), constraints, question=question, thoughts=thoughts)
+
+    def _steps(self, reply: Reply, clauses: Sequence[Clause]) -> tuple[list[ModelStep], Question | None]:
         vias = [self._via(step, f"steps[{n}]") for n, step in enumerate(reply.steps)]
         question, options = self._question(reply.questions, vias)
         steps = [self._step(reply.steps, n, clauses[n], vias[n], options.get(n, ())) for n in range(len(clauses))]
@@ -112,17 +125,7 @@ class ReplyChecker:
             self.faults.append("final: there are no steps; write what must hold as the goal of a step")
         if steps and all(candidate.formula == TRUE for step in steps for candidate in step.candidates):
             self.faults.append("the goals hold in every state; say what must be true, or refuse the request")
-        constraints, avoided = self._constraints(reply.constraints)
-        if self.faults:
-            return self.faults
-        skipped = self._uncovered([clause.span for clause in (*clauses, *avoided)])
-        turning = [piece.text for piece in skipped if _turns(piece.text)]
-        if turning and not avoided and not any(step.when is not None or step.otherwise for step in steps):
-            return [
-                f"no step and no constraint covers '{_short(text)}', which changes what is asked" for text in turning
-            ]
-        parsed = Parsed(self.request, clauses, skipped, avoided)
-        return ModelReading(parsed, tuple(steps), constraints, question=question, thoughts=thoughts)
+        return steps, question
 
     # ------------------------------------------------------------------ the parts of a reply
 

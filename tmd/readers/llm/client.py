@@ -10,12 +10,11 @@ import json
 import os
 import re
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
-from threading import Thread
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
 from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError
@@ -30,7 +29,6 @@ KEY, URL, MODEL = "OPENAI_API_KEY", "OPENAI_BASE_URL", "OPENAI_MODEL"
 """The environment variables for key, address and model."""
 _NO_KEY = "none"
 """The key that is sent to servers that need none."""
-_RETRIES = 2
 LONGEST = 86_400.0
 """The longest time-out, in seconds."""
 _ADDRESS = re.compile(r"https?://(\[[\da-f:]+\]|[\w.-]+)(:\d{1,5})?(/[!-~]*)?", re.ASCII | re.IGNORECASE)
@@ -61,7 +59,7 @@ class ModelError(TmdError):
 
 @dataclass(frozen=True, slots=True)
 class ModelSettings:
-    """How a language model is reached.
+    """The connection to a language model.
 
     Attributes:
         model: The name of the model; ``$OPENAI_MODEL`` by default.
@@ -131,7 +129,7 @@ class Completion:
 
 
 class ModelClient:
-    """Asks a language model.
+    """A client of a language model.
 
     Args:
         settings: How it is reached; environment variables fill in what is missing.
@@ -180,44 +178,34 @@ class ModelClient:
             raise MissingToolError("the package openai is not installed", hint="pip install 'tmd[llm]'")
         import openai
 
-        given: dict[str, Any] = {
-            "temperature": 0,
-            "seed": self.settings.seed,
-            "response_format": {
-                "type": "json_schema",
-                "json_schema": {"name": name, "strict": True, "schema": schema},
-            },
-        }
+        own = self.settings
+        form = {"type": "json_schema", "json_schema": {"name": name, "strict": True, "schema": schema}}
+        given: dict[str, Any] = {"temperature": 0, "seed": own.seed, "response_format": form}
         while True:
             options = {key: value for key, value in given.items() if key not in self._refused}
             try:
                 if self._client is None:
-                    own = self.settings
-                    self._client = openai.OpenAI(
-                        api_key=own.key, base_url=own.url, timeout=own.timeout, max_retries=_RETRIES
-                    )
+                    self._client = openai.OpenAI(api_key=own.key, base_url=own.url, timeout=own.timeout)
                 said = cast(Any, list(messages))
-                create = partial(self._client.chat.completions.create, model=self.model, messages=said, **options)
-                answer = _within(create, (_RETRIES + 1) * self.settings.timeout)
+                answer = self._client.chat.completions.create(model=self.model, messages=said, **options)
                 break
             except openai.APIStatusError as error:
                 refused = _refused_parameter(error.status_code, str(error), options)
                 if refused is None:
                     raise self._status_error(error.status_code, str(error), error.response.headers) from None
                 self._refused.add(refused)
-            except (openai.APITimeoutError, TimeoutError):
-                message = f"no reply within {self.settings.timeout:g} s from {self._place()}"
+            except openai.APITimeoutError:
+                message = f"no reply within {own.timeout:g} s from {self._place()}"
                 raise ModelError(message, hint="try again later, or allow more time", passing=True) from None
             except openai.APIConnectionError as error:
-                reason = self._scrubbed(str(error.__cause__ or error))
-                raise ModelError(
-                    f"{self._place()} cannot be reached: {reason}", hint="check the address of the server"
-                ) from None
+                message = f"{self._place()} cannot be reached: {self._scrubbed(str(error.__cause__ or error))}"
+                raise ModelError(message, hint="check the address of the server") from None
             except Exception as error:  # addresses that no parser takes, bodies of any shape: whatever a client raises
                 raise ModelError(f"{self._place()} sent no usable answer: {self._scrubbed(str(error))}") from None
         return self._text_of(answer)
 
     def _text_of(self, answer: Any) -> tuple[str, tuple[int, int]]:  # noqa: ANN401 - servers send anything
+        """Return the reply, and the numbers of tokens that were sent and received."""
         try:
             choice = answer.choices[0]
             text = choice.message.content or getattr(choice.message, "refusal", None) or ""
@@ -257,32 +245,6 @@ class ModelClient:
         key = self.settings.key or ""
         line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
         return (line.replace(key, "***") if len(key) > 4 else line)[:300]
-
-
-def _within(call: Callable[[], Any], seconds: float) -> Any:  # noqa: ANN401 - what the client returns
-    """Return the result of a call.
-
-    Raises:
-        TimeoutError: There was none in time. A server that sends a byte now and then never exceeds the client's own
-            limits.
-    """
-    results: list[Any] = []
-    errors: list[BaseException] = []
-
-    def run() -> None:
-        try:
-            results.append(call())
-        except BaseException as error:  # for the thread that waits
-            errors.append(error)
-
-    thread = Thread(target=run, daemon=True)
-    thread.start()
-    thread.join(seconds)
-    if errors:
-        raise errors[0]
-    if not results:
-        raise TimeoutError
-    return results[0]
 
 
 def _encodable(text: str) -> str:

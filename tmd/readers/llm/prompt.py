@@ -19,6 +19,7 @@ from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.pddl.model import ActionSchema, Domain, GroundAtom, Instruction, TypedName, hierarchy, predicates_of
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_effect, format_formula
+from tmd.veil.sentence_file import SentenceTest
 from tmd.veil.world import World
 
 _SECTION = re.compile(r"^\[(\w+)\]\n", re.MULTILINE)
@@ -34,15 +35,6 @@ _FEWEST_EXAMPLES, _MOST_EXAMPLES = 2, 4
 _MOST_CHARACTERS = 20_000
 """Beyond this length a prompt has the fewest examples."""
 _EXAMPLES = "Requests in other environments, with what holds when all of their steps are done there:"
-
-
-@dataclass(frozen=True, slots=True)
-class SentenceExample:
-    """A request in an environment with its goal, from the sentence tests of a domain."""
-
-    request: str
-    environment: str
-    goal: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,9 +69,7 @@ def filled(section: str, **values: str) -> str:
     return Template(sections()[section]).substitute(values)
 
 
-def prompt_for(
-    request: str, world: World, state: Bits, lexicon: Lexicon, examples: Sequence[SentenceExample]
-) -> Prompt:
+def prompt_for(request: str, world: World, state: Bits, lexicon: Lexicon, examples: Sequence[SentenceTest]) -> Prompt:
     """Return the prompt for a request that is made in ``state``.
 
     Args:
@@ -87,7 +77,7 @@ def prompt_for(
         world: The environment.
         state: Its state.
         lexicon: The words of the domain.
-        examples: Requests of the domain with their goals; those in the same environment are not shown.
+        examples: Sentence tests of the domain; those in the same environment, or without a goal, are not shown.
     """
     domain = world.task.problem.domain
     shown = _shown(request, world, state)
@@ -301,14 +291,14 @@ def _noun_senses(words: Sequence[str], domain: Domain, lexicon: Lexicon) -> Iter
             yield f"  {noun}: {', '.join([s for s in senses if s in names] or senses)}"
 
 
-def _chosen(request: str, environment: str, examples: Sequence[SentenceExample]) -> Iterable[str]:
+def _chosen(request: str, environment: str, examples: Sequence[SentenceTest]) -> Iterable[str]:
     """Yield the examples of other environments that share most words with a request, never the request itself."""
     own = set(_words(request))
-    others = [e for e in examples if e.environment != environment and set(_words(e.request)) != own]
-    near = sorted(others, key=lambda e: (-len(own.intersection(_words(e.request))), len(e.request), e.request))
-    short = (e for e in near if len(e.goal) <= _LONGEST_ROW)
+    others = [e for e in examples if e.environment != environment and set(_words(e.text)) != own]
+    near = sorted(others, key=lambda e: (-len(own.intersection(_words(e.text))), len(e.text), e.text))
+    short = (e for e in near if e.goal is not None and len(e.goal) <= _LONGEST_ROW)
     for example in islice(short, _MOST_EXAMPLES):
-        yield f"  {one_line(example.request)} => {example.goal}"
+        yield f"  {one_line(example.text)} => {example.goal}"
 
 
 def _lines(heading: str, lines: Iterable[str]) -> str:

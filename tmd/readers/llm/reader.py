@@ -11,27 +11,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
-from tmd.language.clause import Clause, Parsed
+from tmd.language.clause import Parsed
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.ground_formula import holds_in
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
-from tmd.readers.interface import (
-    CandidateGoal,
-    Dialogue,
-    HandledGroup,
-    PlanConstraints,
-    Question,
-    Step,
-    StepGoals,
-    Usage,
-)
+from tmd.readers.interface import Dialogue, Step, StepGoals, Usage
 from tmd.readers.llm.checking import ModelReading, ModelStep, ReplyChecker
 from tmd.readers.llm.client import Completion, ModelClient, ModelSettings
-from tmd.readers.llm.prompt import Prompt, SentenceExample, changes, filled, one_line, prompt_for
-from tmd.readers.llm.reply import Judgement, Reply, read_judgement, read_reply, schema_of
+from tmd.readers.llm.prompt import Prompt, changes, filled, one_line, prompt_for
+from tmd.readers.llm.reply import Judgement, Reply, parse_reply, schema_of
 from tmd.veil.corpus import Corpus
-from tmd.veil.sentence_file import SUFFIX, read_sentences
+from tmd.veil.sentence_file import SUFFIX, SentenceTest, read_sentences
 from tmd.veil.world import World
 
 MOST_CORRECTIONS = 2
@@ -48,12 +39,11 @@ def llm_reader(corpus: Corpus, settings: ModelSettings, *, verify: bool = False)
         TmdError: A file of sentence tests is wrong.
     """
     tests = [t for path in sorted(corpus.directory.glob(f"*{SUFFIX}")) for t in read_sentences(path)]
-    examples = [SentenceExample(t.text, t.environment, t.goal) for t in tests if t.goal is not None]
-    return LLMReader(ModelClient(settings), corpus.lexicon, examples, verify=verify)
+    return LLMReader(ModelClient(settings), corpus.lexicon, tests, verify=verify)
 
 
 class LLMReader:
-    """Reads requests with a language model.
+    """A reader that asks a language model.
 
     Args:
         client: Asks the model.
@@ -63,7 +53,7 @@ class LLMReader:
     """
 
     def __init__(
-        self, client: ModelClient, lexicon: Lexicon, examples: Sequence[SentenceExample] = (), *, verify: bool = False
+        self, client: ModelClient, lexicon: Lexicon, examples: Sequence[SentenceTest] = (), *, verify: bool = False
     ) -> None:
         self._client = client
         self._lexicon = lexicon
@@ -106,7 +96,7 @@ class LLMReader:
         answer = self._client.complete([{"role": "user", "content": text}], "judgement", schema_of(Judgement))
         dialogue.usage = _with(dialogue.usage, answer)
         try:
-            judgement = read_judgement(answer.text)
+            judgement = parse_reply(Judgement, answer.text)
         except TmdError as error:
             dialogue.rejected = True
             return f"the plan could not be verified: {error.message}"
@@ -137,7 +127,7 @@ class LLMReader:
             usage = _with(usage, answer)
             messages = (*messages, {"role": "assistant", "content": answer.text})
             try:
-                found = checker.read(read_reply(answer.text))
+                found = checker.read(parse_reply(Reply, answer.text))
             except TmdError as error:
                 found = [error.message, *([error.hint] if error.hint else [])]
                 messages = (*messages[:-1], {"role": "assistant", "content": answer.text[:2000]})
@@ -166,7 +156,7 @@ class _Guard:
     held: bool = False
 
 
-class LLMDialogue:
+class LLMDialogue(Dialogue):
     """A request as a language model read it.
 
     Args:
@@ -177,6 +167,8 @@ class LLMDialogue:
         usage: The effort so far.
     """
 
+    asks = True  # a request that asks for nothing is refused
+
     def __init__(
         self,
         reading: ModelReading,
@@ -185,53 +177,15 @@ class LLMDialogue:
         messages: tuple[Mapping[str, str], ...],
         usage: Usage,
     ) -> None:
-        self.reading = reading
+        super().__init__(reading.parsed)
+        self.steps, self.constraints = reading.steps, reading.constraints
+        self.refusal, self.question, self.notes = reading.refusal, reading.question, prompt.notes
+        self.memory = _Guard()
+        self.usage: Usage = usage
         self.world = world
         self.prompt = prompt
         self.messages = messages
-        self.usage: Usage = usage
         self.rejected = False  # whether the model rejects the plan for this reading
-        self.memory: object = _Guard()
-
-    @property
-    def parsed(self) -> Parsed:
-        """The clauses, and the pieces of text that no step covers."""
-        return self.reading.parsed
-
-    @property
-    def clauses(self) -> Sequence[Clause]:
-        """The clause of each step."""
-        return self.reading.parsed.clauses
-
-    @property
-    def steps(self) -> Sequence[Step]:
-        """The steps in the order of doing."""
-        return self.reading.steps
-
-    @property
-    def constraints(self) -> PlanConstraints:
-        """Prohibitions and exceptions."""
-        return self.reading.constraints
-
-    @property
-    def refusal(self) -> Refusal | None:
-        """Why the model refuses the request."""
-        return self.reading.refusal
-
-    @property
-    def question(self) -> Question | None:
-        """The model's question to the user."""
-        return self.reading.question
-
-    @property
-    def notes(self) -> Sequence[str]:
-        """What the model was not shown."""
-        return self.prompt.notes
-
-    @property
-    def asks(self) -> bool:
-        """Always: what asks for nothing is refused."""
-        return True
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the candidate goals of a step, if its guard holds in ``state``."""
@@ -247,14 +201,6 @@ class LLMDialogue:
         if own is not None and not memory.held:
             return StepGoals((), memory, "the condition does not hold")
         return StepGoals(step.candidates, memory)
-
-    def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
-        """Return the memory as it is: the model has named its objects."""
-        return memory
-
-    def handled(self, step: Step) -> Sequence[HandledGroup] | None:
-        """Return ``None``: every step has a goal."""
-        return None
 
 
 def _user(text: str) -> Mapping[str, str]:

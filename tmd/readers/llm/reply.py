@@ -6,7 +6,7 @@ import json
 import re
 from enum import StrEnum
 from functools import cache
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import Field, ValidationError
 
@@ -15,6 +15,7 @@ from tmd.json_record import JsonRecord
 
 MOST_CHARACTERS = 200_000
 """Longer replies are refused unread."""
+_Record = TypeVar("_Record", bound=JsonRecord)
 _FENCE = re.compile(r"^\s*```[\w-]*\n(.*?)\n?```\s*$", re.DOTALL)
 
 
@@ -100,29 +101,19 @@ def schema_of(record: type[JsonRecord]) -> dict[str, Any]:
     return schema
 
 
-def read_reply(text: str) -> Reply:
-    """Read a reply: JSON, or JSON in a fence of Markdown.
+def parse_reply(record: type[_Record], text: str) -> _Record:
+    """Parse a reply: JSON, or JSON in a fence of Markdown.
 
     Raises:
         TmdError: The reply is too long, not JSON, or JSON of another shape; the message is meant for the model.
     """
-    value = _json_of(text)
     try:
-        return Reply.model_validate(value)
+        return record.model_validate(_json_of(text))
     except ValidationError as error:
-        raise TmdError(_shape_fault(error)) from None
-
-
-def read_judgement(text: str) -> Judgement:
-    """Read a verdict.
-
-    Raises:
-        TmdError: As :func:`read_reply`.
-    """
-    try:
-        return Judgement.model_validate(_json_of(text))
-    except ValidationError as error:
-        raise TmdError(_shape_fault(error)) from None
+        first = error.errors(include_url=False, include_input=False)[0]
+        place = ".".join(map(str, first["loc"]))
+        message = " ".join(first["msg"].split())[:200]
+        raise TmdError(f"the reply has another shape: {f'{place}: ' if place else ''}{message}") from None
 
 
 def _json_of(text: str) -> object:
@@ -141,9 +132,3 @@ def _json_of(text: str) -> object:
         cut = isinstance(error, json.JSONDecodeError) and error.pos >= len(body)
         what = "the JSON of the reply ends in the middle" if cut else "the reply is not valid JSON"
         raise TmdError(f"{what}{where}") from None
-
-
-def _shape_fault(error: ValidationError) -> str:
-    first = error.errors(include_url=False, include_input=False)[0]
-    place = ".".join(map(str, first["loc"]))
-    return f"the reply has another shape: {f'{place}: ' if place else ''}{' '.join(first['msg'].split())[:200]}"
