@@ -13,9 +13,9 @@ from pathlib import Path
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import read_problem
-from tmd.veil.corpus import replay
-from tmd.veil.demonstration import read_demonstrations
 from tmd.world.compile import compile_problem
+from tmd.world.corpus import replay
+from tmd.world.demonstration import read_demonstrations
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 

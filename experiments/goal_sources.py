@@ -26,9 +26,9 @@ from tmd.language.clause import Clause, Mood, Parsed
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.readers.rules import RuleDialogue
-from tmd.veil.corpus import Corpus
-from tmd.veil.sentence_file import SentenceTest, read_sentences
+from tmd.world.corpus import Corpus
 from tmd.world.folder import find_domain, find_problems
+from tmd.world.sentence_file import SentenceTest, read_sentences
 
 SHARE = 4
 """Of the bundled tests every so many-th is run."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tmd.domain_kit import DomainKit
 from tmd.evaluation.runs.dataset import BundledData
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[1]

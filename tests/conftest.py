@@ -27,7 +27,7 @@ from hypothesis import settings
 from tmd.files import cache_directory
 from tmd.knowledge import digest, known, place, recall, save
 from tmd.planning.search import numba_build
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -17,7 +17,7 @@ from tmd.export.formats import FORMATS
 from tmd.pddl.task import Bits
 from tmd.readers.interface import Dialogue
 from tmd.readers.rules import RuleReader
-from tmd.veil.world import World
+from tmd.world.world import World
 
 ROOT = Path(__file__).resolve().parents[1]
 BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"

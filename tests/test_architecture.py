@@ -17,7 +17,7 @@ LAYERS = (
     ("files", "lock", "yaml_nodes", "json_record"),
     ("pddl", "language"),
     ("world", "planning", "format"),
-    ("veil", "datasets", "robot"),
+    ("library", "datasets", "robot"),
     ("goals",),
     ("readers",),
     ("inference",),

@@ -12,7 +12,7 @@ from tests.cli.conftest import run_tmd
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.evaluation.sentence_tests import Outcome, SentenceResult, judge, report, summary
 from tmd.pddl.reading.reader import with_goal
-from tmd.veil.sentence_file import SentenceTest, read_sentences
+from tmd.world.sentence_file import SentenceTest, read_sentences
 
 ROOT = Path(__file__).resolve().parents[1]
 FILES = sorted(ROOT.glob("problems/*/*.sentences.jsonl"))

@@ -28,7 +28,7 @@ from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.backends import AUTO, TIME_LIMIT, solve
 from tmd.planning.result import Solved, Unreachable
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.check.report import CheckReport as CheckReport
@@ -41,8 +41,8 @@ if TYPE_CHECKING:
     from tmd.records.run import RunRecord as RunRecord
     from tmd.robot_trials.experiment import carry_out_predictions as carry_out_predictions
     from tmd.robot_trials.experiment import run_experiment as run_experiment
-    from tmd.veil.sentence_file import read_sentences as read_sentences
     from tmd.world.scaffold import Scaffold
+    from tmd.world.sentence_file import read_sentences as read_sentences
 
 _LATER = {
     "CheckReport": "tmd.check.report",
@@ -54,7 +54,7 @@ _LATER = {
     "carry_out_predictions": "tmd.robot_trials.experiment",
     "check_veil500": "tmd.datasets.veil500.report",
     "format_file": "tmd.format.files",
-    "read_sentences": "tmd.veil.sentence_file",
+    "read_sentences": "tmd.world.sentence_file",
     "run_experiment": "tmd.robot_trials.experiment",
 }
 """What takes long to import, or belongs to few, with the modules that are imported when it is first used."""

@@ -22,9 +22,9 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS
 from tmd.readers.interface import Reader
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World, make_world
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World, make_world
 
 if TYPE_CHECKING:
     from tmd.evaluation.sentence_tests import SentenceResult
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from tmd.robot.monitor.listeners import Order
     from tmd.robot.skills.reachability_report import SceneSurvey
     from tmd.studio.server import Server
-    from tmd.veil.sentence_file import SentenceTest
+    from tmd.world.sentence_file import SentenceTest
 
 RULES, LLM = READERS = ("rules", "llm")
 """The readers by name."""
@@ -322,7 +322,7 @@ class DomainKit:
         """
         from tmd.evaluation.runs.backends import in_processes
         from tmd.readers.llm.client import ModelError
-        from tmd.veil.sentence_file import domain_sentences
+        from tmd.world.sentence_file import domain_sentences
 
         chosen = list(domain_sentences(self._corpus.directory) if tests is None else tests)
         options = {"model": model, "guess": guess, "reader": reader, "llm": llm, "verify": verify}

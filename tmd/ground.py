@@ -27,6 +27,7 @@ from tmd.inference.forward_pass import Planners, Restoration
 from tmd.inference.policy.model import Policy, Reward
 from tmd.inference.proposers import proposers_of
 from tmd.inference.ranking import Inferred
+from tmd.library.library import Library
 from tmd.pddl.model import Formula
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
@@ -34,8 +35,7 @@ from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Planner
 from tmd.readers.interface import Dialogue, Question, Reader
 from tmd.readers.rules import RuleReader
-from tmd.veil.library import Library
-from tmd.veil.world import World
+from tmd.world.world import World
 
 Ask = Callable[[Question], int | None]
 """Asks the user a question; returns the number of the option, or ``None`` where there is no answer."""

@@ -11,10 +11,10 @@ from tmd.inference.config import InferenceConfig
 from tmd.inference.ranking import RankedPlan, RejectedProposal
 from tmd.language.clause import Parsed
 from tmd.language.lexicon.nouns import WORDNET
+from tmd.library.library import Library
 from tmd.pddl.validator import Verdict
 from tmd.readers.interface import Dialogue, Question, Usage
-from tmd.veil.library import Library
-from tmd.veil.world import World
+from tmd.world.world import World
 
 _VERBS = 8
 """How many verbs are named instead of an unknown one."""

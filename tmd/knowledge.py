@@ -39,12 +39,12 @@ from tmd.inference.policy.learning import learn_policy
 from tmd.inference.policy.model import Reward
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
+from tmd.library.library import Library, learn
+from tmd.library.template import Template
 from tmd.pddl.model import Instruction
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
-from tmd.veil.library import Library, learn
-from tmd.veil.template import Template
-from tmd.veil.world import Profile
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
+from tmd.world.world import Profile
 
 _T = TypeVar("_T")
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -294,7 +294,7 @@ class Progress:
 
 
 _ROOT = Path(__file__).resolve().parent
-_SOURCES = ("pddl", "world", "language", "veil", "goals", "inference/policy", "knowledge.py")
+_SOURCES = ("pddl", "world", "language", "library", "goals", "inference/policy", "knowledge.py")
 """The packages and modules of ``tmd`` whose code decides what is learned from a demonstration."""
 _DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
 

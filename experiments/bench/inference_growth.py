@@ -15,11 +15,11 @@ from dataclasses import replace
 
 from tmd.ground import ground
 from tmd.inference.config import DEFAULT, PRESETS
+from tmd.library.library import Library, learn
 from tmd.pddl.model import GroundAtom, TypedName
-from tmd.veil.corpus import Corpus
-from tmd.veil.library import Library, learn
-from tmd.veil.world import World, make_world
+from tmd.world.corpus import Corpus
 from tmd.world.folder import find_domain, find_root
+from tmd.world.world import World, make_world
 
 SENTENCES = (
     "Fill the pot with water.",

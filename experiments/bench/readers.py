@@ -18,9 +18,9 @@ from tmd.domain_kit import DomainKit
 from tmd.language import parse
 from tmd.readers.llm.client import ModelClient, ModelSettings
 from tmd.readers.llm.prompt import one_line
-from tmd.veil.corpus import Corpus
-from tmd.veil.sentence_file import SentenceTest, domain_sentences
+from tmd.world.corpus import Corpus
 from tmd.world.folder import find_domain, find_problems
+from tmd.world.sentence_file import SentenceTest, domain_sentences
 
 EVERY = 1
 SETTINGS = ModelSettings("kept", "http://127.0.0.1:9/v1")

@@ -21,8 +21,8 @@ from tmd.robot.session import SimulationSession
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.rendering import egl_starts
 from tmd.robot.video.film import Film, open_movie
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain, find_root
 

@@ -26,12 +26,12 @@ from tmd.inference.config import PRESETS
 from tmd.inference.policy.learning import learn_policy
 from tmd.inference.policy.model import Reward
 from tmd.knowledge import library_from_json, library_to_json
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
-from tmd.veil.library import Library, learn
-from tmd.veil.template import Template
-from tmd.veil.world import World
+from tmd.library.library import Library, learn
+from tmd.library.template import Template
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
 from tmd.world.folder import find_domain, find_root
+from tmd.world.world import World
 
 _T = TypeVar("_T")
 TEXTS = ("Fill the pot with water and put it on the stove.", "Make some ramen.", "Put the cup in the sink.")

@@ -16,7 +16,7 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.plan_file import parse_instruction, read_plan
 from tmd.pddl.reading.syntax import read_text
 from tmd.robot.skills.skill_file import Skills
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 
 ALL, ONE = "all", "one"
 

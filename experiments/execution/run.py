@@ -31,9 +31,9 @@ from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.performer import RobotPerformer
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.skills.skill_file import Skills, load_skills
-from tmd.veil.corpus import Corpus
-from tmd.veil.roots import Roots
+from tmd.world.corpus import Corpus
 from tmd.world.folder import find_domain, find_root
+from tmd.world.roots import Roots
 
 
 def run(case: Case) -> Record:

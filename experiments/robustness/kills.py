@@ -66,7 +66,7 @@ from tmd.lock import locked
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import Session
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 corpus = Corpus(DomainFolder(Path("domains/02_table")), Path("problems/02_table"))

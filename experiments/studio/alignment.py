@@ -15,15 +15,15 @@ from dataclasses import dataclass
 
 from tmd.language import parse
 from tmd.language.clause import Clause
+from tmd.library.clause_alignment import speaks_of, split
+from tmd.library.library import align, learn
 from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
 from tmd.studio.demonstrations.clause_spans import cut
-from tmd.veil.clause_alignment import speaks_of, split
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
-from tmd.veil.library import align, learn
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
 from tmd.world.folder import find_domain, find_problems
+from tmd.world.world import World
 
 DOMAINS = ("kitchen", "living_room", "lab_bench", "01_blocks", "02_table", "03_drawer", "04_tea")
 
@@ -116,7 +116,7 @@ RULES: Mapping[str, Rule] = {
     "all to the first clause": first,
     "as many for each": even,
     "next clause when its object is touched": touched,
-    "objects (tmd.veil.clause_alignment)": objects,
+    "objects (tmd.library.clause_alignment)": objects,
     "studio, nothing learned": unlearned,
     "studio": studio,
 }

@@ -17,8 +17,8 @@ from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Draft, Drafts
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.teaching import Teacher
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
 from tmd.world.folder import find_domain, find_problems
 
 TEXT = "Chill the mug."

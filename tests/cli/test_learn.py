@@ -14,7 +14,7 @@ import pytest
 from tests.cli.conftest import ROOT, Ended, Tmd
 from tmd.diagnostics import ExitCode
 from tmd.knowledge import MANIFEST, Knowledge, place, recall, save, study
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 SAID = (

@@ -13,10 +13,10 @@ from tests.cli.conftest import ROOT, Tmd
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.knowledge import study
 from tmd.language.lexicon.file import read_lexicon
-from tmd.veil.corpus import Corpus
-from tmd.veil.sentence_file import read_sentences
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 from tmd.world.scaffold import STARTS, scaffold
+from tmd.world.sentence_file import read_sentences
 
 SAID = {"plain": "Put the red block on the green block.", "graph": "Put the key on the table."}
 

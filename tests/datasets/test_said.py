@@ -8,7 +8,7 @@ from tmd.datasets.veil500 import VeilData
 from tmd.evaluation.runs.dataset import ALL, VeilDataset
 from tmd.ground import ground
 from tmd.grounded import Grounded
-from tmd.veil.library import Library
+from tmd.library.library import Library
 
 
 def said(small: VeilData, world: str, text: str) -> Grounded:

@@ -20,9 +20,9 @@ from tmd.evaluation.runs.jobs import fit_text
 from tmd.inference.config import PAPER
 from tmd.inference.energy import NAMES, OURS, Weights, named_weights
 from tmd.inference.ranking import RankedPlan
+from tmd.library.library import Library
 from tmd.pddl.task import Cube
 from tmd.planning.result import Filled, NoPlanner, Unreachable
-from tmd.veil.library import Library
 
 ROOT = Path(__file__).parents[2]
 LATENT = ("latent_dscpl", "latent_inpr", "latent_para", "latent_cons")

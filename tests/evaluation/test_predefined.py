@@ -16,7 +16,7 @@ from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.models.template_file import FILE, load_templates
 from tmd.evaluation.runs.dataset import BundledData, Example, VeilDataset
 from tmd.pddl.validator import validate
-from tmd.veil.demonstration import Demonstration
+from tmd.world.demonstration import Demonstration
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

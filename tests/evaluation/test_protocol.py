@@ -19,7 +19,7 @@ from tmd.evaluation.runs.folds import Fold, folds_of, given_fold, halves, ranges
 from tmd.evaluation.runs.jobs import leave_out, sentences, units_of
 from tmd.evaluation.runs.protocol import read_protocol
 from tmd.pddl.model import Instruction
-from tmd.veil.demonstration import Demonstration, Segment
+from tmd.world.demonstration import Demonstration, Segment
 
 ROOT = Path(__file__).parents[2]
 VEIL500 = os.environ.get("VEIL500_DIR")

@@ -27,7 +27,7 @@ from tmd.evaluation.runs.jobs import sentences
 from tmd.inference.config import PAPER, PRESETS
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.validator import validate
-from tmd.veil.demonstration import Demonstration, Segment
+from tmd.world.demonstration import Demonstration, Segment
 
 ROOT = Path(__file__).parents[2]
 KITCHENS = tuple(f"kitchen{number}" for number in range(1, 6))

@@ -24,8 +24,8 @@ from tmd.inference.policy.model import log_probabilities
 from tmd.language import parse
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
-from tmd.veil.demonstration import Demonstration, Segment
-from tmd.veil.world import World, make_world
+from tmd.world.demonstration import Demonstration, Segment
+from tmd.world.world import World, make_world
 
 ROOT = Path(__file__).parents[2]
 TAKE = ["moveto({x})", "grasp({x})"]

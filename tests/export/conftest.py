@@ -18,7 +18,7 @@ from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import read_plan
 from tmd.pddl.reading.reader import read_domain, read_problem
-from tmd.veil.demonstration import read_demonstrations
+from tmd.world.demonstration import read_demonstrations
 
 ROOT = Path(__file__).resolve().parents[2]
 CASES = ROOT / "tests" / "pddl" / "cases"

@@ -18,9 +18,9 @@ from tmd.knowledge import digest
 from tmd.language.lexicon.file import bases_near, read_lexicon
 from tmd.pddl.reading.reader import read_domain
 from tmd.pddl.writer import format_formula
-from tmd.veil.corpus import Corpus
-from tmd.veil.sentence_file import SentenceTest
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder, find_domain
+from tmd.world.sentence_file import SentenceTest
 
 ROOT = Path(__file__).resolve().parents[2]
 GARDEN = """\

@@ -15,7 +15,7 @@ from tmd.goals.tables import declared_goals, goal_tables
 from tmd.ground import ground
 from tmd.knowledge import study
 from tmd.language import parse
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[2]

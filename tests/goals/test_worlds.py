@@ -10,7 +10,7 @@ import pytest
 import tmd
 from tmd.evaluation.sentence_tests import Outcome, judge
 from tmd.pddl.reading.reader import with_goal
-from tmd.veil.sentence_file import read_sentences
+from tmd.world.sentence_file import read_sentences
 
 WORLDS = Path(__file__).parent / "worlds"
 FLOORS = {

@@ -20,9 +20,9 @@ from tmd.knowledge import Knowledge, study
 from tmd.language import parse
 from tmd.pddl.model import Instruction
 from tmd.pddl.validator import validate
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World
 
 ROOT = Path(__file__).parents[2]
 TEXT = "Take the cup and put it on the shelf."

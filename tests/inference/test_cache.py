@@ -13,7 +13,7 @@ import tmd
 from tmd import knowledge
 from tmd.files import cache_directory
 from tmd.knowledge import Knowledge, known, place, save, study
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

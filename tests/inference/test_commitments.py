@@ -14,7 +14,7 @@ from tmd.pddl.ground_formula import conjunction, holds_in, negation
 from tmd.pddl.model import Atom, Formula
 from tmd.pddl.task import Task
 from tmd.readers.interface import PlanConstraints
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

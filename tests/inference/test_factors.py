@@ -6,9 +6,9 @@ import pytest
 
 from tmd.inference import energy
 from tmd.language.clause import Clause
+from tmd.library.template import Instantiation, Template
 from tmd.pddl.model import Instruction
-from tmd.veil.template import Instantiation, Template
-from tmd.veil.world import differences, shared
+from tmd.world.world import differences, shared
 
 FULL = {("filled",): True, ("hot",): False, ("contains", "water"): True}
 EMPTY = {("filled",): False, ("hot",): False, ("contains", "water"): False}

@@ -15,15 +15,15 @@ from tmd.inference.engine import Inference
 from tmd.inference.proposers import proposers_of
 from tmd.language import parse
 from tmd.language.clause import Clause
+from tmd.library.library import Library, learn
+from tmd.library.template import instantiate
 from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import get_constraints
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.result import Filled, Planner
-from tmd.veil.corpus import Corpus
-from tmd.veil.library import Library, learn
-from tmd.veil.template import instantiate
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
+from tmd.world.world import World
 
 EXTENDED = named_weights("paper_extended")
 MIXED = Weights({name: 1.5 + number for number, name in enumerate(reversed(NAMES))} | {"trim": 0.3})

@@ -17,13 +17,13 @@ from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation,
 from tmd.inference.ranking import Inferred, RankedPlan
 from tmd.language import parse
 from tmd.language.clause import Clause
+from tmd.library.library import Library, learn
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
-from tmd.veil.corpus import Corpus
-from tmd.veil.library import Library, learn
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World
 
 ROOT = Path(__file__).parents[2]
 TEXTS = ("Put the book on the table.", "Take the cup and put it on the shelf.", "Put the cup on the table.")

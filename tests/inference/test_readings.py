@@ -18,6 +18,7 @@ from tmd.inference.engine import Inference
 from tmd.inference.proposers import proposers_of
 from tmd.inference.ranking import Inferred, RankedPlan
 from tmd.language.clause import Clause, Parsed
+from tmd.library.library import Library
 from tmd.pddl.ground_formula import goal_cubes, instantiated
 from tmd.pddl.model import Formula
 from tmd.pddl.reading.reader import with_goal
@@ -33,10 +34,9 @@ from tmd.readers.interface import (
     StepGoals,
     Usage,
 )
-from tmd.veil.corpus import Corpus
-from tmd.veil.library import Library
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World
 
 ROOT = Path(__file__).parents[2]
 CUP, BOOK = "(at cup1 shelf1 on)", "(at book1 table1 on)"

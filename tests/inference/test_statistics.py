@@ -7,9 +7,9 @@ import math
 import pytest
 
 from tmd.inference.energy import NAMES, EndStates, Energy, Frequencies, Weights, count
+from tmd.library.library import learn
 from tmd.pddl.model import Instruction
-from tmd.veil.corpus import Corpus
-from tmd.veil.library import learn
+from tmd.world.corpus import Corpus
 
 ONES = Weights(dict.fromkeys(NAMES, 1.0))
 

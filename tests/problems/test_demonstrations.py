@@ -15,9 +15,9 @@ import pytest
 
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import read_problem
-from tmd.veil.corpus import replay
-from tmd.veil.demonstration import Demonstration, read_demonstrations
 from tmd.world.compile import compile_problem
+from tmd.world.corpus import replay
+from tmd.world.demonstration import Demonstration, read_demonstrations
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 

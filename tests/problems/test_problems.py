@@ -14,8 +14,8 @@ from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_problem
 from tmd.planning.backends import solve
 from tmd.planning.result import Solved
-from tmd.veil.corpus import replay
 from tmd.world.compile import compile_problem
+from tmd.world.corpus import replay
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 

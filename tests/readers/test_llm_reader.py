@@ -20,7 +20,7 @@ from tmd.readers.llm.client import ModelSettings
 from tmd.readers.llm.prompt import one_line, prompt_for
 from tmd.readers.llm.reader import MOST_CORRECTIONS, LLMDialogue
 from tmd.readers.llm.reply import Reply, parse_reply
-from tmd.veil.sentence_file import SentenceTest, read_sentences
+from tmd.world.sentence_file import SentenceTest, read_sentences
 
 TABLE = "02_table/corner1"
 FILES = sorted(ROOT.glob("problems/*/*.sentences.jsonl"))

@@ -22,8 +22,8 @@ from tmd.robot.monitor.inference import FactInference
 from tmd.robot.monitor.observation import Observer
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillPhase, SkillStatus
 from tmd.robot.skills.skill_file import load_skills
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
 
 ROOT = Path(__file__).parents[2]
 

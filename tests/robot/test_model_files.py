@@ -19,10 +19,10 @@ from tmd.robot.assets.shapes import Shapes
 from tmd.robot.scene.scene import Scene
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
-from tmd.veil.roots import Roots
 from tmd.world.compile import update_domain
 from tmd.world.environment import load_room
 from tmd.world.folder import DomainFolder
+from tmd.world.roots import Roots
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("vhacdx", reason="needs the extra meshes")

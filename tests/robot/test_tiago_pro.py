@@ -15,8 +15,8 @@ from tmd.records.trajectory import SampleLine
 from tmd.robot.pr2 import tiago_pro
 from tmd.robot.pr2.kinematics import Tree
 from tmd.robot.pr2.urdf import packaged_robot, prepare
-from tmd.veil.roots import Roots
 from tmd.world.folder import DomainFolder
+from tmd.world.roots import Roots
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 from tmd.robot.pr2.pr2 import Pr2

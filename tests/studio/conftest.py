@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from tests.bundled import corpus
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World
 
 ROOT = Path(__file__).parents[2]
 

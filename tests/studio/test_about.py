@@ -8,9 +8,9 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.object_info import about
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
 from tmd.view.wording import Wording
+from tmd.world.corpus import Corpus
+from tmd.world.world import World
 
 
 def test_parts_states_relations_and_edges(kitchen1: World) -> None:

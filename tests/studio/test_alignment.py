@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.language import parse
+from tmd.library.library import learn
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
-from tmd.veil.corpus import Corpus
-from tmd.veil.library import learn
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
+from tmd.world.world import World
 
 TEXT = "Fill the kettle with water, put it on the stove and turn the burner on. Wait until it boils."
 DONE = [

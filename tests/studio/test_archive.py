@@ -22,10 +22,10 @@ from tmd.lock import try_lock
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive, demonstration
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import demonstration_line, read_demonstration, read_demonstrations
-from tmd.veil.world import make_world
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import demonstration_line, read_demonstration, read_demonstrations
 from tmd.world.folder import DomainFolder
+from tmd.world.world import make_world
 
 ROOT = Path(__file__).parents[2]
 TEXT = "Put the cup on the shelf."
@@ -36,7 +36,7 @@ from pathlib import Path
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import Session
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 corpus = Corpus(DomainFolder(Path(sys.argv[1])), Path(sys.argv[2]))

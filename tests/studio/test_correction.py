@@ -11,8 +11,8 @@ from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.validator import validate
 from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.session import DemonstratedStep
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
+from tmd.world.world import World
 
 TEXT = "Take the mug and heat it in the microwave."
 PLAN = [

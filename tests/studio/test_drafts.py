@@ -16,7 +16,7 @@ from tmd.diagnostics import OutputError, TmdError
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.drafts import Draft, Drafts, place
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 
 ROOT = Path(__file__).parents[2]
 TEXT = "Take the cup and put it on the shelf."
@@ -27,7 +27,7 @@ from pathlib import Path
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.drafts import Draft, Drafts
 from tmd.studio.demonstrations.session import Session
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 corpus = Corpus(DomainFolder(Path(sys.argv[1])), Path(sys.argv[2]))

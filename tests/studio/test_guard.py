@@ -19,7 +19,7 @@ from tmd.studio.guard import Guard, guarding, kept_token
 from tmd.studio.server import Server
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 

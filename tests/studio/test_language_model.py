@@ -17,7 +17,7 @@ from tmd.readers.llm.client import KEY, MODEL, URL, ModelError
 from tmd.studio.panels.html import effort
 from tmd.studio.panels.say_panel import Request
 from tmd.studio.teaching import Teacher
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 
 pytest.importorskip("openai", reason="needs the extra llm")
 pytest.importorskip("viser", reason="needs the extra studio")

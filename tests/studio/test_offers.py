@@ -10,10 +10,10 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.semantics import applicable
 from tmd.studio.applicable_actions import Offers
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
 from tmd.view.wording import Wording
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World
 
 ROOT = Path(__file__).parents[2]
 DOMAINS = ["01_blocks", "04_tea", "kitchen", "lab_bench", "living_room"]

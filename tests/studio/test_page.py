@@ -10,8 +10,8 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.studio.applicable_actions import Offers
 from tmd.studio.object_info import about
 from tmd.studio.panels.html import changed, fragment, goal_list, notice, object_facts, refused, step_list
-from tmd.veil.world import World
 from tmd.view.goals import in_words
+from tmd.world.world import World
 
 
 @given(st.text())

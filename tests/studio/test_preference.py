@@ -18,7 +18,7 @@ from tmd.inference.config import PAPER_EXTENDED
 from tmd.inference.energy import Weights, named_weights
 from tmd.inference.weight_learning import Journal, Learned, Propose, learn_weights
 from tmd.pddl.model import Instruction
-from tmd.veil.demonstration import Demonstration, Segment
+from tmd.world.demonstration import Demonstration, Segment
 
 ROOT = Path(__file__).parents[2]
 TEXT = "Take the mug and put it on the table."

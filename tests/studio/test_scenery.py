@@ -10,7 +10,7 @@ import pytest
 
 from tmd.studio.environment_view import Look, open_setting
 from tmd.studio.view3d.scenery import Scenery
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 
 FOV = 1.3
 

@@ -15,8 +15,8 @@ from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.studio.demonstrations.clause_spans import MAX_CHARACTERS, clean, cut
 from tmd.studio.demonstrations.session import MAX_STEPS, Session
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
+from tmd.world.world import World
 
 TEXT = "Fill the kettle with water, put it on the stove and turn the burner on. Wait until it boils."
 DONE = ["find(kettle1)", "moveto(kettle1)", "grasp(kettle1)", "moveto(sink1)", "keep(kettle1, sink1, in)"]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.demonstrations.tasks import task_texts
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 
 ROOT = Path(__file__).parents[2]
 

@@ -11,15 +11,15 @@ import pytest
 
 from tmd.diagnostics import TmdError
 from tmd.knowledge import Knowledge, known, library_to_json, place, recall, study
+from tmd.library.library import learn
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.teaching import Teacher
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
-from tmd.veil.library import learn
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

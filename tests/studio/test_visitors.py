@@ -24,9 +24,9 @@ from tmd.studio.page import EVENT
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World
 
 VISITORS = 10
 TEXT = "Put the cup on the shelf"

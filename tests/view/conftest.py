@@ -10,7 +10,7 @@ from tests.bundled import corpus
 from tmd.ground import ground
 from tmd.grounded import Grounded
 from tmd.knowledge import known
-from tmd.veil.world import World
+from tmd.world.world import World
 
 TEXT = "Fill the cup with water and heat it in the microwave."
 

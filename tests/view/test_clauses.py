@@ -14,9 +14,9 @@ from tmd.grounded import Grounded
 from tmd.language import parse
 from tmd.language.clause import Clause, Parsed, Span
 from tmd.pddl.plan_file import parse_instruction
-from tmd.veil.world import World
 from tmd.view.clauses import NOTHING, OBJECT, VERB, lit_choice, lit_sentence, phrases
 from tmd.view.meaning import meanings_in
+from tmd.world.world import World
 
 WORDS = [
     "take",

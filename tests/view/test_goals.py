@@ -19,13 +19,13 @@ from tmd.pddl.model import TRUE, Formula
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.records.grounding import GroundingRecord
-from tmd.veil.world import World
 from tmd.view.candidates import candidates
 from tmd.view.goals import ShownGoal, all_reached, doubts, followed
 from tmd.view.grounding_record import grounding_record
 from tmd.view.meaning import meanings
 from tmd.view.page import render
 from tmd.view.subject import PlannedStep, Subject, grounded_subject
+from tmd.world.world import World
 
 TEXT = "Open the drawer. Take the key and put it on the table. Close the drawer. Close the drawer."
 PLAN = ["moveto(desk1)", "open(desk1_drawer)", "grasp(key1)", "moveto(table1)", "keep(key1, table1, on)"]

@@ -9,8 +9,8 @@ from tests.view.reading import lines, svg
 from tmd.pddl.model import Domain, GroundAtom, Predicate, Problem, TypedName
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
-from tmd.veil.world import World
 from tmd.view.object_graph import LONGEST, Edge, GraphChanges, anatomy, draw, object_graph, place
+from tmd.world.world import World
 
 
 def test_parts_edges_states_and_relations_are_drawn(kitchen: World) -> None:

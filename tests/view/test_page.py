@@ -23,12 +23,12 @@ from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Status
 from tmd.records.run import RanStep
-from tmd.veil.world import World
 from tmd.view.page import render, shown_steps
 from tmd.view.pictures import read_strip
 from tmd.view.run_record import Ran
 from tmd.view.sources import demonstrated_subject
 from tmd.view.subject import PlannedStep, Subject, grounded_subject
+from tmd.world.world import World
 
 
 @pytest.fixture(scope="module")

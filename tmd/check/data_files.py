@@ -20,10 +20,10 @@ from tmd.language.lexicon.lexicon import Lexicon, section, singular
 from tmd.pddl.model import Domain, Problem, State
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
-from tmd.veil.corpus import CHANGED, replay
-from tmd.veil.demonstration import Demonstration, check_goal, read_demonstration
 from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
+from tmd.world.corpus import CHANGED, replay
+from tmd.world.demonstration import Demonstration, check_goal, read_demonstration
 from tmd.world.environment import Environment, EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.yaml_positions import YamlSource

@@ -22,7 +22,7 @@ from tmd.language.lexicon.file import bases_near, read_lexicon
 from tmd.language.lexicon.lexicon import Declared, Lexicon, builtin, data_text
 from tmd.language.parser import parse
 from tmd.pddl.reading.syntax import nearest
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 
 # The files of English words that are looked through, in ``tmd/language/data``.
 _DATA = ("words.txt", "senses.txt", "wordnet_verbs.txt")

@@ -16,7 +16,7 @@ from tmd.cli.errors import Fault, fault_of
 from tmd.cli.output import emit, emit_json
 from tmd.cli.signals import stoppable
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 COMMANDS = (
     "ground",

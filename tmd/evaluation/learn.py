@@ -11,8 +11,8 @@ from tmd.diagnostics import TmdError
 from tmd.evaluation.models.paper_models import weights_of
 from tmd.inference.weight_learning import Learned
 from tmd.knowledge import Knowledge, Progress, digest, place, save, study
-from tmd.veil.corpus import Corpus, final_state
-from tmd.veil.demonstration import check_goal
+from tmd.world.corpus import Corpus, final_state
+from tmd.world.demonstration import check_goal
 
 
 @dataclass(frozen=True, slots=True)

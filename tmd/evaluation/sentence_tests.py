@@ -24,7 +24,7 @@ from tmd.records.sentence_test import (
     SentenceReport,
     SentenceSummary,
 )
-from tmd.veil.sentence_file import SentenceTest
+from tmd.world.sentence_file import SentenceTest
 
 _EFFORTS = ("prompt_tokens", "completion_tokens", "seconds", "cached", "corrections")
 

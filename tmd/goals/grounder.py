@@ -28,7 +28,7 @@ from tmd.pddl.model import (
 )  # fmt: skip
 from tmd.pddl.semantics import bindings
 from tmd.pddl.task import Bits
-from tmd.veil.world import PART_OF, World
+from tmd.world.world import PART_OF, World
 
 _LEVELS = 4
 """The kinds of relatives: parts, what the thing is linked to, its whole, the other parts of that."""

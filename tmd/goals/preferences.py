@@ -16,7 +16,7 @@ from tmd.goals.reading.noun_phrases import Nouns
 from tmd.goals.words import is_relation, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.nouns import split_name
-from tmd.veil.world import World
+from tmd.world.world import World
 
 Names: TypeAlias = tuple[str, ...]
 

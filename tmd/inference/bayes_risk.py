@@ -22,8 +22,8 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits
 from tmd.planning.result import Filled, Planner
-from tmd.veil.world import World
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import World
 
 PLANS = 10
 """Number of plans of least energy that are considered."""

@@ -14,13 +14,13 @@ from weakref import WeakKeyDictionary
 
 from tmd.diagnostics import Location, TmdError
 from tmd.inference.config import AKIN
+from tmd.library.library import Library
+from tmd.library.template import Instantiation, Template
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.pddl.task import Bits
-from tmd.veil.library import Library
-from tmd.veil.template import Instantiation, Template
-from tmd.veil.world import Profile, World, differences
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import Profile, World, differences
 
 # Added to every count, so that nothing has probability zero (Laplace).
 SMOOTHING = 1.0

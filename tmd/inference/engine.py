@@ -13,8 +13,8 @@ from tmd.inference.ranking import Inferred
 from tmd.pddl.model import Formula
 from tmd.pddl.task import Bits
 from tmd.readers.interface import Dialogue
-from tmd.veil.world import World
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import World
 
 
 class Inference:

@@ -33,8 +33,8 @@ from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.result import Answer, Filled, GaveUp, NoPlanner, Planner, Unreachable
-from tmd.veil.world import World
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import World
 
 NOTHING = Choice(None, (), {}, {})
 """The choice for a clause for which nothing is done."""

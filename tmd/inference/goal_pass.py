@@ -27,6 +27,7 @@ from tmd.inference.energy import Factors
 from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup, Way
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
 from tmd.inference.ranking import Choice, Inferred, LostGoal, Path, PlanStep, StepGoal
+from tmd.library.library import tidy
 from tmd.pddl.ground_formula import TRUE, goal_cubes
 from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.semantics import Constraints
@@ -34,7 +35,6 @@ from tmd.pddl.task import Bits, Cube
 from tmd.planning.gap_filler import eliminate, untouched
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
-from tmd.veil.library import tidy
 
 # Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it.
 _MOST_FURTHER_STEPS = 8

@@ -15,12 +15,12 @@ from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy, Factors
 from tmd.inference.policy.model import Policy
 from tmd.inference.ranking import Path, RejectedProposal
+from tmd.library.library import Library
+from tmd.library.template import Instantiation, Template, instantiate
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.library import Library
-from tmd.veil.template import Instantiation, Template, instantiate
-from tmd.veil.world import World
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import World
 
 Instructions = tuple[Instruction, ...]
 POLICY_SOURCE = "policy"

@@ -18,7 +18,7 @@ from tmd.world.verb_clause import VerbClause
 
 if TYPE_CHECKING:
     from tmd.language.clause import Parsed
-    from tmd.veil.world import World
+    from tmd.world.world import World
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,7 +36,7 @@ from tmd.readers.interface import (
     StepGoals,
 )
 from tmd.readers.rule_steps import USE, RuleStep, steps_of
-from tmd.veil.world import World
+from tmd.world.world import World
 
 
 class RuleReader:

@@ -24,13 +24,13 @@ from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Trial
 from tmd.robot_trials.trials import Mode, run_trials
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
 from tmd.view.page import render
 from tmd.view.pictures import Strip, read_strip
 from tmd.view.run_record import Ran
 from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject
+from tmd.world.corpus import Corpus
 from tmd.world.folder import find_domain, find_root
+from tmd.world.world import World
 
 
 def write_pages(config: ExperimentConfig, *, carried_out: bool = False) -> int:

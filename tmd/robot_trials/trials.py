@@ -28,7 +28,7 @@ from tmd.robot.skills.skill_file import load_skills
 from tmd.robot.video.film import open_movie
 from tmd.robot.video.movie_file import MovieFile
 from tmd.robot_trials.plan_runner import StepRecorder
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_root
 

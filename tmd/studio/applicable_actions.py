@@ -9,8 +9,8 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction, State
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Operator
-from tmd.veil.world import World
 from tmd.view.wording import Wording
+from tmd.world.world import World
 
 
 @dataclass(frozen=True, slots=True)

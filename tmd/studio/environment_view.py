@@ -11,10 +11,10 @@ from tmd.robot.assets.room import build_room
 from tmd.robot.skills.skill_file import visible
 from tmd.robot.video.symbolic_renderer import Picture, Still
 from tmd.studio.view3d.meshes import MeshPiece, pieces
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World
 
 
 @dataclass(frozen=True, slots=True)

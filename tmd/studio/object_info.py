@@ -9,7 +9,7 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits
-from tmd.veil.world import PART_OF, World
+from tmd.world.world import PART_OF, World
 
 
 @dataclass(frozen=True, slots=True)

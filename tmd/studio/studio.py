@@ -22,11 +22,11 @@ from tmd.studio.environment_edit import EditedEnvironment
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.robot_mesh import Figure
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
-from tmd.veil.world import make_world
 from tmd.world.compile import compile_problem
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
 from tmd.world.environment import load_environment
+from tmd.world.world import make_world
 
 SKILLS = "skills.yaml"
 _CHANGED = re.compile(r"_changed\d+$")

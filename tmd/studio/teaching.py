@@ -26,15 +26,15 @@ from tmd.knowledge import (
     digest,
     known,
 )
+from tmd.library.library import Library, learn, teach
 from tmd.readers.interface import Reader
 from tmd.readers.llm.client import URL, ModelSettings
 from tmd.readers.llm.reader import llm_reader
 from tmd.studio.demonstrations.alignment import Habits
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration
-from tmd.veil.library import Library, learn, teach
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World
 
 # The share of the work that learning is, roughly; the rest is saving.
 _SHARE = 0.95

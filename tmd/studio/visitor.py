@@ -32,8 +32,8 @@ from tmd.studio.panels.widgets import put
 from tmd.studio.view3d.performance import perform
 from tmd.studio.view3d.playback import Reel
 from tmd.studio.view3d.scenery import Scenery
-from tmd.veil.demonstration import Demonstration
 from tmd.view.wording import Wording
+from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import ClientHandle, NotificationHandle

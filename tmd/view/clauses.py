@@ -12,8 +12,8 @@ from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause, Parsed, Span
 from tmd.language.lexicon.lexicon import builtin, positive, singular
 from tmd.language.syntax.tokens import Kind, Token, tokenise
-from tmd.veil.world import World
 from tmd.view.meaning import meanings
+from tmd.world.world import World
 
 VERB, OBJECT = "verb", "object"
 _SHORTEST_SLIP, _ALIKE = 4, 0.8

@@ -10,9 +10,9 @@ from tmd.language.clause import Parsed
 from tmd.pddl.model import TRUE, Formula, GroundAtom, Instruction, Problem, State, universe
 from tmd.pddl.semantics import holds
 from tmd.pddl.validator import Verdict, validate
-from tmd.veil.world import World
 from tmd.view.meaning import meanings
 from tmd.view.wording import Wording
+from tmd.world.world import World
 
 # A note on a step without a goal begins with this where its instructions were guessed.
 GUESS = "a guess"

@@ -9,7 +9,7 @@ from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import PERSONS, Clause, Parsed
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.world import World
+from tmd.world.world import World
 
 # For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing. In
 # brackets stands what a noun would mean here most likely, where the plan has nothing to do with it: ``(milk1)``.

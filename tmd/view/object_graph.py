@@ -7,9 +7,9 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tmd.pddl.model import GroundAtom, Problem, State
-from tmd.veil.world import World
 from tmd.view.markup import macro
 from tmd.world.compile import AT, PART_OF
+from tmd.world.world import World
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,14 +25,14 @@ from tmd.pddl.validator import Verdict
 from tmd.records.grounding import GroundingRecord
 from tmd.records.plan import FORMAT
 from tmd.records.run import RunRecord, RunRequest, read_log
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration, Segment, read_demonstration
-from tmd.veil.roots import Roots
-from tmd.veil.world import World
 from tmd.view.meaning import Meaning, after, meaning
 from tmd.view.pictures import Strip, read_strip
 from tmd.view.run_record import Ran, ran, ran_events
 from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject, title_of
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration, Segment, read_demonstration
+from tmd.world.roots import Roots
+from tmd.world.world import World
 
 
 def demonstrated_subject(

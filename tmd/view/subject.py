@@ -9,11 +9,11 @@ from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan, RejectedProposal, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
-from tmd.veil.world import World
 from tmd.view.goals import doubts
 from tmd.view.meaning import Meaning, meanings, meanings_in
 from tmd.view.pictures import Strip
 from tmd.view.run_record import Ran
+from tmd.world.world import World
 
 # Characters of a text that a title shows.
 _TITLE = 90

@@ -11,7 +11,7 @@ from tmd.cli.errors import one_line, pointed
 from tmd.cli.inputs.options import json_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.check.diagnostic import Diagnostic

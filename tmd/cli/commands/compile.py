@@ -8,7 +8,7 @@ import click
 
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 
 @click.command("compile", short_help="Compile object graphs to PDDL.")

@@ -12,7 +12,7 @@ from typing import IO, TYPE_CHECKING, cast
 import click
 
 from tmd.cli.output import ErrorStream, emit
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.evaluation.runs.config import ExperimentConfig, Shard

@@ -11,7 +11,7 @@ from tmd.cli.errors import one_line
 from tmd.cli.inputs.options import ReadingOptions, json_option, limit_options, overwrite_option, reading_options, said
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 _ALL = "all"
 

@@ -7,7 +7,7 @@ import click
 from tmd.cli.errors import fault_of
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, OutputError, TmdError
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 
 @click.command("fmt", short_help="Format PDDL and YAML files.")

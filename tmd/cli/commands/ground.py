@@ -19,7 +19,7 @@ from tmd.cli.inputs.options import (
 )
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.ground import Ask

@@ -11,11 +11,11 @@ import click
 from tmd.cli.inputs.options import json_option, learned_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.evaluation.learn import LearnedDomain
-    from tmd.veil.corpus import Corpus
+    from tmd.world.corpus import Corpus
 
 
 @click.command("learn", short_help="Learn a domain's library, policy and weights from its demonstrations.")

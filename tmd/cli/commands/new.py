@@ -10,7 +10,7 @@ import click
 from tmd.cli.inputs.options import json_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.world.scaffold import Scaffold

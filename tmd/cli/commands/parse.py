@@ -6,7 +6,7 @@ import click
 
 from tmd.cli.inputs.options import json_option, said, text_options
 from tmd.cli.output import emit, emit_json
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 
 @click.command("parse", short_help="Split a text into verb clauses.")

@@ -9,7 +9,7 @@ import click
 from tmd.cli.inputs.options import json_option, limit_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 
 @click.command("plan", short_help="Find a plan for a PDDL problem.")

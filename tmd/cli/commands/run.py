@@ -20,7 +20,7 @@ from tmd.cli.inputs.options import (
 )
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 
 class _File(click.Path):

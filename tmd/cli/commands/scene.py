@@ -10,7 +10,7 @@ import click
 
 from tmd.cli.inputs.options import environment_domain_option, json_option, overwrite_option, robot_options
 from tmd.cli.output import emit, emit_json
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

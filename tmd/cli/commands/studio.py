@@ -10,10 +10,10 @@ import click
 from tmd.cli.inputs.options import learned_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
-    from tmd.veil.corpus import Corpus
+    from tmd.world.corpus import Corpus
 
 LOCAL = "127.0.0.1"
 USUAL = "kitchen"

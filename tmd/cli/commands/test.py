@@ -12,11 +12,11 @@ from tmd.cli.inputs.options import ReadingOptions, json_option, learned_option, 
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.inference.config import DEFAULT
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.evaluation.sentence_tests import SentenceResult
-    from tmd.veil.sentence_file import SentenceTest
+    from tmd.world.sentence_file import SentenceTest
 
 
 @click.command("test", short_help="Run sentence tests: does each request end in what was asked?")
@@ -80,7 +80,7 @@ def command(
 
 
 def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[SentenceTest]:
-    from tmd.veil.sentence_file import domain_sentences, read_sentences
+    from tmd.world.sentence_file import domain_sentences, read_sentences
 
     if bool(domain) == bool(cases):
         raise TmdError("name a domain, or files with --cases", hint="tmd test kitchen")

@@ -18,7 +18,7 @@ from tmd.cli.inputs.options import (
 )
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.view.sources import FoundSubject

@@ -14,7 +14,7 @@ from tmd.pddl.model import TRUE, Instruction, Problem
 from tmd.pddl.plan_file import Plan, read_plan
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import read_text
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 ASKED, CHANGED = "asked", "changed"
 """Goals by name, for a text: what it asks for, and everything that its plan changes."""

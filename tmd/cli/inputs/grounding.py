@@ -12,14 +12,14 @@ from tmd import __version__
 from tmd.cli.inputs.options import GroundingOptions, ReadingOptions
 from tmd.diagnostics import ExitCode
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.ground import Ask
     from tmd.grounded import Grounded
     from tmd.readers.interface import Question
     from tmd.records.grounding import GroundingRecord
-    from tmd.veil.corpus import Corpus
+    from tmd.world.corpus import Corpus
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,8 @@ from tmd.robot.monitor.listeners import Order
 if TYPE_CHECKING:
     from tmd.cli.inputs.options import ReadingOptions
     from tmd.records.grounding import GroundingRecord
-    from tmd.veil.corpus import Corpus
-    from tmd.veil.world import World
+    from tmd.world.corpus import Corpus
+    from tmd.world.world import World
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,10 +18,10 @@ from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Formula, Instruction, Problem
 from tmd.pddl.reading.syntax import nearest
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration, Segment, read_goal
-from tmd.veil.world import World, make_world
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Demonstration, Segment, read_goal
 from tmd.world.folder import find_domain, find_problems
+from tmd.world.world import World, make_world
 
 if TYPE_CHECKING:
     from tmd.datasets.veil500.data import Point

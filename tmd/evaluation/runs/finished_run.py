@@ -15,7 +15,7 @@ from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.records.fit import Fit
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
-from tmd.veil.roots import Roots
+from tmd.world.roots import Roots
 
 
 @dataclass(frozen=True, slots=True)

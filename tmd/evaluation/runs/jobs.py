@@ -30,7 +30,7 @@ from tmd.language.syntax.tokens import Kind, tokenise
 from tmd.pddl.model import Instruction
 from tmd.records.fit import CurvePoint, Fit, WorldFit
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
-from tmd.veil.demonstration import Segment
+from tmd.world.demonstration import Segment
 
 _ENDS = frozenset(".!?…")
 _CLOSING = frozenset("\"')]\u201d\u2019\u00bb")

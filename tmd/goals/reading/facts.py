@@ -22,7 +22,7 @@ from tmd.language.lexicon.nouns import words_in_name
 from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
 from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
-from tmd.veil.world import World
+from tmd.world.world import World
 
 _KNOWN = frozenset(word for members in PREPOSITIONS.values() for word in members)
 

@@ -18,7 +18,7 @@ from tmd.goals.words import BE, family, is_relation, is_verb, ranked, relations_
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.task import Bits
-from tmd.veil.world import World
+from tmd.world.world import World
 
 
 class GoalReader:

@@ -17,7 +17,7 @@ from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, split_name
 from tmd.pddl.ground_formula import FALSE, TRUE
 from tmd.pddl.task import Bits
-from tmd.veil.world import CONTAINED, World
+from tmd.world.world import CONTAINED, World
 
 _SLIP_LENGTH = 5
 """Shorter words are never taken for misspelt ones."""

@@ -32,7 +32,7 @@ from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.lexicon.nouns import ALIAS, split_name
 from tmd.pddl.model import OBJECT
 from tmd.pddl.task import Bits
-from tmd.veil.world import World
+from tmd.world.world import World
 
 ANY_TYPE = (OBJECT,)
 _PARTITIVE = words_of("relations", "partitive")

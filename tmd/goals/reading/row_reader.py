@@ -34,7 +34,7 @@ from tmd.pddl.ground_formula import (
 from tmd.pddl.model import Atom, Formula, Or, conjuncts
 from tmd.pddl.task import Bits
 from tmd.planning.unsolvable import Impossible
-from tmd.veil.world import World
+from tmd.world.world import World
 
 _NEVER_OTHERWISE = Or((FALSE,))
 """Marks what holds of a thing because the contrary never can: as good as FALSE where that thing alone is meant."""

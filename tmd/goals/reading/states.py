@@ -14,7 +14,7 @@ from tmd.goals.words import BE, IT, NEGATED, is_pronoun, is_relation, is_verb, t
 from tmd.language.clause import PERSONS
 from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction
 from tmd.pddl.model import Atom, Formula, GroundAtom
-from tmd.veil.world import CONTAINED
+from tmd.world.world import CONTAINED
 
 _ROW = GoalRow((BE,), (Slot("?x"),), TRUE, BE)
 

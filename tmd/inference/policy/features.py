@@ -18,8 +18,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmd.pddl.model import OBJECT, Instruction
-from tmd.veil.world import World
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import World
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

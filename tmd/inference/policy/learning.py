@@ -22,11 +22,11 @@ from tmd.inference.policy.features import (
 )
 from tmd.inference.policy.menu import FACT_PLACES, Menu, Node, Steps, steps
 from tmd.inference.policy.model import Reward, log_probabilities, share_of_word
+from tmd.library.library import lessons
 from tmd.pddl.model import Instruction
-from tmd.veil.demonstration import Demonstration
-from tmd.veil.library import lessons
-from tmd.veil.world import World
+from tmd.world.demonstration import Demonstration
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import World
 
 # Sequences between two steps of the ascent.
 _BATCH = 8

@@ -24,8 +24,8 @@ from tmd.inference.policy.features import (
 )
 from tmd.inference.policy.menu import Menu, Node, Steps, steps
 from tmd.pddl.model import Instruction
-from tmd.veil.world import World
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import World
 
 # Rewards are rounded before they are compared, so that equal ones stay equal for any order of a sum.
 _ROUNDED = 9

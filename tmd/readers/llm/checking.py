@@ -21,7 +21,7 @@ from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
 from tmd.readers.interface import CandidateGoal, PlanConstraints, Question, QuestionOption, Step
 from tmd.readers.llm.reply import Reply, ReplyConstraint, ReplyQuestion, ReplyRefusalKind, ReplyStep
-from tmd.veil.world import World
+from tmd.world.world import World
 
 SOURCE = "model"
 """The source of goals that a language model proposed."""

@@ -19,8 +19,8 @@ from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.pddl.model import ActionSchema, Domain, GroundAtom, Instruction, TypedName, hierarchy, predicates_of
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_effect, format_formula
-from tmd.veil.sentence_file import SentenceTest
-from tmd.veil.world import World
+from tmd.world.sentence_file import SentenceTest
+from tmd.world.world import World
 
 _SECTION = re.compile(r"^\[(\w+)\]\n", re.MULTILINE)
 _WORD = re.compile(r"[^\W\d_]+(?:['\u2019-][^\W\d_]+)*|\d+")

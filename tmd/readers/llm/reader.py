@@ -21,9 +21,9 @@ from tmd.readers.llm.checking import ModelReading, ModelStep, ReplyChecker
 from tmd.readers.llm.client import Completion, ModelClient, ModelSettings
 from tmd.readers.llm.prompt import Prompt, changes, filled, one_line, prompt_for
 from tmd.readers.llm.reply import Judgement, Reply, parse_reply, schema_of
-from tmd.veil.corpus import Corpus
-from tmd.veil.sentence_file import SUFFIX, SentenceTest, read_sentences
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
+from tmd.world.sentence_file import SUFFIX, SentenceTest, read_sentences
+from tmd.world.world import World
 
 MOST_CORRECTIONS = 2
 """How often a model may correct its reading of a request."""

@@ -1,7 +1,7 @@
 """Proposed clauses for the steps of a demonstration; the person may change them.
 
 Steps serve the clauses in the order of the text. How well a step fits a clause depends on the objects that both speak
-of (:mod:`tmd.veil.clause_alignment`), and by what the library's demonstrations did for the clause's verb: which
+of (:mod:`tmd.library.clause_alignment`), and by what the library's demonstrations did for the clause's verb: which
 instructions, and with which of them they ended. The best division is found by dynamic programming. Clauses at the end
 may be without steps at no cost, for the person may not be there yet.
 
@@ -17,10 +17,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tmd.language.clause import Clause
+from tmd.library.clause_alignment import cut_cost, fit, speaks_of
+from tmd.library.library import Library
 from tmd.pddl.model import Instruction
-from tmd.veil.clause_alignment import cut_cost, fit, speaks_of
-from tmd.veil.library import Library
-from tmd.veil.world import World
+from tmd.world.world import World
 
 # What it counts that a verb's instructions are usual for it.
 _HABIT = 0.75

@@ -24,8 +24,8 @@ from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
 from tmd.studio.demonstrations.history import History
 from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, Session
-from tmd.veil.world import World
 from tmd.view.wording import Wording
+from tmd.world.world import World
 
 
 @dataclass(frozen=True, slots=True)

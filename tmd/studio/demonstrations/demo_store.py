@@ -16,8 +16,9 @@ from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.session import Session
-from tmd.veil.corpus import Corpus, check_executable, final_state
-from tmd.veil.demonstration import (
+from tmd.view.meaning import after
+from tmd.world.corpus import Corpus, check_executable, final_state
+from tmd.world.demonstration import (
     Demonstration,
     Segment,
     check_goal,
@@ -25,8 +26,7 @@ from tmd.veil.demonstration import (
     read_demonstration,
     read_demonstrations,
 )
-from tmd.veil.world import World
-from tmd.view.meaning import after
+from tmd.world.world import World
 
 # The task of demonstrations for which none was named.
 SHOWN = "shown"

@@ -27,8 +27,8 @@ from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World
+from tmd.world.corpus import Corpus
+from tmd.world.world import World
 
 # The environment variable that names the directory of all drafts.
 VARIABLE = "TMD_STUDIO_STATE"

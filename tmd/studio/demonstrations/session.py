@@ -19,9 +19,9 @@ from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
 from tmd.studio.demonstrations.clause_spans import ClauseSpan, clean, cut
 from tmd.studio.demonstrations.history import History
-from tmd.veil.demonstration import Segment
-from tmd.veil.world import World
 from tmd.view.wording import Wording
+from tmd.world.demonstration import Segment
+from tmd.world.world import World
 
 # Longer demonstrations are refused: the longest of the bundled ones has about thirty steps.
 MAX_STEPS = 500

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import read_text
 from tmd.studio.demonstrations.clause_spans import clean
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import read_demonstrations
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import read_demonstrations
 
 
 @dataclass(frozen=True, slots=True)

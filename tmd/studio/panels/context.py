@@ -12,8 +12,8 @@ from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
 from tmd.studio.studio import Studio
 from tmd.studio.view3d.playback import Reel
-from tmd.veil.demonstration import Demonstration
 from tmd.view.wording import Wording
+from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import ClientHandle

@@ -14,11 +14,11 @@ from tmd.pddl.semantics import holds
 from tmd.readers.interface import Usage
 from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.object_info import About
-from tmd.veil.world import World
 from tmd.view.alignment import Mark, align
 from tmd.view.goals import ShownGoal
 from tmd.view.markup import data, macro
 from tmd.view.wording import Wording
+from tmd.world.world import World
 
 # Maximum number of reasons listed why instructions do not apply.
 MOST = 30

@@ -28,13 +28,13 @@ from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, effort, fragment, goal_list, judgement, side_by_side, step_list
 from tmd.studio.panels.widgets import chosen, put
 from tmd.studio.view3d.playback import Reel
-from tmd.veil.demonstration import Demonstration
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
 from tmd.view.wording import Wording
+from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import GuiButtonHandle, GuiDropdownHandle

@@ -10,15 +10,15 @@ import pytest
 
 from tmd.language import parse
 from tmd.language.clause import Clause
+from tmd.library.library import align, learn, run
+from tmd.library.template import Instantiation, Template, generalise, instantiate, replace
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Segment
-from tmd.veil.library import align, learn, run
-from tmd.veil.template import Instantiation, Template, generalise, instantiate, replace
-from tmd.veil.world import World, make_world
 from tmd.world.compile import compile_problem
+from tmd.world.corpus import Corpus
+from tmd.world.demonstration import Segment
 from tmd.world.environment import load_environment
+from tmd.world.world import World, make_world
 
 
 def clause(text: str, corpus: Corpus) -> Clause:

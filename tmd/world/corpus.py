@@ -13,11 +13,11 @@ from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.reading.reader import read_problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.semantics import apply, first_broken
-from tmd.veil.demonstration import Demonstration, check_goal, read_demonstrations, step_fault
-from tmd.veil.world import World, make_world
 from tmd.world.compile import compile_problem
+from tmd.world.demonstration import Demonstration, check_goal, read_demonstrations, step_fault
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
+from tmd.world.world import World, make_world
 
 
 class Corpus:

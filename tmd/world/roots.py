@@ -12,10 +12,10 @@ from tmd.diagnostics import Location, TmdError
 if TYPE_CHECKING:
     from tmd.language.lexicon.lexicon import Lexicon
     from tmd.pddl.model import Domain, Problem
-    from tmd.veil.corpus import Corpus
-    from tmd.veil.world import World
+    from tmd.world.corpus import Corpus
     from tmd.world.environment import Environment
     from tmd.world.folder import DomainFolder
+    from tmd.world.world import World
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ class Roots:
         Raises:
             TmdError: There is no directory of problems.
         """
-        from tmd.veil.corpus import Corpus
+        from tmd.world.corpus import Corpus
         from tmd.world.folder import find_problems
 
         return Corpus(folder, find_problems(folder.name, self.problems))
@@ -186,9 +186,9 @@ class Roots:
         Raises:
             TmdError: One of them is missing or wrong.
         """
-        from tmd.veil.world import make_world
         from tmd.world.compile import compile_problem
         from tmd.world.environment import load_environment
+        from tmd.world.world import make_world
 
         path = self.environment(environment, domain)
         if path.suffix == ".pddl":
@@ -206,7 +206,7 @@ class Roots:
 
     def _pddl_world(self, path: Path, domain: str | None) -> tuple[Corpus, World]:
         from tmd.pddl.reading.reader import read_problem
-        from tmd.veil.world import make_world
+        from tmd.world.world import make_world
 
         if domain is None and path.parent.name != "environments":
             raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")

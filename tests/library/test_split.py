@@ -7,10 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.language import parse
+from tmd.library.clause_alignment import split
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
-from tmd.veil.clause_alignment import split
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 
 TAKE = ("find(mug1)", "moveto(mug1)", "grasp(mug1)")
 PUT = ("moveto(sink1)", "keep(mug1, sink1, in)")

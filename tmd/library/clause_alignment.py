@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.world import Mentions, Profiles
+from tmd.world.world import Mentions, Profiles
 
 _SAME_THING = 0.5
 """What it costs to cut between two instructions that share an object."""

@@ -10,7 +10,7 @@ import pytest
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
-from tmd.veil.demonstration import read_demonstrations
+from tmd.world.demonstration import read_demonstrations
 
 GOOD: dict[str, Any] = {
     "id": "a",

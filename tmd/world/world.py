@@ -19,6 +19,7 @@ from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import TRUE, GroundAtom, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
+from tmd.world.compile import PART_OF as PART_OF  # goals and studio need it as well
 from tmd.world.verb_clause import VerbClause
 
 
@@ -135,8 +136,6 @@ def _words(name: str, whole: str | None) -> tuple[str, ...]:
 
 
 Profile = Mapping[tuple[str, ...], bool]
-
-PART_OF = "part_of"
 
 
 class Profiles:

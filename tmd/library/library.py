@@ -9,13 +9,13 @@ from weakref import WeakKeyDictionary
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
+from tmd.library.clause_alignment import split
+from tmd.library.template import Template, generalise
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.clause_alignment import split
-from tmd.veil.demonstration import Demonstration, Segment
-from tmd.veil.template import Template, generalise
-from tmd.veil.world import Profile, World
+from tmd.world.demonstration import Demonstration, Segment
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import Profile, World
 
 
 @dataclass(slots=True, eq=False, weakref_slot=True)

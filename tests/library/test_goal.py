@@ -14,8 +14,8 @@ from experiments.check_demonstrations import check
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import read_problem
-from tmd.veil.corpus import replay
-from tmd.veil.demonstration import Demonstration, check_goal, demonstration_line, read_demonstrations, read_goal
+from tmd.world.corpus import replay
+from tmd.world.demonstration import Demonstration, check_goal, demonstration_line, read_demonstrations, read_goal
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.world import Mentions, Profile, Profiles, World, shared
 from tmd.world.verb_clause import VerbClause
+from tmd.world.world import Mentions, Profile, Profiles, World, shared
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 
 from tests.bundled import corpus
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 
 
 @pytest.fixture(scope="session")

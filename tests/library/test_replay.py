@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.veil.corpus import Corpus
+from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]
