@@ -147,12 +147,12 @@ def command(
         check_writable(log)
     corpus, world = roots.world(environment, domain_name)
     chosen = planner or IN_PROCESS
-    runner = PlanRunner(
+    runner = PlanRunner(  # entered before what takes long: whether films can be made is known at once
         room, folder, world.task.problem, kinematic=kinematic, seed=seed, planner=chosen, repairs=repairs,
         video=video, strip=strip, size=size, trajectory=trajectory, rate=rate, robot=robot, urdf=urdf, gui=gui,
     )  # fmt: skip
     with ExitStack() as stack:
-        stack.enter_context(runner)  # before what takes long: whether films can be made is known at once
+        stack.enter_context(runner)
         if plan_file is not None:
             orders = orders_of_file(plan_file, world)
         elif goal is not None:
