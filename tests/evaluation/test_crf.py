@@ -99,7 +99,7 @@ def test_weights_that_are_not_learned_are_those_of_the_start_for_the_same_factor
     weights = fitted(model, train, data).weights_["kitchen"]
     start = named_weights(model.config.weights)
     assert [weights[f] for f in NAMES] == [0 if f in ABSENT[name] else start[f] for f in NAMES]
-    assert fit_text(name, given_fold(data.examples, {2}, {1})[0], model) is None
+    assert fit_text(name, given_fold(data.examples, data.examples, {2}, {1})[0], model) is None
 
 
 def test_the_same_seed_learns_the_same(data: BundledData, train: list[Example]) -> None:
@@ -134,7 +134,7 @@ def test_a_restored_model_predicts_what_the_fitted_one_did(
 ) -> None:
     """By way of the file that a run keeps."""
     model = fitted(row(name), train, data)
-    text = fit_text(name, given_fold(data.examples, {2, 4, 5}, {1})[0], model)
+    text = fit_text(name, given_fold(data.examples, data.examples, {2, 4, 5}, {1})[0], model)
     saved = json.loads(text) if text is not None else {}
     again = row(name).restore(train, data, saved)
     assert numbers(again) == numbers(model)

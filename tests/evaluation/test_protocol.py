@@ -48,7 +48,7 @@ def check(found: list[Fold], data: Dataset) -> None:
 
 
 def test_five_kitchens_make_ten_folds_that_test_everything_once(data: BundledData) -> None:
-    found = halves(data.examples)
+    found = halves(data.examples, data.examples)
     assert len(found) == 10
     for fold in found:
         assert not {e.environment for e in fold.train} & {e.environment for e in fold.test}
@@ -93,10 +93,10 @@ def test_training_tasks_can_be_named(data: BundledData, tasks: tuple[str, ...]) 
 
 
 def test_environment_numbers_choose_the_fold(data: BundledData) -> None:
-    (fold,) = given_fold(data.examples, None, {2, 3})
+    (fold,) = given_fold(data.examples, data.examples, None, {2, 3})
     assert {e.number for e in fold.test} == {2, 3}
     assert {e.number for e in fold.train} == {1, 4, 5}
-    (fold,) = given_fold(data.examples, {1}, None)
+    (fold,) = given_fold(data.examples, data.examples, {1}, None)
     assert {e.number for e in fold.test} == {2, 3, 4, 5}
     (fold,) = folds(data, train_environments=(1, 3))
     assert {(e.number, e.task) for e in fold.train} == {(n, t) for n in (1, 3) for t in ("affogato", "ramen")}
@@ -106,7 +106,7 @@ def test_environment_numbers_choose_the_fold(data: BundledData) -> None:
 @pytest.mark.parametrize(("train", "test"), [({1, 2}, {2}), ({1}, {9}), ({9}, {1}), (set(range(1, 6)), None)])
 def test_folds_that_leak_or_are_empty_are_refused(data: BundledData, train: set[int], test: set[int] | None) -> None:
     with pytest.raises(TmdError):
-        given_fold(data.examples, train, test)
+        given_fold(data.examples, data.examples, train, test)
 
 
 def test_a_task_in_no_group_is_trained_with_all(tmp_path: Path) -> None:

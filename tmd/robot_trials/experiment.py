@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
-from tmd.diagnostics import OutputError, TmdError
+from tmd.diagnostics import TmdError
 from tmd.evaluation.report.examples import best_and_worst
 from tmd.evaluation.report.page import FOLDER, linked_pages, page_name
 from tmd.evaluation.report.report import write_report
@@ -18,19 +18,17 @@ from tmd.evaluation.runs.trial_records import Trials, read_trials
 from tmd.files import make_directory, write_text
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.language import parse
-from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Trial
-from tmd.robot_trials.trials import Mode, run_trials
+from tmd.robot_trials.trials import Mode, remove_file, run_trials
 from tmd.view.page import render
 from tmd.view.pictures import Strip, read_strip
 from tmd.view.run_record import Ran
 from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject
 from tmd.world.corpus import Corpus
 from tmd.world.folder import find_domain, find_root
-from tmd.world.world import World
 
 
 def write_pages(config: ExperimentConfig, *, carried_out: bool = False) -> int:
@@ -61,7 +59,8 @@ def write_pages(config: ExperimentConfig, *, carried_out: bool = False) -> int:
     for name, html in pages.items():
         write_text(directory / name, html)
     if not carried_out:
-        _forget(directory, linked_pages(config.out) - pages.keys())
+        for name in sorted(linked_pages(config.out) - pages.keys()):
+            remove_file(directory / name)
     return len(pages)
 
 
@@ -92,21 +91,8 @@ def _subject(line: PredictionRecord, corpus: Corpus, run: Run, trials: Trials | 
     plan = _ranked(line)
     if plan is not None and len(plan.choices) == len(parsed.clauses):
         return grounded_subject(title, world, parsed, [plan], made=made, ran=ran, strip=strip)
-    return _plain(title, world, Said(parsed), instructions, made, ran, strip)
-
-
-def _plain(
-    title: str,
-    world: World,
-    said: Said,
-    instructions: Sequence[Instruction],
-    made: Sequence[tuple[str, str]],
-    ran: Ran | None,
-    strip: Strip | None,
-) -> Subject:
-    """Return a prediction of a row that does not work by clauses."""
-    steps = tuple(map(PlannedStep, instructions))
-    return Subject(title, world.task.problem, steps, said, ran=ran, strip=strip, made=tuple(made))
+    steps = tuple(map(PlannedStep, instructions))  # the row does not work by clauses
+    return Subject(title, world.task.problem, steps, Said(parsed), ran=ran, strip=strip, made=tuple(made))
 
 
 def _ranked(line: PredictionRecord) -> RankedPlan | None:
@@ -138,16 +124,6 @@ def _strip(directory: Path, trial: Trial) -> Strip | None:
         return None
     path = directory / Path(trial.strip).name
     return read_strip(path.read_bytes(), len(trial.steps)) if path.is_file() else None
-
-
-def _forget(directory: Path, names: frozenset[str]) -> None:
-    for name in sorted(names):
-        try:
-            (directory / name).unlink()
-        except OSError as error:
-            raise OutputError(
-                f"{directory / name} cannot be removed: {error.strerror}", hint="name a directory you may write to"
-            ) from None
 
 
 def run_experiment(

@@ -208,8 +208,8 @@ def _hindrance(config: ExperimentConfig) -> str:
 
 
 def _perform_all(config: ExperimentConfig, mode: Mode, folder: Path, progress: Progress | None) -> None:
-    domain = find_domain(config.domain, config.domains)
-    problems = find_root("problems", config.problems) / config.domain
+    domain = find_domain(config.domain, config.domains).path.resolve()
+    problems = (find_root("problems", config.problems) / config.domain).resolve()
     chosen = choices(read_run(config.out))
     asked = [_asked(choice, config, mode) for choice in chosen]
     _forget_others(folder, {each.environment for each in asked})
@@ -223,7 +223,7 @@ def _perform_all(config: ExperimentConfig, mode: Mode, folder: Path, progress: P
             _without_plan(folder, each)
             done += 1
         else:
-            jobs.append((Job(each, choice.line, domain.path.resolve(), problems.resolve(), folder.resolve()),))
+            jobs.append((Job(each, choice.line, domain, problems, folder.resolve()),))
     with closing(in_processes(perform, jobs, config.jobs)) as ended:
         for _ in ended:
             done += 1
@@ -262,12 +262,20 @@ def _forget_others(folder: Path, environments: set[str]) -> None:
     """Remove trials in environments that this run does not test in."""
     for path in folder.glob("*.json"):
         if path.stem not in environments:
-            try:
-                path.unlink()
-            except OSError as error:
-                raise OutputError(
-                    f"{path} cannot be removed: {error.strerror}", hint="name a directory you may write to"
-                ) from None
+            remove_file(path)
+
+
+def remove_file(path: Path) -> None:
+    """Remove a file of a run.
+
+    Raises:
+        OutputError: It cannot be removed.
+    """
+    try:
+        path.unlink()
+    except OSError as error:
+        message = f"{path} cannot be removed: {error.strerror}"
+        raise OutputError(message, hint="name a directory you may write to") from None
 
 
 def _without_plan(folder: Path, asked: TrialRequest) -> None:

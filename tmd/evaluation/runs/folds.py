@@ -66,28 +66,24 @@ def folds_of(config: ExperimentConfig, data: Dataset) -> list[Fold]:
 
 def _split(config: ExperimentConfig, test: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
     if config.train_environments is not None or config.test_environments is not None:
-        return given_fold(test, config.train_environments, config.test_environments, pool)
+        return given_fold(test, pool, config.train_environments, config.test_environments)
     return pairs(test, pool) if config.data == VEIL500 else halves(test, pool)
 
 
 def given_fold(
-    examples: Sequence[Example],
-    train: Collection[int] | None,
-    test: Collection[int] | None,
-    pool: Sequence[Example] | None = None,
+    examples: Sequence[Example], pool: Sequence[Example], train: Collection[int] | None, test: Collection[int] | None
 ) -> list[Fold]:
     """Return the one fold that environment numbers say; what is not said is all the others.
 
     Args:
-        examples: What may be tested.
-        train: Where to train.
-        test: Where to test.
-        pool: What may be trained on, if not the same.
+        examples: Candidates for testing.
+        pool: Candidates for training.
+        train: Environments to train in.
+        test: Environments to test in.
 
     Raises:
         TmdError: An environment is in both, or nothing is left to train or test on.
     """
-    pool = examples if pool is None else pool
     numbers = {example.number for example in (*examples, *pool)}
     testing = set(test) if test is not None else numbers - set(train or ())
     training = set(train) if train is not None else numbers - testing
@@ -106,17 +102,16 @@ def given_fold(
     return [fold]
 
 
-def halves(examples: Sequence[Example], pool: Sequence[Example] | None = None) -> list[Fold]:
+def halves(examples: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
     """Return each environment in turn, its examples in two halves: ten folds for five environments.
 
     Args:
-        examples: What is tested.
-        pool: What may be trained on, if not the same.
+        examples: Examples to test.
+        pool: Candidates for training.
 
     Raises:
         TmdError: There is only one environment.
     """
-    pool = examples if pool is None else pool
     folds = []
     for environment in sorted({example.environment for example in examples}):
         train = tuple(e for e in pool if e.environment != environment)
@@ -130,12 +125,12 @@ def halves(examples: Sequence[Example], pool: Sequence[Example] | None = None) -
     return folds
 
 
-def pairs(examples: Sequence[Example], pool: Sequence[Example] | None = None) -> list[Fold]:
+def pairs(examples: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
     """Return the four folds over environments 1-8 of VEIL-500.
 
     Args:
-        examples: What is tested.
-        pool: What may be trained on, if not the same.
+        examples: Examples to test.
+        pool: Candidates for training.
 
     Raises:
         TmdError: There is nothing to test or to train on.
@@ -144,7 +139,7 @@ def pairs(examples: Sequence[Example], pool: Sequence[Example] | None = None) ->
     folds = []
     for pair in VEIL_PAIRS:
         name = "-".join(map(str, pair))
-        fold = _fold(name, examples, examples if pool is None else pool, within - set(pair), set(pair))
+        fold = _fold(name, examples, pool, within - set(pair), set(pair))
         if fold.test and fold.train:
             folds.append(fold)
     if not folds:

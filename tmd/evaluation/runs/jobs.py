@@ -27,6 +27,7 @@ from tmd.files import make_directory, write_text
 from tmd.json_record import DIGITS
 from tmd.language.clause import Span
 from tmd.language.syntax.tokens import Kind, tokenise
+from tmd.lock import try_lock
 from tmd.pddl.model import Instruction
 from tmd.records.fit import CurvePoint, Fit, WorldFit
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
@@ -188,26 +189,13 @@ def _journal(model: Model, unit: EvaluationJob, fits: Path | None) -> Iterator[N
         yield
         return
     path = make_directory(fits) / f"{unit.name}.journal.jsonl"
-    with _alone(path.with_suffix(".lock")) as alone:
-        model.journal = path if alone else None
-        yield
-
-
-@contextmanager
-def _alone(lock: Path) -> Iterator[bool]:
-    """Return whether this process alone holds the lock; a lock ends with its process, however that ends."""
+    lock = try_lock(path.with_suffix(".lock"))
+    model.journal = path if lock is not None else None
     try:
-        import fcntl
-    except ImportError:  # not a system that has such locks
-        yield True
-        return
-    with lock.open("a") as file:
-        try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            yield False
-            return
-        yield True
+        yield
+    finally:
+        if lock is not None:
+            lock.release()
 
 
 def journal_files(fits: Path, unit: EvaluationJob) -> tuple[Path, ...]:
