@@ -80,6 +80,10 @@ def test_a_statement_tells_which_thing_is_meant(text: str) -> None:
     assert goals(said("kitchen", "kitchen2", text)) == ["(at mug2 table1 on)"]
 
 
+def test_an_origin_tells_which_place_is_meant() -> None:
+    assert goals(said("kitchen", "kitchen2", "Pour milk into the mug from the shelf.")) == ["(contains mug2 milk)"]
+
+
 def test_it_is_rather_what_something_was_put_in() -> None:
     grounded = said("kitchen", "kitchen4", "Put the milk in the fridge and close it.")
     assert goals(grounded)[-1] == "(not (opened fridge1_door))"

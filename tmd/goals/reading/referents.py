@@ -157,9 +157,9 @@ class Referents:
         table is in no sink.
         """
         clause = reading.clause
-        found = list(clause.relations)
+        found = [self._from_there(relation, reading) for relation in clause.relations]
         if clause.verb not in section("placing"):
-            return clause
+            return replace(clause, relations=tuple(found))
         for number, relation in enumerate(clause.relations):
             source = relation.source or ""
             hosts = [r for r in clause.relations if r.target == source and r.source in clause.direct]
@@ -169,6 +169,17 @@ class Referents:
                 found[number] = relation._replace(source=hosts[0].source)
                 found += [relation._replace(source=host.source) for host in hosts[1:]]
         return replace(clause, relations=tuple(found)) if found != list(clause.relations) else clause
+
+    def _from_there(self, origin: Relation, reading: ClauseReading) -> Relation:
+        """Return an origin as that of the place it stands behind, if only that is there: "into the mug from the shelf"."""
+        clause, source = reading.clause, origin.source or ""
+        if not is_relation(origin.relation, "origin") or self.tells_which(
+            source, origin.relation, origin.target, reading
+        ):
+            return origin
+        places = (r.target for r in clause.relations if r.source == origin.source and is_relation(r.relation, "place"))
+        there = (p for p in places if self.tells_which(p, origin.relation, origin.target, reading))
+        return origin._replace(source=next(there, origin.source))
 
     def _goes_elsewhere(self, relation: Relation, hosts: Sequence[Relation], reading: ClauseReading) -> bool:
         """Return whether a place is no place of its host, which tells already which thing is meant."""
