@@ -171,7 +171,7 @@ class Referents:
         return replace(clause, relations=tuple(found)) if found != list(clause.relations) else clause
 
     def _from_there(self, origin: Relation, reading: ClauseReading) -> Relation:
-        """Return an origin as that of the place it stands behind, if only that is there: "into the mug from the shelf"."""
+        """Return an origin as that of the place before it, if only that is there: "into the mug from the shelf"."""
         clause, source = reading.clause, origin.source or ""
         if not is_relation(origin.relation, "origin") or self.tells_which(
             source, origin.relation, origin.target, reading
