@@ -6,6 +6,7 @@ import json
 import time
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from tests.cli.conftest import Ended, run_tmd
 from tests.readers.conftest import Start, kit
 from tests.readers.fake_server import Answer, asked, reply
 from tmd.diagnostics import ExitCode, TmdError
+from tmd.readers.llm import client as client_module
 from tmd.readers.llm.client import KEY, ModelClient, ModelError, ModelSettings
 from tmd.readers.llm.reply import MOST_CHARACTERS, Reply, schema_of
 
@@ -102,6 +104,12 @@ def test_no_reply_in_time(start: Start) -> None:
     with pytest.raises(ModelError, match="no reply within") as caught:
         client.complete(ASKED, "reading", {})
     assert caught.value.passing
+
+
+def test_a_reply_that_drips_ends_in_time() -> None:
+    with pytest.raises(TimeoutError):
+        client_module._within(partial(time.sleep, 60), 0.01)
+    assert client_module._within(lambda: 7, 60) == 7
 
 
 @pytest.mark.parametrize("key", [f"{SECRET}\r", f" {SECRET}\n"])

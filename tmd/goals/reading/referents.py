@@ -158,9 +158,8 @@ class Referents:
         """
         clause = reading.clause
         found = [self._from_there(relation, reading) for relation in clause.relations]
-        if clause.verb not in section("placing"):
-            return replace(clause, relations=tuple(found))
-        for number, relation in enumerate(clause.relations):
+        placing = clause.verb in section("placing")
+        for number, relation in enumerate(clause.relations if placing else ()):
             source = relation.source or ""
             hosts = [r for r in clause.relations if r.target == source and r.source in clause.direct]
             if not is_relation(relation.relation, "place") or not hosts or source in clause.direct:
@@ -172,13 +171,11 @@ class Referents:
 
     def _from_there(self, origin: Relation, reading: ClauseReading) -> Relation:
         """Return an origin as that of the place before it, if only that is there: "into the mug from the shelf"."""
-        clause, source = reading.clause, origin.source or ""
-        if not is_relation(origin.relation, "origin") or self.tells_which(
-            source, origin.relation, origin.target, reading
-        ):
+        if not is_relation(origin.relation, "origin"):
             return origin
-        places = (r.target for r in clause.relations if r.source == origin.source and is_relation(r.relation, "place"))
-        there = (p for p in places if self.tells_which(p, origin.relation, origin.target, reading))
+        own = [r for r in reading.clause.relations if r.source == origin.source and is_relation(r.relation, "place")]
+        hosts = (origin.source, *(r.target for r in own))
+        there = (host for host in hosts if self.tells_which(host, origin.relation, origin.target, reading))
         return origin._replace(source=next(there, origin.source))
 
     def _goes_elsewhere(self, relation: Relation, hosts: Sequence[Relation], reading: ClauseReading) -> bool:

@@ -10,11 +10,12 @@ import json
 import os
 import re
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
+from threading import Thread
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
 from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError
@@ -29,6 +30,7 @@ KEY, URL, MODEL = "OPENAI_API_KEY", "OPENAI_BASE_URL", "OPENAI_MODEL"
 """The environment variables for key, address and model."""
 _NO_KEY = "none"
 """The key that is sent to servers that need none."""
+_RETRIES = 2
 LONGEST = 86_400.0
 """The longest time-out, in seconds."""
 _ADDRESS = re.compile(r"https?://(\[[\da-f:]+\]|[\w.-]+)(:\d{1,5})?(/[!-~]*)?", re.ASCII | re.IGNORECASE)
@@ -185,16 +187,19 @@ class ModelClient:
             options = {key: value for key, value in given.items() if key not in self._refused}
             try:
                 if self._client is None:
-                    self._client = openai.OpenAI(api_key=own.key, base_url=own.url, timeout=own.timeout)
+                    self._client = openai.OpenAI(
+                        api_key=own.key, base_url=own.url, timeout=own.timeout, max_retries=_RETRIES
+                    )
                 said = cast(Any, list(messages))
-                answer = self._client.chat.completions.create(model=self.model, messages=said, **options)
+                create = partial(self._client.chat.completions.create, model=self.model, messages=said, **options)
+                answer = _within(create, (_RETRIES + 1) * own.timeout)
                 break
             except openai.APIStatusError as error:
                 refused = _refused_parameter(error.status_code, str(error), options)
                 if refused is None:
                     raise self._status_error(error.status_code, str(error), error.response.headers) from None
                 self._refused.add(refused)
-            except openai.APITimeoutError:
+            except (openai.APITimeoutError, TimeoutError):
                 message = f"no reply within {own.timeout:g} s from {self._place()}"
                 raise ModelError(message, hint="try again later, or allow more time", passing=True) from None
             except openai.APIConnectionError as error:
@@ -245,6 +250,32 @@ class ModelClient:
         key = self.settings.key or ""
         line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
         return (line.replace(key, "***") if len(key) > 4 else line)[:300]
+
+
+def _within(call: Callable[[], Any], seconds: float) -> Any:  # noqa: ANN401 - what the client returns
+    """Return the result of a call.
+
+    Raises:
+        TimeoutError: There was none in time. A server that sends a byte now and then never exceeds the client's own
+            limits.
+    """
+    results: list[Any] = []
+    errors: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            results.append(call())
+        except BaseException as error:  # for the thread that waits
+            errors.append(error)
+
+    thread = Thread(target=run, daemon=True)
+    thread.start()
+    thread.join(seconds)
+    if errors:
+        raise errors[0]
+    if not results:
+        raise TimeoutError
+    return results[0]
 
 
 def _encodable(text: str) -> str:
