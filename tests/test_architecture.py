@@ -168,3 +168,11 @@ def test_no_function_is_too_complex(package: str) -> None:
         if block.letter != "C"
     }
     assert {name: found for name, found in blocks.items() if found > MOST_COMPLEX} == {}
+
+
+@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
+def test_no_docstring_begins_with_a_question_word(path: Path) -> None:
+    documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+    nodes = (node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, documented))
+    found = [text.splitlines()[0] for node in nodes if (text := ast.get_docstring(node))]
+    assert not [line for line in found if re.match(r"(What|Who|Where|Which|When|Why|How|Whether)\b", line)]

@@ -1,4 +1,4 @@
-"""What a person says, turned into plans that a robot may safely execute.
+"""Turn requests in English into plans that PDDL proves right.
 
 The main path is :func:`tmd.ground.ground`; the semantics of every instruction is PDDL (:mod:`tmd.pddl`).
 For programs there is :mod:`tmd.api`, whose names are found here as well: ``tmd.load_domain("kitchen")``. They are
@@ -26,5 +26,5 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever stands in the modu
 
 
 def __dir__() -> list[str]:
-    """What is here, with what is imported on demand."""
+    """Return the public names, those imported on demand as well."""
     return sorted({*globals(), *__getattr__("__all__")})

@@ -1,4 +1,4 @@
-"""What all JSON formats have in common: the same classes write and read them, and a fault is told in one line."""
+"""Common parts of all JSON formats: the same classes write and read them, and a fault is reported in one line."""
 
 from __future__ import annotations
 

@@ -96,7 +96,7 @@ def look_over(text: str, file: str) -> None:
 
 
 def from_yaml(error: yaml.MarkedYAMLError, text: str, file: str) -> TmdError:
-    """What PyYAML says is wrong with a text, with its place."""
+    """Return the fault that PyYAML found in a text, with its place."""
     return _Reader(text, file).from_yaml(error)
 
 
@@ -139,7 +139,7 @@ class _Reader:
         return self.error(mark, f"not YAML: {problem}", code, _REWRITE if code == "yaml-syntax" else _PLAIN)
 
     def unreadable(self, error: yaml.YAMLError) -> TmdError:
-        """What a problem without a place means: a character that YAML does not have."""
+        """Return the fault of a problem without a place: a character that YAML does not allow."""
         number = getattr(error, "character", None)
         if not isinstance(number, int):
             return self.error(None, f"not YAML: {' '.join(str(error).split())}", "yaml-syntax", _REWRITE)

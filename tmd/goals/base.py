@@ -132,7 +132,7 @@ def _before(verb: str, row: GoalRow, rows: Iterable[GoalRow], lexicon: Lexicon, 
 
 
 def _same_pattern(one: GoalRow, other: GoalRow, domain: Domain) -> bool:
-    """Whether two rows take the same prepositions, nouns and state words, and things of kinds that may be the same."""
+    """Return whether two rows take the same prepositions, nouns and state words, and things of kinds that may agree."""
     if (one.noun, one.result, len(one.slots)) != (other.noun, other.result, len(other.slots)):
         return False
     kinds = hierarchy(domain)
@@ -259,7 +259,7 @@ class _Translation:
         raise TmdError(f"this domain has nothing for ({node.head} {' '.join(arguments)}): {conditions or 'none'}")
 
     def _has(self, predicate: SharedPredicate, form: Declared) -> bool:
-        """Whether the domain has what a condition of a shared predicate speaks of, with arguments of its types."""
+    """Return whether the domain has the predicate of a shared condition, with arguments of its types."""
         if (predicate, form) not in self._fit:
             variables = {term for term in predicate.terms if term.startswith("?")}
             try:
@@ -281,7 +281,7 @@ def _present(node: Node) -> Node:
 
 
 def _shadows(first: SharedPredicate, second: SharedPredicate) -> bool:
-    """Whether ``first`` is declared for the same arguments in a file nearer to the domain, and so counts alone."""
+    """Return whether ``first`` is declared for the same arguments in a file nearer to the domain, and replaces it."""
     places = first.location, second.location
     other = places[0] is not None and places[1] is not None and places[0].file != places[1].file
     same = [a if not a.startswith("?") else "?" for a in first.terms] == [
@@ -291,7 +291,7 @@ def _shadows(first: SharedPredicate, second: SharedPredicate) -> bool:
 
 
 def _matches(predicate: SharedPredicate, arguments: Sequence[str]) -> bool:
-    """Whether a shared predicate is declared for arguments: names must be the same, variables stand for anything."""
+    """Return whether a shared predicate is declared for arguments: names must agree, variables match anything."""
     if len(predicate.terms) != len(arguments):
         return False
     return all(term.startswith("?") or term == said for term, said in zip(predicate.terms, arguments, strict=True))

@@ -55,7 +55,7 @@ class Relation(NamedTuple):
 
 
 class Quantifier(StrEnum):
-    """How many of the things that a noun may name are meant."""
+    """The number of things that a noun phrase means, of all that its noun may name."""
 
     PLAIN = "plain"
     """Nothing was said of it: *a cup*, *the cups*, *milk*."""
@@ -73,7 +73,7 @@ class Quantifier(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class NounPhrase:
-    """How a language-object was said.
+    """A language-object with its determiners and modifiers.
 
     Attributes:
         name: The language-object.
@@ -97,7 +97,7 @@ class NounPhrase:
 
 
 class Mood(StrEnum):
-    """What is asked of a clause."""
+    """The request of a clause: do it, avoid it, or keep things as they are."""
 
     DO = "do"
     AVOID = "avoid"
@@ -180,7 +180,7 @@ class Clause:
     heading: bool = field(default=False, compare=False)
 
     def phrase(self, name: str) -> NounPhrase:
-        """How one of its language-objects was said."""
+        """Return the noun phrase of a language-object."""
         return self.phrases.get(name) or NounPhrase(name)
 
     def resolved(self) -> tuple[str, ...]:
@@ -201,7 +201,7 @@ class Clause:
         return [Relation(r.relation, resolved(r.source), resolved(r.target) or r.target) for r in self.relations]
 
     def meant(self, name: str) -> tuple[str, ...]:
-        """What one language-object most likely means: itself unless it is a pronoun (``""``: the elided one)."""
+        """Return the likeliest meaning of a language-object: itself unless it is a pronoun (``""``: the elided one)."""
         likeliest = tuple(self.antecedents.get(name, ()))[: self.together.get(name, 1)]
         return likeliest or (name,)
 

@@ -38,7 +38,7 @@ class Rollout:
 
     @property
     def executable(self) -> bool:
-        """Whether every step was."""
+        """Return whether every step was executable."""
         return not self.failures
 
     @property

@@ -216,7 +216,7 @@ class Worker:
 
     @property
     def closed(self) -> bool:
-        """Whether the process was stopped."""
+        """Return whether the process was stopped."""
         return not self.close.alive
 
     def solve(

@@ -1,4 +1,4 @@
-"""Where the meaning of verbs comes from: declared in the lexicon, learned from demonstrations, read off the actions.
+"""Sources of the meanings of verbs: the lexicon, demonstrations, and the actions of the domain.
 
 Begin with :mod:`tmd.goals.sources.table`, the form that all three have.
 """

@@ -1,4 +1,4 @@
-"""What verbs mean, read off a domain's own words: names of actions and predicates. No kitchen is known here.
+"""Meanings of verbs, derived from the names of a domain's actions and predicates.
 
 Four readings, each as rows that an author could have written:
 
@@ -90,7 +90,7 @@ class _Words:
         return {kind for given in parameter.types for kind in self.types.ancestors(given)}
 
     def actor(self, parameter: TypedName) -> bool:
-        """Whether a parameter is for who acts, not for what is acted on."""
+        """Return whether a parameter is for the actor, not for what is acted on."""
         return bool(self._kinds(parameter) & self.actors)
 
     def things(self, predicate: Predicate) -> list[TypedName]:
@@ -102,7 +102,7 @@ class _Words:
         return [c.name for c in self.domain.constants if self.types.accepts(parameter.types, c.types)]
 
     def valued(self, parameter: TypedName) -> bool:
-        """Whether a parameter stands for a value (an amount, a setting, a substance): its type has constants."""
+        """Return whether a parameter is a value (an amount, a setting, a substance): its type has constants."""
         return bool(self.fixed(parameter)) and not self.actor(parameter) and not _placelike(parameter, self.types)
 
     # ------------------------------------------------------------------ states
@@ -281,7 +281,7 @@ class _Words:
                 yield from self._of_oneself(action, words)
 
     def _brought_about(self, action: ActionSchema) -> list[Effect]:
-        """What an action is for: what it makes true, unconditionally, of its parameters; or else makes false."""
+    """Return what an action makes true of its parameters without a condition, or else what it makes false."""
         wanted = [p.name for p in action.parameters if not self.actor(p)]
         settled = (e for e in action.effects if not e.parameters and e.condition == And())
         own = [e for e in settled if set(e.atom.terms) & set(wanted) and e.atom.predicate not in self.passing]
@@ -323,7 +323,7 @@ class _Words:
             yield replace(row, noun=name)
 
     def _makers(self, effect: Effect) -> int:
-        """How many actions make something of a predicate true, or false, as an effect does."""
+        """Return how many actions make something of a predicate true, or false, as an effect does."""
         alike = (effect.positive, effect.atom.predicate)
         return sum(any((e.positive, e.atom.predicate) == alike for e in a.effects) for a in self.domain.actions)
 
@@ -340,7 +340,7 @@ class _Words:
                 yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")
 
     def _said(self, effect: Effect, names: Mapping[str, str], action: ActionSchema) -> Formula:
-        """What an effect brings about, with what was not said left open: of something, or no longer of anything."""
+        """Return the condition that an effect brings about, with slots that were not filled left open."""
         left = {p.name: f"?any_{i}" for i, p in enumerate(action.parameters) if p.name not in names}
         terms = tuple({**left, **names}.get(term, term) for term in effect.atom.terms)
         others = tuple(TypedName(left[p.name], p.types) for p in action.parameters if left.get(p.name) in terms)
@@ -398,7 +398,7 @@ def _participle(name: str) -> str | None:
 
 
 def _placelike(parameter: TypedName, types: object) -> bool:
-    """Whether a parameter may be a thing or a place, although the domain has a constant of that type (the floor)."""
+    """Return whether a parameter may be a thing or a place, although its type has a constant (the floor)."""
     return any(t in words_of("names", "bulk") for t in parameter.types)
 
 

@@ -1,4 +1,4 @@
-"""What verbs mean, learned from demonstrations: what is so when the segments of a verb are done.
+"""Meanings of verbs, learned from demonstrations: the literals that hold when the segments of a verb are done.
 
 For every verb with the same slots, each literal that could be a goal is counted: in how many clauses it *could* hold,
 in how many of these it held at the end, and in how many it became true. A literal that nearly always holds and often
@@ -80,7 +80,7 @@ class _Count:
 
 @dataclass(slots=True)
 class _Shape:
-    """What is counted for one verb with one kind of slots."""
+    """Counts for one verb with one kind of slots."""
 
     clauses: int = 0
     counts: dict[str, _Count] = field(default_factory=lambda: defaultdict(_Count))
@@ -100,7 +100,7 @@ def learn_goals(
 
 
 def table_to_json(table: GoalTable) -> dict[str, object]:
-    """What was learned, as :func:`table_from_json` reads it."""
+    """Return a learned table as :func:`table_from_json` reads it."""
     rows = [
         {
             "pattern": row.pattern,
@@ -114,7 +114,7 @@ def table_to_json(table: GoalTable) -> dict[str, object]:
 
 
 def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
-    """What was learned.
+    """Return a learned table.
 
     Raises:
         KeyError, TypeError, ValueError, TmdError: It is no such table.
@@ -133,7 +133,7 @@ def _with_evidence(row: GoalRow, evidence: str, probability: float) -> GoalRow:
 
 
 def _said(text: str) -> int:
-    """How much a literal says: of two that hold alike, the one that says more is the goal."""
+    """Return how specific a literal is: of two that hold alike, the more specific one is the goal."""
     return text.count("?x") + text.count("?y") + text.count("(")
 
 
@@ -227,7 +227,7 @@ class _Learner:
                 count.held += not state >> world.task.index[atom] & 1
 
     def put_back(self) -> frozenset[PutBack]:
-        """What is undone in most cases."""
+        """Return the literals that are undone in most cases."""
         return frozenset(p for p, c in self.started.items() if c.possible >= FEWEST_UNDONE and c.support >= UNDONE)
 
     def _slots(

@@ -1,4 +1,4 @@
-"""What verbs mean: rows that give a verb with its slots a PDDL condition.
+"""Goal tables: rows that give a verb with its slots a PDDL condition.
 
 A row is written as in ``lexicon.yaml``::
 
@@ -67,13 +67,13 @@ class Slot:
 
     @property
     def is_place(self) -> bool:
-        """Whether it says where something is or goes."""
+        """Return whether the slot says where something is or goes."""
         return any(is_relation(p, "placing") for p in self.prepositions)
 
 
 @dataclass(frozen=True, slots=True)
 class GoalRow:
-    """What a verb with its slots means.
+    """The meaning of a verb with its slots.
 
     Attributes:
         verbs: The verbs it is for.
@@ -111,18 +111,18 @@ class GoalRow:
 
     @property
     def traceless(self) -> bool:
-        """Whether it brings about nothing that a state shows."""
+        """Return whether the row brings about nothing that a state shows."""
         return self.condition == And()
 
     @property
     def looks_back(self) -> bool:
-        """Whether it speaks of how things were at first: *put it back* is said of what was moved."""
+        """Return whether the condition refers to the first state, as *put it back* does."""
         return any(split_predicate(name)[1] == FIRST for name in predicates_of(self.condition))
 
 
 @dataclass(frozen=True, slots=True, order=True)
 class PutBack:
-    """What people undo by themselves: the tap that was turned on by the way is turned off.
+    """A state that people restore unasked: a tap that was turned on along the way is turned off.
 
     Attributes:
         predicate: A predicate of one thing that was made true and that nobody asked for.

@@ -161,7 +161,7 @@ class Lexicon:
         return self.verb_synonyms.get(verb, self.phrasal.get(verb, verb))
 
     def names_thing(self, word: str) -> bool:
-        """Whether the domain has things that are called so."""
+        """Return whether the domain has things of that name."""
         return word in self.kinds or word in self.nouns or word in self.groups
 
     @cached_property
@@ -171,7 +171,7 @@ class Lexicon:
         return frozenset(verb for row in rows for verb in row.pattern.partition(" ")[0].split("|"))
 
     def own(self, section: str, word: str) -> bool:
-        """Whether the file itself, and no base lexicon, declares a word of a section."""
+        """Return whether the file itself, and no base lexicon, declares a word of a section."""
         place = self.places.get((section, word))
         return place is None or place.file == self.source
 

@@ -1,4 +1,4 @@
-"""Which things of an environment a noun may name, with the kind of evidence for each.
+"""Things of an environment that a noun may name, with the kind of evidence for each.
 
 The order of evidence is fixed: the thing's own name, an alias of the domain, WordNet similarity, nothing. A weaker kind
 is only asked where all stronger ones are silent; but where a name agrees only in part, an alias of the whole noun goes

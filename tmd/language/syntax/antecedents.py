@@ -36,7 +36,7 @@ class _Mention:
 
 @dataclass(frozen=True, slots=True)
 class _Scene:
-    """What one clause leaves behind for later ones; ``together`` are its direct objects."""
+    """The mentions of one clause, for later ones; ``together`` are its direct objects."""
 
     mentions: tuple[_Mention, ...]
     together: tuple[str, ...]

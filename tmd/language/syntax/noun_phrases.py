@@ -59,12 +59,12 @@ class Phrase:
 
     @property
     def determined(self) -> bool:
-        """Whether an article or the like stands before it."""
+        """Return whether a determiner precedes it."""
         return any(word in _determiners() for word in self.lead)
 
     @property
     def whole(self) -> bool:
-        """Whether it means all there is."""
+        """Return whether it means all that there is."""
         return self.name in section("whole_words")
 
     def without_denial(self) -> Phrase:

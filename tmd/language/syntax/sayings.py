@@ -1,4 +1,4 @@
-"""What clauses with a subject say: states, events and possessions, as clauses with *be* or with their verb.
+"""Clauses with a subject: states, events and possessions, as clauses with *be* or with their verb.
 
 *The water boils* says what *boil the water* brings about; *the cup is dirty* is (be, [cup]) with the result ``dirty``.
 """
@@ -54,12 +54,12 @@ class Saying:
 
     @property
     def complement(self) -> bool:
-        """Whether something follows its verb."""
+        """Return whether something follows its verb."""
         return any(isinstance(n, Tree) for n in self.rest)
 
     @property
     def bare(self) -> bool:
-        """Whether it has only an auxiliary: "the mug does not"."""
+        """Return whether it has only an auxiliary: "the mug does not"."""
         return bool(self.helpers) and not (self.verbs or self.complement)
 
     def asks(self) -> bool:

@@ -39,7 +39,7 @@ _LONG = 5
 
 @dataclass(slots=True)
 class Sentence:
-    """What is known of the sentence so far; conditions may name its attributes."""
+    """The state of the sentence so far; conditions may name its attributes."""
 
     sub: bool = False
     """Inside a condition or relative clause whose own verb has not come yet ..."""

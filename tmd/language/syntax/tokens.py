@@ -18,7 +18,7 @@ from tmd.language.lexicon.lexicon import pairs, section, sections_of
 
 
 class Kind(StrEnum):
-    """What a token is. The first group is what the grammar sees."""
+    """The class of a token. The grammar sees the first group only."""
 
     __hash__ = str.__hash__  # that of an enumeration is far slower
 
