@@ -259,7 +259,7 @@ class _Translation:
         raise TmdError(f"this domain has nothing for ({node.head} {' '.join(arguments)}): {conditions or 'none'}")
 
     def _has(self, predicate: SharedPredicate, form: Declared) -> bool:
-    """Return whether the domain has the predicate of a shared condition, with arguments of its types."""
+        """Return whether the domain has the predicate of a shared condition, with arguments of its types."""
         if (predicate, form) not in self._fit:
             variables = {term for term in predicate.terms if term.startswith("?")}
             try:

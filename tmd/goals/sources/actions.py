@@ -281,7 +281,7 @@ class _Words:
                 yield from self._of_oneself(action, words)
 
     def _brought_about(self, action: ActionSchema) -> list[Effect]:
-    """Return what an action makes true of its parameters without a condition, or else what it makes false."""
+        """Return what an action makes true of its parameters without a condition, or else what it makes false."""
         wanted = [p.name for p in action.parameters if not self.actor(p)]
         settled = (e for e in action.effects if not e.parameters and e.condition == And())
         own = [e for e in settled if set(e.atom.terms) & set(wanted) and e.atom.predicate not in self.passing]
