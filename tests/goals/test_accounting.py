@@ -80,6 +80,18 @@ def test_a_statement_tells_which_thing_is_meant(text: str) -> None:
     assert goals(said("kitchen", "kitchen2", text)) == ["(at mug2 table1 on)"]
 
 
+@pytest.mark.parametrize("clause", ["that is on the table", "you see on the table"])
+def test_a_relative_clause_never_says_where_a_thing_shall_go(clause: str) -> None:
+    grounded = said("living_room", "room3", f"Bring me the book {clause}.")
+    assert not grounded.plans
+    assert grounded.reason.endswith("no book here is on the table")
+
+
+def test_a_heading_that_only_sums_up_may_mean_nothing() -> None:
+    grounded = said("living_room", "room1", "Tidy the armchair: whatever is on it belongs on the sofa.")
+    assert "(and (at pillow2 sofa1 on) (at blanket1 sofa1 on))" in goals(grounded)
+
+
 def test_an_origin_tells_which_place_is_meant() -> None:
     assert goals(said("kitchen", "kitchen2", "Pour milk into the mug from the shelf.")) == ["(contains mug2 milk)"]
 

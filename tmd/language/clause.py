@@ -152,7 +152,8 @@ class Clause:
         implied: The verb was not said: *A glass of milk, please.*
         alternative: It need not be done where the clause before it was: *or throw it away*.
         setting: A setting, as written: *to low*.
-        stated: Where statements before it say that things are: *There is a mug on the shelf. Wash it.*
+        stated: Where its things are now, by relative clauses and by statements before it: *There is a mug on the
+            shelf. Wash it.*
         heading: What follows says how: *make ramen: fill the pot, …*.
     """
 

@@ -140,8 +140,9 @@ def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleSte
         # "once it boils" is about what boils by then, if that is what is meant
         awaited = inner.verb == BE or any(map(is_pronoun, inner.direct))
         yield replace(_step(inner, number, clause, main=False), optional=True, awaited=awaited)
-    loose = clause.heading or (summarises and is_verb(clause.verb, "summary"))
-    yield replace(_step(clause, number, clause), optional=loose, loose=loose and not clause.heading)
+    summary = is_verb(clause.verb, "summary")
+    optional = clause.heading or (summarises and summary)
+    yield replace(_step(clause, number, clause), optional=optional, loose=optional and summary)
     if clause.duration and not is_verb(clause.verb.partition("_")[0], "waiting"):
         # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
         waiting = Clause(the_word("verbs", "waiting"), span=clause.span, text=clause.text)

@@ -8,7 +8,7 @@ from tmd.goals.clause_goal import ClauseReading, Unit
 from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.sources.table import ACTIONS, GoalRow, Slot, slot_predicate, slot_types
 from tmd.goals.words import PREPOSITIONS, ends_as, family, is_relation, is_verb, relations_said, table, words_of
-from tmd.language.clause import PERSONS, Quantifier
+from tmd.language.clause import PERSONS, Quantifier, Relation
 
 
 class Fitting:
@@ -110,6 +110,7 @@ class Fitting:
             (relation, target)
             for relation, target in unit.relations
             if relations_said(relation, slot.prepositions)
+            and Relation(relation, unit.direct, target) not in clause.stated
             and not (is_relation(relation, "accompanying") and is_none(target, clause))
         ]
         if len(said) > 1:

@@ -62,7 +62,7 @@ class Referents:
 
     def relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
         """Return the relations in which a noun stands, each with what it is related to."""
-        said = (*self._without_rooms(clause), *clause.stated)
+        said = tuple(dict.fromkeys((*self._without_rooms(clause), *clause.stated)))
         found = [(r.relation, r.target) for r in said if r.source == name or (r.source is None and not name)]
         if clause.setting and name in (*clause.direct, ""):
             found.append((SETTING, clause.setting.split()[-1]))
@@ -545,7 +545,8 @@ class Referents:
             parts = [part for name in now for part in self.grounder.relatives(name, 0)]
             now = self.nouns.related_now(parts, relation, names, reading.moments) or now
         # what stands on nothing has no burner under it
-        tells = relation in table("inverse") or is_relation(relation, "locating") or referent.mode is Mode.ALL
+        stated = any((r.source, r.relation) == (referent.noun, relation) for r in reading.clause.stated)
+        tells = stated or relation in table("inverse") or is_relation(relation, "locating") or referent.mode is Mode.ALL
         return referent.only(now) if now or tells or self.described(whole, relation, names, reading) else referent
 
     def _any_one(self, noun: str, reading: ClauseReading) -> bool:
@@ -635,6 +636,11 @@ class Referents:
             return Refusal(RefusalKind.NO_SUCH_THING, f"{what} here is {' and '.join(map(words, attributes))}")
         if known and any(is_relation(r, "excepting") for r, _ in self.relations_of(noun, clause)):
             return Refusal(RefusalKind.NO_SUCH_THING, f"every '{said}' that is meant here is excepted")
+        place = next((r for r in clause.stated if r.source == noun), None)
+        if known and place is not None:
+            return Refusal(
+                RefusalKind.NO_SUCH_THING, f"no {said} here is {words(place.relation)} the {words(place.target)}"
+            )
         if known:
             message = f"'{words(clause.verb)}' does not apply to '{said}' here"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message)

@@ -81,7 +81,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         hosts = [draft.host] if draft.host is not None else []
         hosts += [d for d in reading.drafts if d.host is draft and d.verb.span < draft.verb.span]  # "before closing it"
         clause = _resolved(clause, draft, [*scenes, *(_scene(host, host.clause(reading.text)) for host in hosts)])
-        clause = replace(clause, stated=_stated(clause, facts))
+        clause = replace(clause, stated=(*clause.stated, *_stated(clause, facts)))
         clauses.append(clause)
         scenes.append(_scene(draft, clause))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]

@@ -42,6 +42,7 @@ class ClauseDraft:
         direct: What the verb acts on.
         landmarks: What stands behind prepositions.
         relations: The relation matrix.
+        stated: Those of the relations by which relative clauses tell where things are.
         folds: Durations and settings.
         spans: Everything that belongs to it.
         conditions: What its conditions and purposes say.
@@ -58,6 +59,7 @@ class ClauseDraft:
     direct: list[Phrase] = field(default_factory=list)
     landmarks: list[Phrase] = field(default_factory=list)
     relations: list[Relation] = field(default_factory=list)
+    stated: list[Relation] = field(default_factory=list)
     folds: list[Token] = field(default_factory=list)
     spans: list[Span] = field(default_factory=list)
     conditions: list[Condition] = field(default_factory=list)
@@ -83,6 +85,7 @@ class ClauseDraft:
             verb=self.verb.stem,
             objects=tuple(dict.fromkeys([*(p.name for p in mentions), *self.further])),
             relations=tuple(dict.fromkeys(self.relations)),
+            stated=tuple(r for r in dict.fromkeys(self.stated) if r.relation in section("static")),
             span=span,
             text=text[span.start : span.end],
             quantities={p.name: p.quantity for p in mentions if p.quantity},
@@ -274,6 +277,8 @@ class Attachment:
         paired, self._paired = self._paired, False
         hosts = self.host if paired or self._hosted(name, targets) else []
         self._relate(name, hosts, self._without(hosts, targets) if name in section("with_words") else targets)
+        if preposition.form == RELATIVE:
+            self.draft.stated += [Relation(name, host.name, target.name) for host in hosts for target in targets]
         self._paired = paired and name in section("origins")  # where it goes is still to come
         if not self._paired:
             self._next_host(preposition, name, targets, later)

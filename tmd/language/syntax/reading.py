@@ -223,6 +223,7 @@ class TextReading:
                 noun.attributes.append("_".join([opener.text, *said.described()]))
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
+            draft.stated.append(draft.relations[-1])
             draft.further[phrase.name] = phrase.said()
 
     def _forbid(self, draft: ClauseDraft | None, node: Tree[Leaf]) -> None:
