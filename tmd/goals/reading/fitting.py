@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from tmd.goals.clause_goal import ClauseReading, Unit
 from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.sources.table import ACTIONS, GoalRow, Slot, slot_predicate, slot_types
-from tmd.goals.words import PREPOSITIONS, ends_as, family, is_relation, is_verb, relations_said, table, words_of
+from tmd.goals.words import PREPOSITIONS, ends_as, family, is_noun, is_relation, is_verb, relations_said, table, words_of
 from tmd.language.clause import PERSONS, Quantifier, Relation
 
 
@@ -110,7 +110,7 @@ class Fitting:
             (relation, target)
             for relation, target in unit.relations
             if relations_said(relation, slot.prepositions)
-            and Relation(relation, unit.direct, target) not in clause.stated
+            and not self._untrue(relation, target, unit, reading)
             and not (is_relation(relation, "accompanying") and is_none(target, clause))
         ]
         if len(said) > 1:
@@ -120,6 +120,13 @@ class Fitting:
             return [(relation, target) for relation, target in said if relation == said[-1][0]]
         elided = self._elided(slot, unit, reading)
         return [(elided, None)] if elided else []
+
+    def _untrue(self, relation: str, target: str, unit: Unit, reading: ClauseReading) -> bool:
+        """Return whether a clause states a place where nothing is that it may mean: it is no place to put things."""
+        if is_noun(unit.direct or "", "everything"):
+            return False  # "what is in the pot" may be a substance
+        stated = Relation(relation, unit.direct, target) in reading.clause.stated
+        return stated and not self.referents.tells_which(unit.direct, relation, target, reading)
 
     def _elided(self, slot: Slot, unit: Unit, reading: ClauseReading) -> str | None:
         """Return the relation of a place that was not said: "take a cup, add sugar" is into what was spoken of last."""

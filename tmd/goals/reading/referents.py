@@ -532,20 +532,27 @@ class Referents:
             elif is_relation(relation, "untelling") or not names:
                 continue
             else:
-                referent = self._where(referent, relation, names, reading, whole)
+                stated = Relation(relation, referent.noun, target) in reading.clause.stated
+                referent = self._where(referent, relation, names, reading, whole, stated=stated)
                 continue
             referent = referent.only(n for n in referent.names if n not in left)
         return referent
 
     def _where(
-        self, referent: Referent, relation: str, names: tuple[str, ...], reading: ClauseReading, whole: Referent
+        self,
+        referent: Referent,
+        relation: str,
+        names: tuple[str, ...],
+        reading: ClauseReading,
+        whole: Referent,
+        *,
+        stated: bool,
     ) -> Referent:
         now = self.described(referent, relation, names, reading)
         if relation in table("inverse"):  # "the stove under the kettle" is a burner of it
             parts = [part for name in now for part in self.grounder.relatives(name, 0)]
             now = self.nouns.related_now(parts, relation, names, reading.moments) or now
         # what stands on nothing has no burner under it
-        stated = any((r.source, r.relation) == (referent.noun, relation) for r in reading.clause.stated)
         tells = stated or relation in table("inverse") or is_relation(relation, "locating") or referent.mode is Mode.ALL
         return referent.only(now) if now or tells or self.described(whole, relation, names, reading) else referent
 
