@@ -7,7 +7,17 @@ from collections.abc import Sequence
 from tmd.goals.clause_goal import ClauseReading, Unit
 from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.sources.table import ACTIONS, GoalRow, Slot, slot_predicate, slot_types
-from tmd.goals.words import PREPOSITIONS, ends_as, family, is_noun, is_relation, is_verb, relations_said, table, words_of
+from tmd.goals.words import (
+    PREPOSITIONS,
+    ends_as,
+    family,
+    is_noun,
+    is_relation,
+    is_verb,
+    relations_said,
+    table,
+    words_of,
+)
 from tmd.language.clause import PERSONS, Quantifier, Relation
 
 
