@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from tmd.goals.grounder import Moments
 from tmd.goals.reading.noun_phrases import Memory
@@ -48,6 +49,32 @@ class Unit:
     relations: list[tuple[str, str]]
 
 
+class Decision(NamedTuple):
+    """A decision between readings of a clause: its kind, and the noun that it is about."""
+
+    kind: str
+    noun: str
+
+
+@dataclass(slots=True)
+class Decisions:
+    """The decisions of reading one clause, each between the likeliest reading, number 0, and others.
+
+    Attributes:
+        changed: The decisions that are taken otherwise, each with the number of its reading.
+        met: The decisions that were met, each with the number of readings that it is between.
+    """
+
+    changed: Mapping[Decision, int] = field(default_factory=dict)
+    met: dict[Decision, int] = field(default_factory=dict)
+
+    def taken(self, kind: str, noun: str, count: int) -> int:
+        """Return the number of the reading to take of ``count``, at least 1."""
+        decision = Decision(kind, noun)
+        self.met[decision] = max(count, self.met.get(decision, 0))
+        return min(self.changed.get(decision, 0), count - 1)
+
+
 @dataclass(slots=True)
 class ClauseReading:
     """The work of reading one clause in one state.
@@ -60,6 +87,7 @@ class ClauseReading:
         pronoun: The pronoun whose antecedents are being tried.
         antecedent: The number of the antecedent that is tried for it.
         taken: The thing that a noun is taken for, where the same clause speaks of another one as well.
+        decisions: The decisions between readings.
     """
 
     clause: Clause
@@ -75,6 +103,7 @@ class ClauseReading:
     pronoun: str | None = None
     antecedent: int | None = None
     taken: dict[str, str] = field(default_factory=dict)
+    decisions: Decisions = field(default_factory=Decisions)
 
     @property
     def state(self) -> Bits:
@@ -83,7 +112,7 @@ class ClauseReading:
 
     def again(self, *, strict: bool = False) -> ClauseReading:
         """Return a fresh reading of the same clause."""
-        return ClauseReading(self.clause, self.moments, self.memory, strict, self.awaited)
+        return ClauseReading(self.clause, self.moments, self.memory, strict, self.awaited, decisions=self.decisions)
 
 
 def lost_amount(clause: Clause) -> str | None:

@@ -154,20 +154,10 @@ class RuleDialogue(Dialogue):
             if isinstance(preserved, Refusal):
                 return preserved
             return StepGoals((), progress, "it stays as it is", tuple(preserved))
-        goal = self._goals.read(step.clause, state, progress.memory, awaited=step.awaited)
-        if isinstance(goal, Refusal):
-            return StepGoals((), progress, goal.message) if step.optional and _means_nothing(step, goal) else goal
-        row = goal.row
-        candidate = CandidateGoal(
-            goal.formula,
-            goal.cubes,
-            via=goal.approach,
-            bindings=goal.meant,
-            source=row.source if row is not None else "",
-            explanation=row.pattern if row is not None else "",
-            notes=goal.notes,
-        )
-        return StepGoals((candidate,), progress)
+        found = self._goals.candidates(step.clause, state, progress.memory, awaited=step.awaited)
+        if isinstance(found, Refusal):
+            return StepGoals((), progress, found.message) if step.optional and _means_nothing(step, found) else found
+        return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``: what its nouns turned out to mean."""
@@ -258,6 +248,21 @@ class RuleDialogue(Dialogue):
         if refusal.kind is RefusalKind.CONTRADICTION:
             return exists or condition.negated or not clause.relations
         return exists and refusal.kind is RefusalKind.NO_SUCH_THING
+
+
+def _candidate(goal: ClauseGoal, log_prior: float) -> CandidateGoal:
+    """Return a goal of a clause as a candidate."""
+    row = goal.row
+    return CandidateGoal(
+        goal.formula,
+        goal.cubes,
+        log_prior,
+        via=goal.approach,
+        bindings=goal.meant,
+        source=row.source if row is not None else "",
+        explanation=row.pattern if row is not None else "",
+        notes=goal.notes,
+    )
 
 
 def _of_any(clause: Clause) -> bool:

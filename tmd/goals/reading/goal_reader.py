@@ -7,8 +7,9 @@ from dataclasses import replace
 from functools import cached_property
 
 from tmd.diagnostics import Refusal, RefusalKind
-from tmd.goals.clause_goal import ClauseGoal, ClauseReading, lost_amount, words
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Decisions, lost_amount, words
 from tmd.goals.grounder import Grounder, Moments
+from tmd.goals.preferences import LEAST, ODDS
 from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
@@ -52,16 +53,49 @@ class GoalReader:
         """Reads rows with nothing standing in for what was named."""
         return self._row_reader(self.grounder.exactly)
 
-    def read(self, clause: Clause, state: Bits, memory: Memory, *, awaited: bool = False) -> ClauseGoal | Refusal:
+    def candidates(
+        self, clause: Clause, state: Bits, memory: Memory, *, awaited: bool = False
+    ) -> list[tuple[float, ClauseGoal]] | Refusal:
+        """Return the goals that a clause may ask for, the likeliest first, or why there is none.
+
+        Each comes with the natural logarithm of the belief in it, relative to that in the likeliest. The others differ
+        from that in one decision.
+        """
+        decisions = Decisions()
+        first = self.read(clause, state, memory, awaited=awaited, decisions=decisions)
+        if isinstance(first, Refusal):
+            return first
+        found = {first.formula: (0.0, first)}
+        for decision, count in decisions.met.items():
+            odds = ODDS[decision.kind]
+            for number in range(1, count):
+                if -odds * number < LEAST:
+                    break
+                changed = Decisions({decision: number})
+                other = self.read(clause, state, memory, awaited=awaited, decisions=changed)
+                if isinstance(other, ClauseGoal):
+                    found.setdefault(other.formula, (-odds * number, other))
+        return sorted(found.values(), key=lambda goal: -goal[0])
+
+    def read(
+        self,
+        clause: Clause,
+        state: Bits,
+        memory: Memory,
+        *,
+        awaited: bool = False,
+        decisions: Decisions | None = None,
+    ) -> ClauseGoal | Refusal:
         """Return what ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
-        reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited)
+        decisions = decisions or Decisions()
+        reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited, decisions=decisions)
         clause = reading.clause = self.referents.reattached(reading)
         lost = None if self.guess else lost_amount(clause)
         if lost is not None:
             message = f"nothing here can tell '{lost}' of something"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "leave it out, or allow guesses")
         if self._is_to_settle(clause):
-            found = self.read(self._settled(clause), state, memory)
+            found = self.read(self._settled(clause), state, memory, decisions=decisions)
             if not isinstance(found, Refusal):
                 return found  # "mug on the table" says where it shall be
         if self._is_state(clause):
@@ -124,7 +158,7 @@ class GoalReader:
             and done[1] in words_of("outcomes", "participle")
         ):
             said = replace(clause, verb=done[0], result=None, implied=False)
-            found = self.read(said, reading.state, reading.memory, awaited=reading.awaited)
+            found = self.read(said, reading.state, reading.memory, awaited=reading.awaited, decisions=reading.decisions)
             return asked if isinstance(found, Refusal) else found
         return asked
 

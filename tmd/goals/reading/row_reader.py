@@ -12,6 +12,7 @@ from typing import TypeAlias
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Unit, text_of, words
 from tmd.goals.grounder import Grounder
+from tmd.goals.preferences import ANTECEDENT, PLACE, TELLS_WHICH
 from tmd.goals.reading.fitting import Fitting
 from tmd.goals.reading.noun_phrases import Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
@@ -279,6 +280,8 @@ class RowReader:
             assert failure is not None
             return failure
         best = self._best(found, reading)
+        others = [o for o in found if not (o.held or o.is_object or o is best) and o.goal[0] != best.goal[0]]
+        best = [best, *others][reading.decisions.taken(ANTECEDENT, unit.direct, 1 + len(others))]
         reading.meant = best.meant
         return best.goal
 
@@ -307,10 +310,11 @@ class RowReader:
         return self._reversed(nouns, reading) or next(iter(fresh), found[0])
 
     def _reversed(self, nouns: Sequence[_Option], reading: ClauseReading) -> _Option | None:
-        """Return an option that undoes what was done meanwhile, or would have prevented it."""
+        """Return an option that undoes what was done meanwhile, or that would have prevented it if it comes first."""
         undone = [option for option in nouns if self._undoes(option.goal[0], reading)]
-        locking = (option for option in nouns if len(nouns) > 1 and self._locks(option.goal[0], reading))
-        return self._outermost(undone, reading) or next(locking, None)
+        ahead = nouns[: nouns.index(undone[0])] if undone else nouns
+        locking = (option for option in ahead if len(nouns) > 1 and self._locks(option.goal[0], reading))
+        return next(locking, None) or self._outermost(undone, reading)
 
     def _outermost(self, options: Sequence[_Option], reading: ClauseReading) -> _Option | None:
         """Return the first option, or one that holds what it is about: the fridge that the tub was put back in."""
@@ -348,11 +352,19 @@ class RowReader:
         """
         for pronoun in self._back(rows, unit, reading):
             reading.pronoun = pronoun
-            for number, (_, is_object) in enumerate(self.referents.antecedents(pronoun, reading)):
+            options = self.referents.antecedents(pronoun, reading)
+            passed = reading.decisions.taken(PLACE, pronoun, len(options)) if options else 0
+            last: Read | None = None
+            for number, (_, is_object) in enumerate(options):
                 reading.antecedent = number
                 found = self._with_rows(rows, unit, reading)
                 if not isinstance(found, Refusal) and (not is_object if pronoun else found[1].places):
-                    return found
+                    last = found
+                    if not passed:
+                        break
+                    passed -= 1
+            if last is not None:
+                return last
             reading.pronoun = reading.antecedent = None
         return self._with_rows(rows, unit, reading)
 
@@ -401,7 +413,9 @@ class RowReader:
         if isinstance(other, Refusal):  # "everything on the floor that is empty", where nothing is
             return other if other.kind is RefusalKind.NO_SUCH_THING else None
         held = self.grounder.truth(found, reading.state)
-        return other if held or not self.grounder.truth(other[0], reading.state) else None
+        fewer = held or not self.grounder.truth(other[0], reading.state)
+        ranked = (other, None) if fewer else (None, other)
+        return ranked[reading.decisions.taken(TELLS_WHICH, unit.direct or "", 2)]
 
     def _by_row(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula | Refusal:
         """Return the goal of one thing by one row: for each combination of what stands behind the prepositions."""

@@ -60,7 +60,10 @@ class States:
                 found.append((state, referent))
         if not found:
             return failure or self.referents.missing(Referent(noun or IT, ()), reading)
-        formula, referent = self._likeliest(found, reading) if is_pronoun(noun) else found[0]
+        back = self.referents.points_back(noun)
+        if back and reading.clause.result and all(state == TRUE for state, _ in found):
+            return self._unsaid(found[0][1], reading)  # what a pronoun may mean can never be otherwise
+        formula, referent = self._likeliest(found, reading) if back else found[0]
         reading.meant[referent.noun] = referent.names
         return formula
 
@@ -97,10 +100,13 @@ class States:
                 places = (self._related(name, r, self.referents.targets(t, reading), reading) for r, t in relations)
                 alive.append(conjunction((state, *places)))
         if not alive:
-            message = f"nothing here says whether {words(referent.noun)} is {words(str(result))}"
-            hint = "declare the adjective under 'attributes' in lexicon.yaml"
-            return Refusal(RefusalKind.NOT_UNDERSTOOD, message, hint)
+            return self._unsaid(referent, reading)
         return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)
+
+    def _unsaid(self, referent: Referent, reading: ClauseReading) -> Refusal:
+        message = f"nothing here says whether {words(referent.noun)} is {words(str(reading.clause.result))}"
+        hint = "declare the adjective under 'attributes' in lexicon.yaml"
+        return Refusal(RefusalKind.NOT_UNDERSTOOD, message, hint)
 
     def _related(self, thing: str, relation: str, places: Sequence[str], reading: ClauseReading) -> Formula:
         return disjunction(self.nouns.related(relation, thing, p, reading.moments) for p in places if p != thing)

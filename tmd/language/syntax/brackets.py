@@ -57,6 +57,8 @@ class Bracketer(Words):
         """The verb of the clause that is open."""
         self._subject = 0
         """Where in ``out`` the arguments begin that may be the subject of a statement."""
+        self._told = False
+        """The clause that is open has somebody as its subject."""
         self._asked = False
         """A request begins as a question: "could the lamp be turned off"."""
         self._open: list[Token] = []
@@ -82,8 +84,11 @@ class Bracketer(Words):
         """Return the words with brackets."""
         at = 0
         while at < len(self.tokens):
-            if self.among(at, "corrections") and self.out:
+            if self.among(at, "corrections") and self.out and self.kind(self._behind(at)) is not K.NEG:
                 at = self._corrected(at)
+            elif self._is_inverted(at):
+                self.tokens[at].text = first_of("guards")
+                at = self._condition(at)
             elif self._is_question(at):
                 at = self._question(at)
             else:
@@ -131,7 +136,7 @@ class Bracketer(Words):
 
     def _begin(self) -> None:
         """Begin a unit."""
-        self._verb, self._subject, self._asked = None, len(self.out), False
+        self._verb, self._subject, self._asked, self._told = None, len(self.out), False, False
 
     def _last(self) -> Kind:
         return self.out[-1].kind if self.out else K.SEP
@@ -162,6 +167,7 @@ class Bracketer(Words):
         end += self.kind(end) is K.V
         while self.kind(end) is not K.STOP:
             deed = self.kind(end) is K.V and self.kind(end - 1) not in (K.TO, K.AUX, K.NEG)
+            deed = deed and not self.among(end - 1, "self_forms")  # "such a draught that I'll catch a cold"
             joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
             also = self.kind(end) is K.COMMA and self._statement_follows(end)
             if deed or joint or also or self.follows(end, "SUB|ENSURE|PURP"):
@@ -349,6 +355,7 @@ class Bracketer(Words):
         noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
         if self._verb is not None or not (own or noticed) or leads:
+            self._told = self._told or self.among(at, "tellers")
             return at + 1
         self.tokens[at].kind = K.PRON
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
@@ -362,9 +369,17 @@ class Bracketer(Words):
         if self.among(at, "self_forms"):
             return True
         past = verb < len(self.tokens) and self.tokens[verb].form == "ed" and self.kind(verb) is not K.ADJ
-        liking = self.stem_among(verb, "liking") and verb == self.peek(at)
+        if past and verb == self.peek(at) and self.among(at, "tellers"):
+            return True  # "they left the door open"
+        liking = (self.stem_among(verb, "liking") or self._tells(verb)) and verb == self.peek(at)
         denied = self.follows(at + 1, "IDLE* NEG IDLE* V")
         return self.among(at, "speakers") and (self._is(at, verb) or past or liking or denied)
+
+    def _tells(self, at: int) -> bool:
+        """Tell whether a verb is no instruction, in English or here: "I promise", "we prefer"."""
+        if self.kind(at) is not K.V or self.stem_among(at, "verbs", "wishing", "ordering", "lead_verbs", "framing"):
+            return False
+        return self.tokens[at].stem not in self.lexicon.goal_verbs
 
     def _denied_wish(self, at: int) -> int | None:
         """Return where "want" stands in "I don't want the lamp on"."""
@@ -441,7 +456,7 @@ class Bracketer(Words):
 
     def _corrected(self, at: int) -> int:
         """Take back what a speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
-        begin = self.past(at + 1, "(LINKS|IDLE)*")
+        begin = self._behind(at)
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
         start = len(self.out) - (self._last() is K.SEP)
         while start and (self.out[start - 1].kind in LINKS or self.out[start - 1].text in section("none_words")):
@@ -455,6 +470,18 @@ class Bracketer(Words):
         self.dropped.append(self.tokens[at])
         self._take_back(max(start - place, 0), CORRECTED)
         return begin
+
+    def _behind(self, at: int) -> int:
+        """Return where what a speaker says better begins."""
+        return self.past(at + 1, "(LINKS|IDLE)*")
+
+    def _is_inverted(self, at: int) -> bool:
+        """Tell whether a condition begins that has its verb first: "should the door be open, shut it"."""
+        if self.kind(at) is not K.AUX or not self.among(at, "inverting") or self._last() not in BREAKS:
+            return False
+        comma, stop = self.first(at, "COMMA"), self.first(at, "STOP")
+        asked = stop < len(self.tokens) and "?" in self.tokens[stop].text
+        return comma < stop and not asked and self.kind(at + 1) in NP
 
     def _take_back(self, start: int, note: str) -> None:
         """Set aside what has been emitted from a place on."""
@@ -480,15 +507,25 @@ class Bracketer(Words):
         token = self.tokens[at]
         if token.stem in section("wishing") and self._wishes_state(at):
             return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
-        if self.among(at - 1, "reasoning") and self._verb is not None and self._verb.stem in section("wishing"):
-            self._take_back(self._subject, REASON)  # "we need light, so open the blind"
+        if token.stem in section("causing") and self._causes(at):
+            token.kind = K.LET
+            return self._let(at) if self.kind(at + 1) is not K.V else at + 1
         self.out.append(token)
         self._verb = token
         if self.kind(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1
 
+    def _causes(self, at: int) -> bool:
+        """Tell whether a verb only brings another one about: "make it play", "make close the door"."""
+        end = self.past(at + 1, "(NP|IDLE|OF)*")
+        if self.kind(end) is not K.V or self.tokens[end].form != "base" or self.tokens[end].strength < 3:
+            return False
+        return end == at + 1 or self.follows(end + 1, "IDLE* (BREAK|P|SUB)")
+
     def _comma(self, at: int) -> int:
+        if self.follows(at, "COMMA IDLE+ COMMA (AUX|FINITE)"):
+            return self.peek(at)  # "the door, however, should be shut"
         inner = range(at + 1, min(self.first(at + 1, "V|STOP"), at + 2 * _NEAR) if self.tokens[at].text == "(" else at)
         end = next((i for i in inner if self.tokens[i].text == ")"), None)
         return self._joint(at) if end is None else self._skip(at, end + 1, ASIDE)
@@ -542,6 +579,9 @@ class Bracketer(Words):
         return self.follows(at + 1, f"(ADJ|IDLE|PARTICIPLE (?=N) {joint})* (N|NUM|ONE)")
 
     def _adverb(self, at: int) -> int:
+        if self.among(at, "reasoning") and self._verb is not None and self.kind(at - 1) in LINKS:
+            if self._told or self._verb.stem in section("wishing"):
+                self._take_back(self._subject, REASON)  # "we need light, so open the blind"
         if not (self.among(at, "end_states") and self._is_state(at)):
             return at + 1
         self.tokens[at].kind = K.STATE
@@ -662,7 +702,8 @@ class Bracketer(Words):
             return self._keep(at)
         if opener.kind is K.NEG and self._last() in HEADS:
             return self._bracket(token, K.PURP, at + 1, self._clause_end(at + 1))
-        if self._last() is K.AUX and self.kind(at + 1) is K.AUX and self.out[-1].text in section("be"):
+        state = self.kind(at + 1) is K.AUX or self.stem_among(at + 1, "staying")
+        if self._last() is K.AUX and state and self.out[-1].text in section("be"):
             opener.form = DUTY  # "no lamp is to be on"
         return at + 1
 

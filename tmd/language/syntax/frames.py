@@ -71,6 +71,8 @@ class Frames(Words):
         if self.kind(at) is K.TO and (self.tokens[at].form == "inf" or self.kind(verb) is K.ENSURE):
             verb = self.peek(verb + 1) if self.stem_among(verb, "knowing") and self.kind(verb + 1) is K.PURP else verb
             return verb if self.kind(verb) in _DEEDS else 0
+        if self._is_thought(at):
+            return self._joined(start, at - 1, advised=False)  # "I don't suppose you could"
         advised = self.stem_among(at - 1, "advising") and self.among(at, "persons")
         if advised or self.among(at, "frame_joints"):
             return self._joined(start, at, advised=advised)
@@ -83,11 +85,22 @@ class Frames(Words):
         asked = advised or (person and not self.among(at + 1, "singular_pronouns"))
         if asked and (self.kind(verb) in _DEEDS or self._made_deed(verb, "base") or self._made_deed(verb, "ed")):
             return verb
+        if asked and self.kind(verb) in NP and self._made_deed(verb - 1, "base"):
+            return verb - 1  # "might have some tea"
         glad = any(self.among(i, "welcome", "glad") or self.stem_among(i, "wishing") for i in range(start, at))
-        if not glad or person or self.kind(at + 1) not in NP:
+        there = self.among(at + 1, "there_words")  # "it would be nice if there were some tea"
+        if not glad or person or not (there or self.kind(at + 1) in NP):
             return 0
         self.tokens[at].kind = K.ENSURE
         return at
+
+    def _is_thought(self, at: int) -> bool:
+        """Tell whether a person with a modal verb stands behind what is hoped or supposed, without "that"."""
+        return (
+            self.stem_among(at - 1, "framing")
+            and self.among(at, "subjects")
+            and any(self.among(i, "frame_modals") for i in range(at + 1, min(self.peek(at) + 1, len(self.tokens))))
+        )
 
     def _made_deed(self, at: int, form: str) -> bool:
         """Make "putting" of "would you mind putting" what is asked for, if it is a verb in this form."""
@@ -95,7 +108,8 @@ class Frames(Words):
         known = self._lexicon.verb(token.text)
         if known is None or known[1] != form:
             return False
-        token.kind, token.stem, token.form = K.V, known[0], "base"
+        token.stem, token.form = known[0], "base"
+        token.kind = K.LET if token.stem in section("let_verbs") else K.V
         return True
 
     def _before(self, at: int) -> int:

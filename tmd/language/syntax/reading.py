@@ -85,13 +85,15 @@ class TextReading:
         """Attach what stands before the first verb, and behind the last."""
         first.spans.extend(spans([n for n in front if not is_a(n, "group")]))
         places = [n for n in front if is_a(n, "place", "exception")]
-        self._modify(first, [n for n in front if n not in places], fronted=True)
+        described = [n for n in front if is_a(n, "relative")]
+        self._modify(first, [n for n in front if n not in (*places, *described)], fronted=True)
         self._attach(last, arguments, front=places)
+        self._modify(last, described)
 
     @staticmethod
     def _taken_up(front: list[Node], arguments: list[Node], draft: ClauseDraft) -> list[Node]:
         """Put what is named first in the place of the pronoun that takes it up: "the drawers, open them"."""
-        topic = [n for n in front if is_a(n, "group", "place")]
+        topic = [n for n in front if is_a(n, "group", "place", "relative")]
         groups = trees(arguments, "group")
         if not topic or not is_a(topic[0], "group"):
             return front

@@ -14,7 +14,7 @@ from functools import cache
 from itertools import pairwise
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import pairs, section, sections_of
+from tmd.language.lexicon.lexicon import pairs, section, sections, sections_of
 
 
 class Kind(StrEnum):
@@ -121,7 +121,7 @@ class Token:
 
 
 _TOKEN = re.compile(
-    r"(?P<markup></?[a-z][^<>]*>|&(?:[a-z]+|#\d+);|[\U0001F000-\U0001FAFF\u2600-\u27BF\uFE0F\u200D]+)|(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
+    r"(?P<abbr>[-=]+>|\u2192|\u21d2|\bw/(?:o\b)?)|(?P<markup></?[a-z][^<>]*>|&(?:[a-z]+|#\d+);|[\U0001F000-\U0001FAFF\u2600-\u27BF\uFE0F\u200D]+)|(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
     r"|(?P<word>[^\W\d_]+(?:['\u2019\-_\u00ad\u200b-\u200d\u2060\ufeff]+[^\W\d_]+)*['\u2019]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,\u2013\u2014()\[\]/]|-)"
     r"|(?P<cc>[&+])|(?P<unit>[%°])",
     re.UNICODE | re.IGNORECASE,
@@ -182,6 +182,8 @@ def _token(match: re.Match[str]) -> Token:
         return Token(Kind.CC, "&", span)
     if kind is Kind.SKIP:
         return Token(kind, word, span, note=MARKUP)
+    if match.lastgroup == "abbr":
+        return Token(kind, pairs("written_signs").get(word, sections()["arrows"][0]), span)
     word = word[:_LONG_WORD]
     if kind is Kind.NUM:
         word = word.replace(",", ".")  # a name of a thing has no comma
