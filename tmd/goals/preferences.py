@@ -79,7 +79,7 @@ class Context:
 
 
 @dataclass(frozen=True, slots=True)
-class Rule:
+class ReadingRule:
     """A named rule by which the likeliest of several readings is found.
 
     Attributes:
@@ -97,7 +97,7 @@ class Rule:
 
 
 @dataclass(frozen=True, slots=True)
-class Preference(Rule):
+class Preference(ReadingRule):
     """A rule for what a noun means.
 
     Attributes:
@@ -208,9 +208,9 @@ AS_BEFORE = (Preference("as-before", "the one that was spoken of", "Take a cup. 
 
 ANTECEDENT, PLACE, TELLS_WHICH = "antecedent", "place", "tells-which"
 _READINGS = (
-    Rule(ANTECEDENT, "the noun before that fits, or what undoes something", "Fill the cup and wash it.", 2.5),
-    Rule(PLACE, "the noun before where something can be put", "Take a cup, add sugar.", 1.9),
-    Rule(TELLS_WHICH, "a place where something is already tells which thing", "Take the cup on the table.", 3.0),
+    ReadingRule(ANTECEDENT, "the noun before that fits, or what undoes something", "Fill the cup and wash it.", 2.5),
+    ReadingRule(PLACE, "the noun before where something can be put", "Take a cup, add sugar.", 1.9),
+    ReadingRule(TELLS_WHICH, "a place where something is already tells which thing", "Take the cup on the table.", 3.0),
 )
 ODDS = {rule.name: rule.odds for table in (THINGS, SUBSTANCES, NOT_LEFT, AS_BEFORE, _READINGS) for rule in table}
 """The logarithm of the odds of each rule by name."""

@@ -106,7 +106,7 @@ class Facts:
 
     def _says_state(self, atom: GroundAtom, word: str, name: str) -> bool:
         others = [a for a in atom.args if a != name]
-        if others == [word] and self.is_constant(word):
+        if others == [word]:  # "blue" of (painted table blue)
             return True
         return word in words_in_name(atom.predicate) and all(map(self.is_constant, others))
 

@@ -279,11 +279,14 @@ class RowReader:
         if not found:
             assert failure is not None
             return failure
-        best = self._best(found, reading)
-        others = [o for o in found if not (o.held or o.is_object or o is best) and o.goal[0] != best.goal[0]]
-        best = [best, *others][reading.decisions.taken(ANTECEDENT, unit.direct, 1 + len(others))]
+        best = self._decided(self._best(found, reading), found, unit.direct, reading)
         reading.meant = best.meant
         return best.goal
+
+    def _decided(self, best: _Option, found: Sequence[_Option], noun: str, reading: ClauseReading) -> _Option:
+        """Return the likeliest option, or another one if that is asked for."""
+        others = [o for o in found if not (o.held or o.is_object or o is best) and o.goal[0] != best.goal[0]]
+        return [best, *others][reading.decisions.taken(ANTECEDENT, noun, 1 + len(others))]
 
     def _option(self, goal: tuple[Formula, GoalRow], reading: ClauseReading, *, is_object: bool) -> _Option:
         now = self.grounder.truth(goal[0], reading.state) and bool(atoms_of(goal[0]))

@@ -46,10 +46,19 @@ class States:
     def _state_of(self, noun: str, reading: ClauseReading) -> Formula | Refusal:
         said = self.referents.relations_of(noun, reading.clause)
         relations = [pair for pair in said if not is_relation(pair[0], "excepting")]
-        excepted = [pair for pair in said if pair not in relations]
         constants = self._substance(noun, reading) if noun and not is_pronoun(noun) else ()
         if constants:
             return self._substance_state(noun, constants, relations, reading)
+        return self._object_state(noun, relations, [pair for pair in said if pair not in relations], reading)
+
+    def _object_state(
+        self,
+        noun: str,
+        relations: Sequence[tuple[str, str]],
+        excepted: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+    ) -> Formula | Refusal:
+        """Return that an object is as the clause says."""
         failure: Refusal | None = None
         found: list[tuple[Formula, Referent]] = []
         for referent in self.referents.referents(noun, _ROW, _ROW.slots[0], excepted, reading):
@@ -61,9 +70,9 @@ class States:
         if not found:
             return failure or self.referents.missing(Referent(noun or IT, ()), reading)
         back = self.referents.points_back(noun)
-        if back and reading.clause.result and all(state == TRUE for state, _ in found):
-            return self._unsaid(found[0][1], reading)  # what a pronoun may mean can never be otherwise
         formula, referent = self._likeliest(found, reading) if back else found[0]
+        if back and formula == TRUE and reading.clause.result:
+            return self._unsaid(referent, reading)  # nothing that a pronoun may mean can be otherwise
         reading.meant[referent.noun] = referent.names
         return formula
 

@@ -162,12 +162,7 @@ class _Words:
 
     def relations(self) -> Iterator[GoalRow]:
         """``put X in Y`` for every relation of two things with a preposition in its name or among its arguments."""
-        places: dict[str, list[Formula]] = {}
-        for predicate in self.domain.predicates:
-            if predicate.name not in self.fluent or predicate.name not in self.made or predicate.name in self.passing:
-                continue
-            for preposition, atom in self._places(predicate):
-                places.setdefault(preposition, []).append(atom)
+        places = self._all_places()
         yield from self._going()
         for preposition, atoms in places.items():
             slots = (Slot("?x"), Slot("?y", (preposition,)))
@@ -177,6 +172,24 @@ class _Words:
             yield self._placed("bring", "whither", _any_of(whither), "take X to Y")
             nowhere = And(tuple(Not(atom) for atoms in places.values() for atom in atoms))
             yield self._placed("take", "whence", nowhere, "take X from Y")
+
+    def _all_places(self) -> dict[str, list[Formula]]:
+        """Return for each preposition the conditions of place that it says."""
+        places: dict[str, list[Formula]] = {}
+        hosts: dict[str, set[str]] = {}
+        made = (self.fluent & self.made) - set(self.passing)
+        named = {p: list(self._places(p)) for p in self.domain.predicates if p.name in made}
+        for predicate, found in named.items():
+            for preposition, atom in found:
+                places.setdefault(preposition, []).append(atom)
+                hosts.setdefault(preposition, set()).update(self.things(predicate)[1].types)
+        for predicate, found in named.items():
+            said = {preposition for preposition, _ in found} & set(_ROWS["resting"])
+            others = [p for p in _ROWS["resting"] if len(said) == 1 and p not in said]
+            for preposition in others:  # "onto the truck", where things are only ever in one
+                if hosts.get(preposition, set()).isdisjoint(self.things(predicate)[1].types):
+                    places.setdefault(preposition, []).extend(atom for _, atom in found)
+        return places
 
     def _placed(self, verbs: str, prepositions: str, condition: Formula, pattern: str) -> GoalRow:
         slots = (Slot("?x"), Slot("?y", _ROWS[prepositions]))

@@ -7,6 +7,7 @@ What asks for nothing (questions, what is taken back, what need not be done) is 
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon, pairs, section
@@ -59,6 +60,8 @@ class Bracketer(Words):
         """Where in ``out`` the arguments begin that may be the subject of a statement."""
         self._told = False
         """The clause that is open has somebody as its subject."""
+        self._units: list[tuple[int, bool]] = [(0, False)]
+        """Where in ``out`` the clauses of the sentence begin, and whether somebody is the subject of the one before."""
         self._asked = False
         """A request begins as a question: "could the lamp be turned off"."""
         self._open: list[Token] = []
@@ -136,6 +139,7 @@ class Bracketer(Words):
 
     def _begin(self) -> None:
         """Begin a unit."""
+        self._units.append((len(self.out), self._told))
         self._verb, self._subject, self._asked, self._told = None, len(self.out), False, False
 
     def _last(self) -> Kind:
@@ -170,6 +174,7 @@ class Bracketer(Words):
             deed = deed and not self.among(end - 1, "self_forms")  # "such a draught that I'll catch a cold"
             joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
             also = self.kind(end) is K.COMMA and self._statement_follows(end)
+            also = also or (self.kind(end) in LINKS and self._is_reason(end + 1))
             if deed or joint or also or self.follows(end, "SUB|ENSURE|PURP"):
                 break
             end += 1
@@ -348,6 +353,7 @@ class Bracketer(Words):
             return self._bracket(opener, K.ENSURE, wish + 1, self._statement_end(wish + 1))
         own = self._of_oneself(at, verb)
         if own and self.stem_among(verb, "ordering"):
+            self._told = self.stem_among(verb, "liking")
             return at + 1  # "I'll have a tea"
         if own and self._verb is not None and self._last() in LINKS:
             self.out[-1].kind = K.SEP
@@ -498,9 +504,12 @@ class Bracketer(Words):
         token = self.tokens[at]
         if token.text == ":" and self._verb is None and self._named() and self.kind(at + 1) is K.V:
             return at + 1  # "the radio: put it in the crate"
+        ended = token.kind is K.STOP
         token.kind, token.form = K.SEP, ALSO if self._too(at + 1) else ""
         self.out.append(token)
         self._begin()
+        if ended:
+            self._units = [(len(self.out), False)]
         return at + 1
 
     def _deed(self, at: int) -> int:
@@ -579,13 +588,34 @@ class Bracketer(Words):
         return self.follows(at + 1, f"(ADJ|IDLE|PARTICIPLE (?=N) {joint})* (N|NUM|ONE)")
 
     def _adverb(self, at: int) -> int:
-        if self.among(at, "reasoning") and self._verb is not None and self.kind(at - 1) in LINKS:
-            if self._told or self._verb.stem in section("wishing"):
-                self._take_back(self._subject, REASON)  # "we need light, so open the blind"
+        if self._is_reason(at) and self.kind(at - 1) in LINKS and not self._open:
+            self._reasoned()
         if not (self.among(at, "end_states") and self._is_state(at)):
             return at + 1
         self.tokens[at].kind = K.STATE
         return self._keep(at)
+
+    def _is_reason(self, at: int) -> bool:
+        """Tell whether what stands before is the reason of what follows: "so", but not "so does the mug"."""
+        return self.among(at, "reasoning") and not self.follows(at + 1, "AUX NP")
+
+    def _reasoned(self) -> None:
+        """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""
+        if self._verb is not None and (self._told or self._verb.stem in section("wishing")):
+            self._take_back(self._subject, REASON)
+        if self._verb is not None:
+            return
+        for (start, _), (end, told) in reversed(list(pairwise(self._units))):
+            unit = self.out[start : end - 1]
+            stated = any(t.kind is K.SAY for t in unit)
+            if not (told or stated):
+                break
+            if not stated:
+                for token in unit:
+                    token.note = REASON
+                self.dropped += unit
+                del self.out[start : end - 1]
+                self._subject -= len(unit)
 
     def _is_state(self, at: int) -> bool:
         """Tell whether a particle or adverb says in what state something is or shall be."""

@@ -65,18 +65,27 @@ class Frames(Words):
         known = token.stem in section("verbs") or token.stem in self._lexicon.goal_verbs
         return token.form == "ed" or (known and token.stem not in section("framing"))
 
+    def _is_done(self, at: int) -> bool:
+        """Tell whether a word says what has been done: "heated"."""
+        return self.tokens[at].form == "ed" and self.tokens[at].stem in section("verbs")
+
     def _counts(self, start: int, at: int) -> int:
         """Return the place of the verb that counts where a frame leads to it at ``at``; 0 elsewhere."""
-        verb = self.peek(at)
-        if self.kind(at) is K.TO and (self.tokens[at].form == "inf" or self.kind(verb) is K.ENSURE):
-            verb = self.peek(verb + 1) if self.stem_among(verb, "knowing") and self.kind(verb + 1) is K.PURP else verb
-            return verb if self.kind(verb) in _DEEDS else 0
+        if self.kind(at) is K.TO and (self.tokens[at].form == "inf" or self.kind(self.peek(at)) is K.ENSURE):
+            return self._infinitive(self.peek(at))
         if self._is_thought(at):
             return self._joined(start, at - 1, advised=False)  # "I don't suppose you could"
         advised = self.stem_among(at - 1, "advising") and self.among(at, "persons")
         if advised or self.among(at, "frame_joints"):
             return self._joined(start, at, advised=advised)
         return at if self.stem_among(self._before(at), "mind") and self._made_deed(at, "ing") else 0
+
+    def _infinitive(self, verb: int) -> int:
+        """Return the place of the verb behind "to", if it counts; 0 for others."""
+        if self.stem_among(verb, "knowing") and self.kind(verb + 1) is K.PURP:
+            verb = self.peek(verb + 1)
+        wish = self.kind(verb) is K.AUX and self.kind(verb + 1) in NP and self._made_deed(verb, "base")
+        return verb if wish or self.kind(verb) in _DEEDS else 0
 
     def _joined(self, start: int, at: int, *, advised: bool) -> int:
         """Return the place of the verb behind "if you could", or of "if" before what shall be; 0 for others."""
@@ -87,12 +96,15 @@ class Frames(Words):
             return verb
         if asked and self.kind(verb) in NP and self._made_deed(verb - 1, "base"):
             return verb - 1  # "might have some tea"
-        glad = any(self.among(i, "welcome", "glad") or self.stem_among(i, "wishing") for i in range(start, at))
-        there = self.among(at + 1, "there_words")  # "it would be nice if there were some tea"
-        if not glad or person or not (there or self.kind(at + 1) in NP):
+        if person or not self._is_welcome(start, at):
             return 0
         self.tokens[at].kind = K.ENSURE
         return at
+
+    def _is_welcome(self, start: int, at: int) -> bool:
+        """Tell whether a state follows that would be welcome: "it would be nice if there were some tea"."""
+        glad = any(self.among(i, "welcome", "glad") or self.stem_among(i, "wishing") for i in range(start, at))
+        return glad and (self.among(at + 1, "there_words") or self.kind(at + 1) in NP)
 
     def _is_thought(self, at: int) -> bool:
         """Tell whether a person with a modal verb stands behind what is hoped or supposed, without "that"."""
@@ -128,7 +140,7 @@ class Frames(Words):
         about = self.among(at + 1, "singular_pronouns", "subjects", "persons")
         words = {word for i in inner for word in (*self.tokens[i].text.split(), self.tokens[i].stem)}
         said = not words.isdisjoint(section("courtesies"))
-        if not (about and said) or any(self._is_thing(i) for i in inner):
+        if not (about and said) or any(self._is_thing(i) or self._is_deed(i) or self._is_done(i) for i in inner):
             return at
         return end + (self.kind(end) is K.COMMA)
 
@@ -151,7 +163,10 @@ class Frames(Words):
         if denied and not (asked and all(self.among(i, "frame_negations") for i in denied)):
             return False
         modal = any(self.among(i, "frame_modals", "frame_negations") for i in frame)
-        wished = self.among(start, "speakers", "self_forms")
-        wished = wished and any(self.stem_among(i, "framing", "advising") for i in frame)
+        wished = self.among(start, "speakers", "self_forms") and any(map(self._is_wish, frame))
         kindly = self.among(start, "infinitive_be")
         return modal or wished or kindly or (asked and self.kind(start) is K.AUX)
+
+    def _is_wish(self, at: int) -> bool:
+        """Tell whether a verb wishes for what follows: "I like to read" does not, without "would"."""
+        return self.stem_among(at, "framing", "advising") and not self.stem_among(at, "liking")

@@ -7,11 +7,11 @@ Segment marks (``|``), line breaks and control characters are blanks. Numbers gl
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cache
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import pairs, section, sections, sections_of
@@ -118,6 +118,7 @@ class Token:
     heading: bool = False
     negated: bool = False
     first: tuple[Kind, str] | None = None
+    arrow: bool = False
 
 
 _TOKEN = re.compile(
@@ -141,6 +142,8 @@ _LONGEST_RUN = 120
 _UNSEEN = {0x2019: "'"} | dict.fromkeys((0xAD, 0x200B, 0x200C, 0x200D, 0x2060, 0xFEFF))
 """Signs that only a printer sees, such as a soft hyphen, are no part of a word."""
 _LONG_WORD = 60
+_LABEL = 4
+"""Maximum number of words before the colon of a note."""
 _TITLE_SHARE = 0.4
 """A text with more capitals than this says nothing by them."""
 
@@ -161,9 +164,31 @@ def tokenise(text: str) -> list[Token]:
             tokens[-1:] = _cut(tokens[-1], pairs("its"))  # as people write it: "when its done"
         tokens += _cut(token, pairs("two_words"))
     _enumeration(tokens, text)
+    tokens = _labelled(tokens)
     _capitals(tokens, text)
     _articles(tokens, text)
     return tokens
+
+
+def _labelled(tokens: list[Token]) -> list[Token]:
+    """Read notes: "tv: off" as "tv off", and "book: shelf -> box" as "book from shelf to box"."""
+    found: list[Token] = []
+    for at, token in enumerate(tokens):
+        if token.text == ":" and token.kind is Kind.STOP:
+            ahead = _until_sign(tokens[at + 1 :])
+            before = _until_sign(reversed(tokens[:at]))
+            if 0 < len(before) <= _LABEL and any(t.arrow for t in ahead):
+                found.append(replace(token, kind=Kind.WORD, text=sections()["arrows"][1]))
+                continue
+            if 0 < len(before) <= _LABEL and 0 < len(ahead) <= 2 and ahead[-1].text in section("noted_states"):
+                continue
+        found.append(token)
+    return found
+
+
+def _until_sign(tokens: Iterable[Token]) -> list[Token]:
+    """Return the words before the next sign."""
+    return list(takewhile(lambda token: token.kind in (Kind.WORD, Kind.NUM), tokens))
 
 
 def _articles(tokens: list[Token], text: str) -> None:
@@ -183,7 +208,8 @@ def _token(match: re.Match[str]) -> Token:
     if kind is Kind.SKIP:
         return Token(kind, word, span, note=MARKUP)
     if match.lastgroup == "abbr":
-        return Token(kind, pairs("written_signs").get(word, sections()["arrows"][0]), span)
+        short = pairs("written_signs").get(word)
+        return Token(kind, short or sections()["arrows"][0], span, arrow=short is None)
     word = word[:_LONG_WORD]
     if kind is Kind.NUM:
         word = word.replace(",", ".")  # a name of a thing has no comma
