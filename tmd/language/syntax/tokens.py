@@ -153,6 +153,8 @@ def tokenise(text: str) -> list[Token]:
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
         token = _token(match)
+        if match.lastgroup == "unit" and not (tokens and tokens[-1].kind is Kind.NUM):
+            token.kind, token.note = Kind.SKIP, MARKUP  # "%" behind no number
         last = tokens[-1] if tokens and tokens[-1].kind is Kind.WORD else None
         clitic = pairs("clitics").get(token.text)
         if clitic and last and text[token.span.start - 1] in ("'\u2019 " if clitic == token.text else "'\u2019"):
