@@ -8,7 +8,7 @@ import pytest
 
 from tests.bundled import kit
 from tests.goals.conftest import goals, said, steps
-from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, SUBSTANCES, THINGS
+from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, ODDS, READINGS, SUBSTANCES, THINGS
 from tmd.goals.reasons import nearest_verbs
 from tmd.goals.words import family
 
@@ -99,6 +99,23 @@ def test_an_origin_tells_which_place_is_meant() -> None:
 def test_it_is_rather_what_something_was_put_in() -> None:
     grounded = said("kitchen", "kitchen4", "Put the milk in the fridge and close it.")
     assert goals(grounded)[-1] == "(not (opened fridge1_door))"
+    opened = said("living_room", "room5", "Pull up the blind, put the juice in the fridge and close it.")
+    assert goals(opened)[-1] == "(not (opened fridge1_door))"
+
+
+def test_to_empty_is_not_to_pour_into() -> None:
+    assert goals(said("living_room", "room4", "Empty the bowl with the peanuts.")) == ["(not (filled bowl1))"]
+
+
+def test_a_state_that_nothing_can_be_in_is_refused() -> None:
+    grounded = said("living_room", "room4", "All lights off, win closed.")
+    assert "nothing here says whether light is closed" in grounded.reason
+
+
+def test_a_substance_is_its_vessel_or_its_supply() -> None:
+    """Both readings are candidates; the plan that takes fewer steps is the first."""
+    grounded = said("living_room", "room5", "Pour the juice in the glass and put the juice in the fridge.")
+    assert goals(grounded)[-1] == "(or (at juice_carton1 fridge1 in) (at glass1 fridge1 in))"
 
 
 def test_an_unknown_verb_names_the_nearest_known_ones() -> None:
@@ -107,6 +124,7 @@ def test_an_unknown_verb_names_the_nearest_known_ones() -> None:
 
 
 def test_preferences_have_names_reasons_and_examples() -> None:
-    table = (*THINGS, *SUBSTANCES, *NOT_LEFT, *AS_BEFORE)
+    table = (*THINGS, *SUBSTANCES, *NOT_LEFT, *AS_BEFORE, *READINGS)
     assert len({preference.name for preference in table}) == len(table)
     assert all(preference.reason and preference.example.endswith(".") for preference in table)
+    assert sorted(ODDS) == sorted(rule.name for rule in table)

@@ -175,6 +175,12 @@ def test_relative_clauses(text: str, expected: list[str]) -> None:
             "Put the pen in the chest, and the chest closed after that.",
             ["(put, [pen, chest], in: pen -> chest)", "(close, [chest])"],
         ),
+        ("It would be lovely if there were some soup in the pot.", ["(be, [soup, pot], in: soup -> pot)"]),
+        ("I don't suppose you could water the fern?", ["(water, [fern])"]),
+        ("I was hoping we might have some tea.", ["(have, [tea])"]),
+        ("Would it be all right if the lamp were on?", ["(turn_on, [lamp])"]),
+        ("The gate, however, is to be shut.", ["(close, [gate])"]),
+        ("Please make close the gate.", ["(close, [gate])"]),
     ],
 )
 def test_demands_and_wishes(text: str, expected: list[str]) -> None:
@@ -265,6 +271,10 @@ def test_what_is_done_first_comes_first(text: str, expected: list[str]) -> None:
         ("Fe\u200btch the ro\xadpe.", ["(fetch, [rope])"]),
         ("Oil the <b>hinge</b> &amp; the lock 🙂.", ["(oil, [hinge, lock])"]),
         ("feed the cat at 6 and at 7 pm wait", ["(feed, [cat])", "(wait, [])"]),
+        ("rope -> shed", ["(bring, [rope, shed], to: rope -> shed)"]),
+        ("rake: shed -> bench", ["(bring, [rake, shed, bench], from: rake -> shed, to: rake -> bench)"]),
+        ("Fill the pot w/ water", ["(fill, [pot, water], with: pot -> water)"]),
+        ("lamp: off; gate: shut", ["(turn_off, [lamp])", "(close, [gate])"]),
     ],
 )
 def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
@@ -281,6 +291,11 @@ def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
         ("Close the gate and don't bother with the shed.", ["(close, [gate])"]),
         ("Close the gate, I'll lock the shed myself.", ["(close, [gate])"]),
         ("So, take the cup", ["(take, [cup])"]),
+        ("I hate the dark, the lamp is off, so light it.", ["(light, [it])"]),
+        ("I like to read at night, it is dark, so light the lamp.", ["(light, [lamp])"]),
+        ("There is such a draught that I'll catch a cold, so shut the gate.", ["(shut, [gate])"]),
+        ("Somebody left the gate open! Shut it.", ["(shut, [it])"]),
+        ("I promise it was not me, but shut the gate.", ["(shut, [gate])"]),
     ],
 )
 def test_what_is_said_beside_a_request_takes_nothing_away(text: str, expected: list[str]) -> None:
@@ -410,6 +425,19 @@ def test_a_purpose_without_an_object_is_that_of_what_is_acted_on() -> None:
 def test_a_relative_clause_is_about_the_noun_that_agrees(text: str, noun: str) -> None:
     (clause,) = parse(text).clauses
     assert [name for name in clause.objects if clause.phrase(name).attributes] == [noun]
+
+
+def test_a_relative_clause_of_what_is_named_first_is_not_lost() -> None:
+    (clause,) = parse("The ropes that are wet, carry them to the shed.").clauses
+    assert clause.phrase("rope").attributes == ("wet",)
+
+
+@pytest.mark.parametrize("opener", ["Should the gate be open", "In the event that the gate is open"])
+def test_openers_of_conditions(opener: str) -> None:
+    (clause,) = parse(f"{opener}, shut it.").clauses
+    (condition,) = clause.conditions
+    assert [print_clause(inner) for inner in condition.clauses] == ["(be, [gate])"]
+    assert condition.clauses[0].result == "open"
 
 
 def test_what_is_not_done_yet_is_told_by_an_adjective() -> None:

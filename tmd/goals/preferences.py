@@ -207,12 +207,12 @@ AS_BEFORE = (Preference("as-before", "the one that was spoken of", "Take a cup. 
 """Of several things the one that is meant."""
 
 ANTECEDENT, PLACE, TELLS_WHICH = "antecedent", "place", "tells-which"
-_READINGS = (
+READINGS = (
     ReadingRule(ANTECEDENT, "the noun before that fits, or what undoes something", "Fill the cup and wash it.", 2.5),
     ReadingRule(PLACE, "the noun before where something can be put", "Take a cup, add sugar.", 1.9),
     ReadingRule(TELLS_WHICH, "a place where something is already tells which thing", "Take the cup on the table.", 3.0),
 )
-ODDS = {rule.name: rule.odds for table in (THINGS, SUBSTANCES, NOT_LEFT, AS_BEFORE, _READINGS) for rule in table}
+ODDS = {rule.name: rule.odds for table in (THINGS, SUBSTANCES, NOT_LEFT, AS_BEFORE, READINGS) for rule in table}
 """The logarithm of the odds of each rule by name."""
 LEAST = -1.0
 """The least logarithm of the belief, relative to that in the likeliest reading, of a reading that is a candidate.

@@ -534,7 +534,7 @@ class Bracketer(Words):
 
     def _comma(self, at: int) -> int:
         if self.follows(at, "COMMA IDLE+ COMMA (AUX|FINITE)"):
-            return self.peek(at)  # "the door, however, should be shut"
+            return self.peek(at) + 1  # "the door, however, should be shut"
         inner = range(at + 1, min(self.first(at + 1, "V|STOP"), at + 2 * _NEAR) if self.tokens[at].text == "(" else at)
         end = next((i for i in inner if self.tokens[i].text == ")"), None)
         return self._joint(at) if end is None else self._skip(at, end + 1, ASIDE)

@@ -254,6 +254,8 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
         if found is not None:
             row, token, used = found
             trace.append(row.id)
+        elif token.kind is Kind.WORD and _by_arrow(tokens, position):
+            token.kind = Kind.N
         elif token.kind is Kind.WORD:
             _tag_word(token, lexicon, not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC), trace)
         if token.kind is Kind.NUM and used == 1 and _range(tokens, position, tagged):
@@ -266,6 +268,12 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
     for token in tagged:
         token.first = token.kind, token.form
     return tagged
+
+
+def _by_arrow(tokens: Sequence[Token], at: int) -> bool:
+    """Tell whether a word stands beside an arrow, and is no state: "rope -> shed"."""
+    word, beside = tokens[at], tokens[max(at - 1, 0) : at + 2]
+    return not word.arrow and any(t.arrow for t in beside) and word.text not in section("noted_states")
 
 
 def _each(table: str, tokens: list[Token], lexicon: Lexicon) -> list[tuple[Token, ClassRow]]:

@@ -100,6 +100,7 @@ class Token:
         heading: For a verb: what follows a colon says how it is done.
         negated: For the opener of a subordinate clause: a negation stands in it.
         first: Its class and form by lists, before its neighbours decided.
+        arrow: Written as an arrow.
     """
 
     kind: Kind
@@ -180,7 +181,7 @@ def _labelled(tokens: list[Token]) -> list[Token]:
             ahead = _until_sign(tokens[at + 1 :])
             before = _until_sign(reversed(tokens[:at]))
             if 0 < len(before) <= _LABEL and any(t.arrow for t in ahead):
-                found.append(replace(token, kind=Kind.WORD, text=sections()["arrows"][1]))
+                found.append(replace(token, kind=Kind.WORD, text=sections()["arrows"][1], arrow=True))
                 continue
             if 0 < len(before) <= _LABEL and 0 < len(ahead) <= 2 and ahead[-1].text in section("noted_states"):
                 continue
