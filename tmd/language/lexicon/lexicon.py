@@ -421,7 +421,7 @@ def verb_candidates(word: str) -> Iterator[tuple[str, str]]:
     if word.endswith("s") and not word.endswith("ss"):
         yield word[:-1], "s"
     for ending, form in (("ing", "ing"), ("ed", "ed")):
-        if word.endswith(ending) and len(word) > len(ending) + 2:
+        if word.endswith(ending) and len(word) > len(ending) + 1:
             root = word[: -len(ending)]
             if form == "ed" and root.endswith("i"):
                 yield root[:-1] + "y", form

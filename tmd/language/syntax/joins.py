@@ -180,6 +180,9 @@ class _Particles(Words):
                     self._particle(at)
             elif verb.kind in (K.PARTICIPLE, K.FINITE, K.ING) and not self.stem_among(at, "belonging"):
                 self._next_particle(at)
+            elif verb.kind is K.ADJ and verb.form == "ed" and self._match(verb.stem, at + 1) is not None:
+                verb.kind = K.PARTICIPLE  # "the bag should be tied up"
+                self._next_particle(at)
 
     def _next_particle(self, at: int) -> None:
         """Join a verb of a clause with the particle right behind it."""
