@@ -180,6 +180,7 @@ def test_relative_clauses(text: str, expected: list[str]) -> None:
         ("I was hoping we might have some tea.", ["(have, [tea])"]),
         ("Would it be all right if the lamp were on?", ["(turn_on, [lamp])"]),
         ("The gate, however, is to be shut.", ["(close, [gate])"]),
+        ("The bag should be tied up.", ["(tie_up, [bag])"]),
         ("Please make close the gate.", ["(close, [gate])"]),
     ],
 )
@@ -295,6 +296,7 @@ def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
         ("I like to read at night, it is dark, so light the lamp.", ["(light, [lamp])"]),
         ("There is such a draught that I'll catch a cold, so shut the gate.", ["(shut, [gate])"]),
         ("Somebody left the gate open! Shut it.", ["(shut, [it])"]),
+        ("Shut the gate, dear, and oil the hinge.", ["(shut, [gate])", "(oil, [hinge])"]),
         ("I promise it was not me, but shut the gate.", ["(shut, [gate])"]),
     ],
 )
@@ -497,6 +499,10 @@ def test_antecedents_are_ranked_and_never_of_the_own_clause() -> None:
 
 def test_a_pronoun_may_mean_what_a_statement_spoke_of() -> None:
     assert parse("Those nuts are stale, bin them.").clauses[0].antecedents == {"them": ("nut",)}
+
+
+def test_him_is_a_thing_where_nothing_is_done_for_somebody() -> None:
+    assert parse("Wake the dog up and brush him.").clauses[-1].antecedents["it"][0] == "dog"
 
 
 def test_a_pronoun_said_twice_in_a_sentence_is_one_thing() -> None:

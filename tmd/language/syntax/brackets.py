@@ -74,7 +74,7 @@ class Bracketer(Words):
             K.STOP: self._stop, K.TO: self._infinitive, K.NEG: self._negation, K.ENSURE: self._ensure,
             K.LET: self._let, K.SUBJECT: self._speaker, K.AUX: self._auxiliary, K.FINITE: self._auxiliary,
             K.PARTICIPLE: self._participle, K.ING: self._ing, K.V: self._deed, K.N: self._noun,
-            K.COMMA: self._comma, K.CC: self._joint,
+            K.COMMA: self._comma, K.CC: self._joint, K.PRON: self._pronoun,
         }  # fmt: skip
         self._inner: dict[Kind, Handler] = shared | {
             K.STOP: self._drop, K.TO: self._inner_to, K.NEG: self._inner_negation, K.ENSURE: self._drop,
@@ -533,6 +533,9 @@ class Bracketer(Words):
         return end == at + 1 or self.follows(end + 1, "IDLE* (BREAK|P|SUB)")
 
     def _comma(self, at: int) -> int:
+        if self.among(at + 1, "endearments") and self.kind(at + 2) in BREAKS and self._verb is not None:
+            self.tokens[at + 1].note = ADDRESS
+            return at + 2  # "shut the gate, dear, and lock it"
         if self.follows(at, "COMMA IDLE+ COMMA (AUX|FINITE)"):
             return self.peek(at) + 1  # "the door, however, should be shut"
         inner = range(at + 1, min(self.first(at + 1, "V|STOP"), at + 2 * _NEAR) if self.tokens[at].text == "(" else at)
@@ -570,6 +573,13 @@ class Bracketer(Words):
         if called and self.follows(at + 1, "COMMA IDLE* (V|SUBJECT|AUX|NEG|ENSURE|LET)"):
             self.tokens[at].note = ADDRESS
             return at + 2
+        return self._keep(at)
+
+    def _pronoun(self, at: int) -> int:
+        """Keep a pronoun; "him" is a thing where nothing is done for somebody: "wake the dog and brush him"."""
+        deed = self._last() is K.V and self.out[-1].stem.partition("_")[0] not in section("for_persons")
+        if deed and self.among(at, "animate") and self.follows(at + 1, "IDLE* (BREAK|P)"):
+            self.tokens[at].text = first_of("singular_pronouns")
         return self._keep(at)
 
     def _adjective(self, at: int) -> int:
