@@ -272,6 +272,7 @@ def test_what_is_done_first_comes_first(text: str, expected: list[str]) -> None:
         ("Fe\u200btch the ro\xadpe.", ["(fetch, [rope])"]),
         ("Oil the <b>hinge</b> &amp; the lock 🙂.", ["(oil, [hinge, lock])"]),
         ("feed the cat at 6 and at 7 pm wait", ["(feed, [cat])", "(wait, [])"]),
+        ("Sweep aisle A, then stop.", ["(sweep, [aisle_a])", "(stop, [])"]),
         ("rope -> shed", ["(bring, [rope, shed], to: rope -> shed)"]),
         ("rake: shed -> bench", ["(bring, [rake, shed, bench], from: rake -> shed, to: rake -> bench)"]),
         ("Fill the pot w/ water", ["(fill, [pot, water], with: pot -> water)"]),

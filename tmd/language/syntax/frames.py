@@ -66,8 +66,10 @@ class Frames(Words):
         return token.form == "ed" or (known and token.stem not in section("framing"))
 
     def _is_done(self, at: int) -> bool:
-        """Tell whether a word says what has been done: "heated"."""
-        return self.tokens[at].form == "ed" and self.tokens[at].stem in section("verbs")
+        """Tell whether a word names a deed, or what has been done: "put", "heated"."""
+        token = self.tokens[at]
+        known = section("verbs") - section("framing") - section("courtesies")
+        return token.text in known or (token.form == "ed" and token.stem in known)
 
     def _counts(self, start: int, at: int) -> int:
         """Return the place of the verb that counts where a frame leads to it at ``at``; 0 elsewhere."""

@@ -254,7 +254,7 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
         if found is not None:
             row, token, used = found
             trace.append(row.id)
-        elif token.kind is Kind.WORD and _by_arrow(tokens, position):
+        elif token.kind is Kind.WORD and _is_name(tokens, position):
             token.kind = Kind.N
         elif token.kind is Kind.WORD:
             _tag_word(token, lexicon, not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC), trace)
@@ -270,9 +270,11 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
     return tagged
 
 
-def _by_arrow(tokens: Sequence[Token], at: int) -> bool:
-    """Tell whether a word stands beside an arrow, and is no state: "rope -> shed"."""
+def _is_name(tokens: Sequence[Token], at: int) -> bool:
+    """Tell whether a word stands beside an arrow, and is no state ("rope -> shed"), or is a letter ("aisle A")."""
     word, beside = tokens[at], tokens[max(at - 1, 0) : at + 2]
+    if len(word.text) == 1 and word.capital and beside[-1].kind is not Kind.WORD:
+        return True
     return not word.arrow and any(t.arrow for t in beside) and word.text not in section("noted_states")
 
 

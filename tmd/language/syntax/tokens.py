@@ -142,6 +142,7 @@ _LONGEST_RUN = 120
 
 _UNSEEN = {0x2019: "'"} | dict.fromkeys((0xAD, 0x200B, 0x200C, 0x200D, 0x2060, 0xFEFF))
 """Signs that only a printer sees, such as a soft hyphen, are no part of a word."""
+_UNITS = frozenset("%°")
 _LONG_WORD = 60
 _LABEL = 4
 """Maximum number of words before the colon of a note."""
@@ -154,8 +155,6 @@ def tokenise(text: str) -> list[Token]:
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
         token = _token(match)
-        if match.lastgroup == "unit" and not (tokens and tokens[-1].kind is Kind.NUM):
-            token.kind, token.note = Kind.SKIP, MARKUP  # "%" behind no number
         last = tokens[-1] if tokens and tokens[-1].kind is Kind.WORD else None
         clitic = pairs("clitics").get(token.text)
         if clitic and last and text[token.span.start - 1] in ("'\u2019 " if clitic == token.text else "'\u2019"):
@@ -166,11 +165,19 @@ def tokenise(text: str) -> list[Token]:
         if timed or (token.text in section("its_places") and tokens):
             tokens[-1:] = _cut(tokens[-1], pairs("its"))  # as people write it: "when its done"
         tokens += _cut(token, pairs("two_words"))
+    _units(tokens)
     _enumeration(tokens, text)
     tokens = _labelled(tokens)
     _capitals(tokens, text)
     _articles(tokens, text)
     return tokens
+
+
+def _units(tokens: list[Token]) -> None:
+    """Set aside the sign of a unit behind no number."""
+    for before, token in pairwise([Token(Kind.STOP, "", Span(0, 0)), *tokens]):
+        if token.text in _UNITS and before.kind is not Kind.NUM:
+            token.kind, token.note = Kind.SKIP, MARKUP
 
 
 def _labelled(tokens: list[Token]) -> list[Token]:
