@@ -66,10 +66,9 @@ class Frames(Words):
         return token.form == "ed" or (known and token.stem not in section("framing"))
 
     def _is_done(self, at: int) -> bool:
-        """Tell whether a word names a deed, or what has been done: "put", "heated"."""
-        token = self.tokens[at]
-        known = section("verbs") - section("framing") - section("courtesies")
-        return token.text in known or (token.form == "ed" and token.stem in known)
+        """Tell whether a word is a form of a verb that is no part of a frame: "put", "heated", "boiling"."""
+        verb = self._lexicon.verb(self.tokens[at].text)
+        return verb is not None and verb[0] in section("verbs") - section("framing") - section("courtesies")
 
     def _counts(self, start: int, at: int) -> int:
         """Return the place of the verb that counts where a frame leads to it at ``at``; 0 elsewhere."""
