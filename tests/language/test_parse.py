@@ -297,6 +297,7 @@ def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
         ("I like to read at night, it is dark, so light the lamp.", ["(light, [lamp])"]),
         ("There is such a draught that I'll catch a cold, so shut the gate.", ["(shut, [gate])"]),
         ("Somebody left the gate open! Shut it.", ["(shut, [it])"]),
+        ("You should oil the hinge, so fetch the oil.", ["(oil, [hinge])", "(fetch, [oil])"]),
         ("Shut the gate, dear, and oil the hinge.", ["(shut, [gate])", "(oil, [hinge])"]),
         ("I promise it was not me, but shut the gate.", ["(shut, [gate])"]),
     ],
@@ -500,6 +501,10 @@ def test_antecedents_are_ranked_and_never_of_the_own_clause() -> None:
 
 def test_a_pronoun_may_mean_what_a_statement_spoke_of() -> None:
     assert parse("Those nuts are stale, bin them.").clauses[0].antecedents == {"them": ("nut",)}
+
+
+def test_please_is_nobody() -> None:
+    assert parse("Oil the hinge, please.").skipped == ()
 
 
 def test_him_is_a_thing_where_nothing_is_done_for_somebody() -> None:

@@ -20,7 +20,7 @@ from tmd.goals.words import (
 )
 from tmd.language.lexicon.nouns import words_in_name
 from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
-from tmd.pddl.model import Atom, Formula, GroundAtom
+from tmd.pddl.model import OBJECT, Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
 from tmd.world.world import World
 
@@ -106,9 +106,14 @@ class Facts:
 
     def _says_state(self, atom: GroundAtom, word: str, name: str) -> bool:
         others = [a for a in atom.args if a != name]
-        if others == [word]:  # "blue" of (painted table blue)
+        if others == [word] and (self.is_constant(word) or self._is_value(word, name)):
             return True
         return word in words_in_name(atom.predicate) and all(map(self.is_constant, others))
+
+    def _is_value(self, word: str, name: str) -> bool:
+        """Return whether an object says how another one is: "blue" of (painted table blue), but no block of another."""
+        kinds = self.world.mentions.types
+        return set(kinds.get(word, ())).isdisjoint(set(kinds.get(name, ())) - {OBJECT})
 
     def related(self, relation: str, name: str, target: str, moments: Moments) -> Formula:
         """Return that ``name`` is in a relation to ``target``: as the table says it, or as the facts themselves do."""

@@ -68,6 +68,9 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
     clauses: list[Clause] = []
     facts: dict[str, Clause] = {}
     statements = sorted([*reading.statements, *reading.forbidden], key=lambda said: said[0])
+    hosted: dict[int, list[ClauseDraft]] = {}
+    for draft in reading.drafts:
+        hosted.setdefault(id(draft.host), []).append(draft)
     for index, draft in enumerate(reading.drafts):
         while statements and statements[0][0] <= index:
             said = statements.pop(0)[1]
@@ -79,7 +82,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         clause = replace(clause, conditions=conditions)
         scenes += [_alone(c) for condition in conditions if condition.word != TO for c in condition.clauses]
         hosts = [draft.host] if draft.host is not None else []
-        hosts += [d for d in reading.drafts if d.host is draft and d.verb.span < draft.verb.span]  # "before closing it"
+        hosts += [d for d in hosted.get(id(draft), ()) if d.verb.span < draft.verb.span]  # "before closing it"
         clause = _resolved(clause, draft, [*scenes, *(_scene(host, host.clause(reading.text)) for host in hosts)])
         clause = replace(clause, stated=(*clause.stated, *_stated(clause, facts)))
         clauses.append(clause)

@@ -485,9 +485,10 @@ class Bracketer(Words):
         """Tell whether a condition begins that has its verb first: "should the door be open, shut it"."""
         if self.kind(at) is not K.AUX or not self.among(at, "inverting") or self._last() not in BREAKS:
             return False
-        comma, stop = self.first(at, "COMMA"), self.first(at, "STOP")
+        stop = self.first(at, "STOP")
         asked = stop < len(self.tokens) and "?" in self.tokens[stop].text
-        return comma < stop and not asked and self.kind(at + 1) in NP
+        apart = any(self.kind(i) is K.COMMA for i in range(at, stop))
+        return apart and not asked and self.kind(at + 1) in NP
 
     def _take_back(self, start: int, note: str) -> None:
         """Set aside what has been emitted from a place on."""

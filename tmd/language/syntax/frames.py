@@ -7,6 +7,8 @@ were open"), what follows is a demand. Conditions that are only polite ("if it i
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
+
 from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.syntax.joins import first_of
 from tmd.language.syntax.tokens import IDLE, NP, Kind, Token, Words
@@ -161,12 +163,18 @@ class Frames(Words):
         denied = [i for i in frame if self.kind(i) is K.NEG]
         question = self.first(at, "STOP")
         asked = question < len(self.tokens) and "?" in self.tokens[question].text
-        if denied and not (asked and all(self.among(i, "frame_negations") for i in denied)):
+        if denied and not (asked and self._is_harmless(denied, frame)):
             return False
         modal = any(self.among(i, "frame_modals", "frame_negations") for i in frame)
         wished = self.among(start, "speakers", "self_forms") and any(map(self._is_wish, frame))
         kindly = self.among(start, "infinitive_be")
         return modal or wished or kindly or (asked and self.kind(start) is K.AUX)
+
+    def _is_harmless(self, denied: Sequence[int], frame: Iterable[int]) -> bool:
+        """Tell whether negations of a question deny nothing: "wouldn't you", "I don't suppose"."""
+        return all(self.among(i, "frame_negations") for i in denied) or any(
+            self.stem_among(i, "supposing") for i in frame
+        )
 
     def _is_wish(self, at: int) -> bool:
         """Tell whether a verb wishes for what follows: "I like to read" does not, without "would"."""

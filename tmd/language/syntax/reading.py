@@ -37,6 +37,7 @@ class TextReading:
         statements: What statements speak of, each with the number of drafts before it.
         skipped: What asks for nothing, as tokens that carry the reason.
         alone: The text has one unit.
+        polite: The text asks politely.
     """
 
     text: str
@@ -45,10 +46,12 @@ class TextReading:
     statements: list[tuple[int, ClauseDraft]] = field(default_factory=list)
     skipped: list[Token] = field(default_factory=list)
     alone: bool = False
+    polite: bool = False
 
     def read(self, tree: Tree[Leaf]) -> TextReading:
         """Read the tree of a text."""
         self.alone = len(trees(tree.children, "unit")) == 1
+        self.polite = not section("polite").isdisjoint(re.findall(r"[a-z]+", self.text.lower()))
         goes_on = False
         for unit in tree.children:
             if isinstance(unit, Leaf):
@@ -371,8 +374,7 @@ class TextReading:
             return True
         lead = next(leaves(nodes[0])).text
         counted = lead in section("indefinite") or is_number(lead)
-        polite = not section("polite").isdisjoint(re.findall(r"[a-z]+", self.text.lower()))
-        return counted or polite or (self.alone and sum(1 for n in nodes for _ in leaves(n)) > 1)
+        return counted or self.polite or (self.alone and sum(1 for n in nodes for _ in leaves(n)) > 1)
 
     def _carry(self) -> None:
         """A condition in front of a sentence holds for the whole of it."""

@@ -146,6 +146,8 @@ _UNITS = frozenset("%°")
 _LONG_WORD = 60
 _LABEL = 4
 """Maximum number of words before the colon of a note."""
+_NOTE = 12
+"""Tokens on each side of the colon that are looked at."""
 _TITLE_SHARE = 0.4
 """A text with more capitals than this says nothing by them."""
 
@@ -185,8 +187,8 @@ def _labelled(tokens: list[Token]) -> list[Token]:
     found: list[Token] = []
     for at, token in enumerate(tokens):
         if token.text == ":" and token.kind is Kind.STOP:
-            ahead = _until_sign(tokens[at + 1 :])
-            before = _until_sign(reversed(tokens[:at]))
+            ahead = _until_sign(tokens[at + 1 : at + 1 + _NOTE])
+            before = _until_sign(reversed(tokens[max(at - _NOTE, 0) : at]))
             if 0 < len(before) <= _LABEL and any(t.arrow for t in ahead):
                 found.append(replace(token, kind=Kind.WORD, text=sections()["arrows"][1], arrow=True))
                 continue
