@@ -503,6 +503,12 @@ def test_a_pronoun_may_mean_what_a_statement_spoke_of() -> None:
     assert parse("Those nuts are stale, bin them.").clauses[0].antecedents == {"them": ("nut",)}
 
 
+@pytest.mark.parametrize("said", ["when you're done", "once you are finished", "as soon as you're ready"])
+def test_a_condition_on_the_one_who_is_asked_is_none(said: str) -> None:
+    (clause,) = parse(f"Shut the gate {said}.").clauses
+    assert clause.conditions == ()
+
+
 def test_please_is_nobody() -> None:
     assert parse("Oil the hinge, please.").skipped == ()
 

@@ -233,7 +233,8 @@ class Parsed:
 
 
 _CLAUSE = re.compile(r"\(\s*([\w'-]+)\s*,\s*\[([^\]]*)\]\s*((?:,[^()]*)?)\)\s*$")
-_RELATION = re.compile(r"\s*([\w-]+)\s*:\s*([\w'-]*)\s*->\s*([\w'-]+)\s*$")
+# "7:30", "1/2" and "2.5" are names as well
+_RELATION = re.compile(r"\s*([\w-]+)\s*:\s*([\w'./:-]*)\s*->\s*([\w'./:-]+)\s*$")
 
 
 def clause_json(clause: Clause) -> dict[str, Any]:

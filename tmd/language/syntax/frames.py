@@ -142,7 +142,8 @@ class Frames(Words):
         inner = range(at + 1, end)
         about = self.among(at + 1, "singular_pronouns", "subjects", "persons")
         words = {word for i in inner for word in (*self.tokens[i].text.split(), self.tokens[i].stem)}
-        said = not words.isdisjoint(section("courtesies"))
+        polite = section("courtesies") | (section("finishing") if self.among(at + 1, "addressee") else frozenset())
+        said = not words.isdisjoint(polite)
         if not (about and said) or any(self._is_thing(i) or self._is_deed(i) or self._is_done(i) for i in inner):
             return at
         return end + (self.kind(end) is K.COMMA)
