@@ -12,7 +12,7 @@ from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.reading.referents import ANY_TYPE, is_none
 from tmd.goals.words import BE, is_pronoun, is_relation, is_verb, words_of
-from tmd.language.clause import Clause, Mood, Parsed, Quantifier
+from tmd.language.clause import PERSONS, Clause, Mood, Parsed, Quantifier
 from tmd.pddl.ground_formula import atoms_of
 from tmd.pddl.model import Atom, Formula, GroundAtom, Not
 from tmd.pddl.task import Bits, Cube
@@ -73,7 +73,9 @@ class ConstraintReader:
         return replace(found, left=(*found.left, *sorted(found.untouched)))
 
     def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> TextConstraints | Refusal:
-        """Return what a prohibition asks for."""
+        """Return what a prohibition asks for; nothing where it is about persons only: "don't leave me in the dark"."""
+        if clause.direct and PERSONS.issuperset(clause.direct):
+            return TextConstraints()
         if is_verb(clause.verb, "handling") and not self.leaves_a_trace(clause.verb):
             names = self._kept_things(clause, state)
             if not names:
@@ -82,8 +84,9 @@ class ConstraintReader:
         said = replace(clause, verb=BE if clause.result else clause.verb, mood=Mood.DO)
         goal = self.reader.read(said, state, memory)
         if isinstance(goal, Refusal):
-            never = goal.kind in (RefusalKind.IMPOSSIBLE, RefusalKind.CONTRADICTION)
-            return TextConstraints() if never else goal
+            # what is impossible here, or what no instruction is known to do, does not come about
+            never = (RefusalKind.IMPOSSIBLE, RefusalKind.CONTRADICTION, RefusalKind.UNKNOWN_VERB)
+            return TextConstraints() if goal.kind in never else goal
         means = self._means(clause, goal, state)
         if means:
             return TextConstraints(untouched=frozenset(means))

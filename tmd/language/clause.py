@@ -84,6 +84,7 @@ class NounPhrase:
         attributes: Adjectives, in order: ``empty``, ``dirty``.
         either: The language-objects of which any one will do: *the cup or the mug*.
         each: Said of every one by itself: *each cup*.
+        bare: Said without any determiner: *cup*.
     """
 
     name: str
@@ -94,6 +95,7 @@ class NounPhrase:
     attributes: tuple[str, ...] = ()
     either: tuple[str, ...] = ()
     each: bool = False
+    bare: bool = False
 
 
 class Mood(StrEnum):
@@ -155,6 +157,7 @@ class Clause:
         stated: Where its things are now, by relative clauses and by statements before it: *There is a mug on the
             shelf. Wash it.*
         heading: What follows says how: *make ramen: fill the pot, …*.
+        told: Its subject is not the one who is asked: *they are starving*.
     """
 
     verb: str
@@ -179,6 +182,7 @@ class Clause:
     setting: str | None = field(default=None, compare=False)
     stated: tuple[Relation, ...] = field(default=(), compare=False)
     heading: bool = field(default=False, compare=False)
+    told: bool = field(default=False, compare=False)
 
     def phrase(self, name: str) -> NounPhrase:
         """Return the noun phrase of a language-object."""
@@ -247,7 +251,7 @@ def clause_json(clause: Clause) -> dict[str, Any]:
     return always | {"text": clause.text} | said | ({"phrases": phrases} if phrases else {})
 
 
-_UNSAID = ("span", "name")
+_UNSAID = ("span", "name", "bare", "told")
 """Fields that are not written."""
 
 

@@ -15,14 +15,14 @@ from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section, sections, slips
 from tmd.language.syntax.antecedents import resolve
-from tmd.language.syntax.brackets import Bracketer
+from tmd.language.syntax.brackets import ADDRESS, Bracketer
 from tmd.language.syntax.frames import Frames
 from tmd.language.syntax.joins import join
 from tmd.language.syntax.links import Linker
 from tmd.language.syntax.phrases import rewrite
 from tmd.language.syntax.reading import TextReading
 from tmd.language.syntax.tagger import decide, tag
-from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tokenise
+from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_endearments, drop_repeats, tokenise
 from tmd.language.syntax.tree import parse_tokens
 
 NO_VERB = "no verb that this could belong to"
@@ -56,6 +56,9 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     kept, repeated = drop_repeats([t for t in cut if not t.note])
     for token in repeated:
         token.note = "repeats what was just said"
+    kept, called = drop_endearments(kept)
+    for token in called:
+        token.note = ADDRESS
     strange = _foreign(kept, words)
     if strange is not None:
         return Parsed(text, (), strange(text))
@@ -66,7 +69,7 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     bracketer = Bracketer(join(tokens, words), words)
     reading = TextReading(text).read(parse_tokens(Linker(bracketer.run()).run()))
     clauses, constraints = resolve(reading)
-    rest = [*tokens, *markup, *repeated, *dropped, *bracketer.dropped, *reading.skipped]
+    rest = [*tokens, *markup, *repeated, *called, *dropped, *bracketer.dropped, *reading.skipped]
     return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints)
 
 

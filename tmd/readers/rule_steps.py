@@ -113,10 +113,13 @@ def _in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:
     if heading is not None and not heading.implied:
         clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]
     ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
+    asked = any(not clause.told for clause in clauses)
     return tuple(
         step
         for number, clause in ordered
-        for step in _steps(clause, number, summarises=not number and len(clauses) > _FEWEST)
+        for step in _steps(
+            clause, number, summarises=not number and len(clauses) > _FEWEST, aside=asked and clause.told
+        )
     )
 
 
@@ -126,8 +129,15 @@ def _step(clause: Clause, number: int, owner: Clause, *, main: bool = True) -> R
     return RuleStep(clause, number, main=main, direct=clause.direct, guards=guards, otherwise=owner.otherwise)
 
 
-def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleStep]:
-    """Yield the steps of a clause; ``summarises`` where enough follows that it may only be a heading."""
+def _steps(clause: Clause, number: int, *, summarises: bool, aside: bool) -> Iterator[RuleStep]:
+    """Yield the steps of a clause.
+
+    Args:
+        clause: The clause.
+        number: Its number in the text.
+        summarises: Enough follows that it may only be a heading.
+        aside: It may be what somebody does who is not asked, and other clauses ask for something.
+    """
     if clause.mood is Mood.KEEP:
         step = _step(clause, number, clause)
         if clause.result and clause.result not in words_of("outcomes", "alone"):
@@ -141,17 +151,17 @@ def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleSte
         awaited = inner.verb == BE or any(map(is_pronoun, inner.direct))
         yield replace(_step(inner, number, clause, main=False), optional=True, awaited=awaited)
     summary = is_verb(clause.verb, "summary")
-    optional = clause.heading or (summarises and summary)
-    yield replace(_step(clause, number, clause), optional=optional, loose=optional and summary)
+    optional = clause.heading or aside or (summarises and summary)
+    yield replace(_step(clause, number, clause), optional=optional, loose=aside or (optional and summary))
     if clause.duration and not is_verb(clause.verb.partition("_")[0], "waiting"):
         # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
         waiting = Clause(the_word("verbs", "waiting"), span=clause.span, text=clause.text)
         yield replace(_step(waiting, number, clause, main=False), optional=True)
     for word, inner in _said(clause, "later"):
         # "before you leave" says when, and is nothing to be done where nobody knows how
-        optional = not is_condition(word, "tolerant") or is_verb(inner.verb, "parting")
+        optional = not is_condition(word, "needed") or is_verb(inner.verb, "parting")
         awaited, jointly = is_condition(word, "awaited"), is_condition(word, "joint")
-        loose = is_condition(word, "reason")
+        loose = is_condition(word, "loose")
         step = _step(inner, number, clause, main=False)
         yield replace(step, optional=optional, awaited=awaited, jointly=jointly, loose=loose)
 

@@ -134,7 +134,8 @@ class RuleDialogue(Dialogue):
         words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
         nouns = self._goals.nouns
         named = (word for word in words if nouns.lexicon.names_thing(word))
-        return piece.reason == NO_VERB and any(nouns.things(n, state) or nouns.substances(n) for n in named)
+        heading = self.parsed.text[piece.span.end :].lstrip().startswith(":")  # "tidy-up of the hall: …"
+        return piece.reason == NO_VERB and not heading and any(nouns.things(n, state) or nouns.substances(n) for n in named)
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the goal of a step that begins in ``state``."""
@@ -156,8 +157,16 @@ class RuleDialogue(Dialogue):
             return StepGoals((), progress, "it stays as it is", tuple(preserved))
         found = self._goals.candidates(step.clause, state, progress.memory, awaited=step.awaited)
         if isinstance(found, Refusal):
-            return StepGoals((), progress, found.message) if step.optional and _means_nothing(step, found) else found
+            idle = (step.optional and _means_nothing(step, found)) or self._is_aside(step, found)
+            return StepGoals((), progress, found.message) if idle else found
         return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
+
+    def _is_aside(self, step: RuleStep, refusal: Refusal) -> bool:
+        """Return whether a step without a verb names nothing that the domain knows: "what a day!", among others."""
+        clause = step.clause
+        named = (noun for noun in clause.resolved() if not self._goals.referents.points_back(noun))
+        unknown = refusal.kind is RefusalKind.NO_SUCH_THING and not any(map(self._goals.knows_of, named))
+        return clause.implied and unknown and any(other.main and not other.optional for other in self.steps if other is not step)
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``: what its nouns turned out to mean."""

@@ -167,6 +167,10 @@ class GoalReader:
         declared = {t.name for t in self.domain.types} | {c.name for c in self.domain.constants}
         return bool(declared & {noun, *self.lexicon.nouns.get(noun, ())}) or self.nouns.is_group(noun)
 
+    def knows_of(self, noun: str) -> bool:
+        """Return whether a noun means something in the domain or in the environment."""
+        return self.knows(noun) or bool(self.nouns.things(noun, self.world.task.init) or self.nouns.substances(noun))
+
     def _by_tables(self, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refusal:
         """Return the goal by the first source that knows the verb."""
         failure: Refusal | None = None

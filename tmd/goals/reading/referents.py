@@ -414,7 +414,7 @@ class Referents:
             return referent.only(n for n in referent.names if (n == one) != other)
         if phrase.quantifier is Quantifier.OTHER:
             return self._other(referent, context)
-        if phrase.definite and referent.mode is Mode.ANY:
+        if (phrase.definite or phrase.bare) and referent.mode is Mode.ANY:
             return referent.only(choose(AS_BEFORE, referent.names, context))
         return referent
 

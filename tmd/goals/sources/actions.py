@@ -64,7 +64,7 @@ class _Words:
         self.types = hierarchy(domain)
         self.fluent = {effect.atom.predicate for action in domain.actions for effect in action.effects}
         self.made = {effect.atom.predicate for a in domain.actions for effect in a.effects if effect.positive}
-        self.constants: dict[tuple[str, ...], list[str]] = {}
+        self._fixed: dict[tuple[str, ...], list[str]] = {}  # the constants of each type, asked for thousands of times
         self.passing = passing_predicates(domain)
         actors, people = words_of("names", "actors"), words_of("names", "people")
         # people act where most actions have one; elsewhere things are done for them
@@ -99,7 +99,11 @@ class _Words:
 
     def fixed(self, parameter: TypedName) -> list[str]:
         """The constants of the domain that a parameter may be."""
-        return [c.name for c in self.domain.constants if self.types.accepts(parameter.types, c.types)]
+        found = self._fixed.get(parameter.types)
+        if found is None:
+            found = [c.name for c in self.domain.constants if self.types.accepts(parameter.types, c.types)]
+            self._fixed[parameter.types] = found
+        return found
 
     def valued(self, parameter: TypedName) -> bool:
         """Return whether a parameter is a value (an amount, a setting, a substance): its type has constants."""

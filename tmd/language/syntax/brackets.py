@@ -121,6 +121,7 @@ class Bracketer(Words):
 
     def _statement(self, at: int, *, negated: bool = False) -> int:
         """Bracket a statement whose subject has come and whose finite verb stands at ``at``."""
+        self._part_subject()
         start = (self.out[self._subject] if self._subject < len(self.out) else self.tokens[at]).span.start
         say = mark(K.SAY, start)
         say.negated = negated
@@ -129,6 +130,19 @@ class Bracketer(Words):
         end = self._statement_end(at)
         self._fill(say, at, end)
         return end
+
+    def _part_subject(self) -> None:
+        """Begin a unit behind what stands before the subject and is no part of it: "radio off, the baby is asleep"."""
+        named = self.out[self._subject :]
+        comma = max((i for i, t in enumerate(named) if t.kind is K.COMMA), default=0)
+        before, subject = named[:comma], {t.kind for t in named[comma + 1 :]}
+        stated = any(t.kind is K.STATE for t in before)
+        placed = any(t.kind is K.P for t in before[1:]) and before[0].kind is not K.P and K.PRON not in subject
+        if (stated or placed) and K.CC not in subject and not subject.isdisjoint(HEADS):
+            named[comma].kind = K.SEP
+            self._subject += comma
+            self._begin()
+            self._subject = len(self.out) - len(named) + comma + 1
 
     def _skip(self, at: int, end: int, note: str) -> int:
         """Set words aside with the reason."""
@@ -175,7 +189,8 @@ class Bracketer(Words):
             joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
             also = self.kind(end) is K.COMMA and self._statement_follows(end)
             also = also or (self.kind(end) in LINKS and self._is_reason(end + 1))
-            if deed or joint or also or self.follows(end, "SUB|ENSURE|PURP"):
+            then = self.among(end, "then_words") and self.kind(end) in LINKS
+            if deed or joint or also or then or self.follows(end, "SUB|ENSURE|PURP"):
                 break
             end += 1
         return end
@@ -361,7 +376,7 @@ class Bracketer(Words):
         noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
         if self._verb is not None or not (own or noticed) or leads:
-            self._told = self._told or self.among(at, "tellers")
+            self._told = self._told or self.tokens[at].text.partition("'")[0] in section("tellers")
             return at + 1
         self.tokens[at].kind = K.PRON
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
@@ -522,6 +537,9 @@ class Bracketer(Words):
             return self._let(at) if self.kind(at + 1) is not K.V else at + 1
         self.out.append(token)
         self._verb = token
+        past = token.first is not None and token.first[1] == "ed"  # "I tripped over it, nearly fell"
+        wish = token.stem in section("wishing") | section("ordering")
+        token.told = (self._told and not wish) or past or token.stem in section("talking")
         if self.kind(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1
@@ -534,9 +552,6 @@ class Bracketer(Words):
         return end == at + 1 or self.follows(end + 1, "IDLE* (BREAK|P|SUB)")
 
     def _comma(self, at: int) -> int:
-        if self.among(at + 1, "endearments") and self.kind(at + 2) in BREAKS and self._verb is not None:
-            self.tokens[at + 1].note = ADDRESS
-            return at + 2  # "shut the gate, dear, and lock it"
         if self.follows(at, "COMMA IDLE+ COMMA (AUX|FINITE)"):
             return self.peek(at) + 1  # "the door, however, should be shut"
         inner = range(at + 1, min(self.first(at + 1, "V|STOP"), at + 2 * _NEAR) if self.tokens[at].text == "(" else at)
@@ -608,7 +623,8 @@ class Bracketer(Words):
 
     def _is_reason(self, at: int) -> bool:
         """Tell whether what stands before is the reason of what follows: "so", but not "so does the mug"."""
-        return self.among(at, "reasoning") and not self.follows(at + 1, "AUX NP")
+        alike = self.follows(at + 1, "AUX NP") and not self.among(at + 1, "frame_modals")
+        return self.among(at, "reasoning") and not alike
 
     def _reasoned(self) -> None:
         """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""

@@ -99,6 +99,7 @@ class ClauseDraft:
             alternative=self.verb.form == CHOICE,
             setting=self._folded(text, "setting"),
             heading=self.verb.heading,
+            told=self.verb.told,
             condition=self._written("condition"),
             duration=self._folded(text, "duration"),
             purpose=self._written("purpose"),

@@ -87,6 +87,7 @@ class Phrase:
             tuple(dict.fromkeys([*self._adjectives(), *self.attributes])),
             self.either,
             not section("each_words").isdisjoint(words),
+            not (self.lead or self.plural or self.pronoun),
         )
 
     def _adjectives(self) -> list[str]:

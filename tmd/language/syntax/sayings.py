@@ -69,7 +69,12 @@ class Saying:
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
         settled = section("belonging") | section("staying")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
-        return wished or placed or any(t.text in section("duties") for t in words)
+        return wished or placed or (any(t.text in section("duties") for t in words) and not self._about_somebody())
+
+    def _about_somebody(self) -> bool:
+        """Tell whether its subject is somebody who is not asked: "we have guests"."""
+        subject = [t.text.partition("'")[0] for node in self.subject for t in leaves(node)]
+        return bool(subject) and section("tellers").issuperset(subject)
 
     def clauses(self, attach: Attach) -> list[ClauseDraft]:
         """Return what it says."""

@@ -98,6 +98,7 @@ class Token:
         sentence: The number of the sentence that a verb stands in.
         otherwise: For a verb: "otherwise" stands before it.
         heading: For a verb: what follows a colon says how it is done.
+        told: For a verb: its subject is not the one who is asked.
         negated: For the opener of a subordinate clause: a negation stands in it.
         first: Its class and form by lists, before its neighbours decided.
         arrow: Written as an arrow.
@@ -117,13 +118,14 @@ class Token:
     sentence: int = 0
     otherwise: bool = False
     heading: bool = False
+    told: bool = False
     negated: bool = False
     first: tuple[Kind, str] | None = None
     arrow: bool = False
 
 
 _TOKEN = re.compile(
-    r"(?P<abbr>[-=]+>|\u2192|\u21d2|\bw/(?:o\b)?)|(?P<markup></?[a-z][^<>]*>|&(?:[a-z]+|#\d+);|[\U0001F000-\U0001FAFF\u2600-\u27BF\uFE0F\u200D]+)|(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
+    r"(?P<abbr>[-=]+>|(?<= )=(?= )|\u2192|\u21d2|\bw/(?:o\b)?)|(?P<markup></?[a-z][^<>]*>|&(?:[a-z]+|#\d+);|[\U0001F000-\U0001FAFF\u2600-\u27BF\uFE0F\u200D]+)|(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
     r"|(?P<word>[^\W\d_]+(?:['\u2019\-_\u00ad\u200b-\u200d\u2060\ufeff]+[^\W\d_]+)*['\u2019]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,\u2013\u2014()\[\]/]|-)"
     r"|(?P<cc>[&+])|(?P<unit>[%°])",
     re.UNICODE | re.IGNORECASE,
@@ -289,6 +291,29 @@ def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
         dropped += tokens[position : position + length]
         kept += [] if length else [token]
         position += length or 1
+    return kept, dropped
+
+
+def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
+    """Remove somebody who is addressed between commas: "shut the gate, my dear, and lock it".
+
+    Returns:
+        The tokens that stay and the tokens removed.
+    """
+    kept: list[Token] = []
+    dropped: list[Token] = []
+    position = 0
+    while position < len(tokens):
+        words = [t.text for t in tokens[position : position + 4]]
+        end = 1 + (words[1:2] == [sections()["address"][0]]) if tokens[position].kind is Kind.COMMA else len(words)
+        ended = end + 1 < len(words) and tokens[position + end + 1].kind in (Kind.COMMA, Kind.STOP)
+        last = position + end + 1 == len(tokens)
+        if end < len(words) and words[end] in section("endearments") and (ended or last):
+            dropped += tokens[position + 1 : position + end + 1]
+            position += end + 1 + (ended and tokens[position + end + 1].kind is Kind.COMMA)
+        else:
+            kept.append(tokens[position])
+            position += 1
     return kept, dropped
 
 
