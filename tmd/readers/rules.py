@@ -131,11 +131,11 @@ class RuleDialogue(Dialogue):
 
     def _names_thing(self, piece: Skipped, state: Bits) -> bool:
         """Return whether a piece that belongs to no verb names something that is here."""
-        words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
         nouns = self._goals.nouns
-        named = (word for word in words if nouns.lexicon.names_thing(word))
+        words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
         heading = self.parsed.text[piece.span.end :].lstrip().startswith(":")  # "tidy-up of the hall: …"
-        return piece.reason == NO_VERB and not heading and any(nouns.things(n, state) or nouns.substances(n) for n in named)
+        named = ["_".join(words)] if heading else [word for word in words if nouns.lexicon.names_thing(word)]
+        return piece.reason == NO_VERB and any(nouns.things(n, state) or nouns.substances(n) for n in named)
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the goal of a step that begins in ``state``."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from functools import cached_property
 
 from tmd.goals.grounder import Grounder, Moments
@@ -82,7 +82,9 @@ class Facts:
             inner = self.attribute(word.removeprefix(NEGATED), name, moments)
             return None if inner is None else negation(inner)
         if word in self.table.attributes:
-            return self.grounder.ground(self.table.attributes[word], {"?x": name}, ("?x",), moments)
+            condition = self.table.attributes[word]
+            ways = (self.grounder.ground(condition, {"?x": one}, ("?x",), moments) for one in self._with_near(name))
+            return next((way for way in ways if way != FALSE), FALSE)  # a lamp is brighter by its knob
         return self.state_of(state_words(word), name)
 
     def state_of(self, words: Iterable[str], name: str) -> Formula | None:
@@ -91,12 +93,17 @@ class Facts:
         Words with a minus say that it is not in such a state. ``None`` where no fact here has such a word.
         """
         listed = sorted(words, key=lambda word: word.startswith(CONTRARY))
-        for candidate in (name, *self.grounder.near(name)):
+        for candidate in self._with_near(name):
             for word in listed:
                 found = self._named_state(word.removeprefix(CONTRARY), candidate)
                 if found is not None:
                     return negation(found) if word.startswith(CONTRARY) else found
         return None
+
+    def _with_near(self, name: str) -> Iterator[str]:
+        """Yield a thing and, where they are asked for, its nearest relatives."""
+        yield name
+        yield from self.grounder.near(name)
 
     def _named_state(self, word: str, name: str) -> Formula | None:
         atoms = [a for a in self.facts_about(name) if self._says_state(a, word, name)]

@@ -370,13 +370,14 @@ class Bracketer(Words):
         if own and self.stem_among(verb, "ordering"):
             self._told = self.stem_among(verb, "liking")
             return at + 1  # "I'll have a tea"
-        if own and self._verb is not None and self._last() in LINKS:
+        tells = self.tokens[at].text.partition("'")[0] in section("tellers")
+        if self._last() in LINKS and ((own and self._verb is not None) or (tells and self._named())):
             self.out[-1].kind = K.SEP
             self._begin()
         noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
         if self._verb is not None or not (own or noticed) or leads:
-            self._told = self._told or self.tokens[at].text.partition("'")[0] in section("tellers")
+            self._told = self._told or tells
             return at + 1
         self.tokens[at].kind = K.PRON
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
@@ -535,11 +536,14 @@ class Bracketer(Words):
         if token.stem in section("causing") and self._causes(at):
             token.kind = K.LET
             return self._let(at) if self.kind(at + 1) is not K.V else at + 1
+        past = token.first is not None and token.first[1] == "ed"  # "I tripped over it, nearly fell"
+        wish = token.stem in section("wishing") | section("ordering") and token.form != "ing"
+        named = self._last() in HEADS and self.out[self._subject].kind is K.DET
+        # "my eyes get tired", but not "the boxes from the shelf put them in the bin"
+        subject = named and not (self.lexicon.names_thing(self.out[-1].text) or self.follows(at + 1, "IDLE* PRON"))
+        token.told = (self._told and not wish) or past or subject or token.stem in section("talking")
         self.out.append(token)
         self._verb = token
-        past = token.first is not None and token.first[1] == "ed"  # "I tripped over it, nearly fell"
-        wish = token.stem in section("wishing") | section("ordering")
-        token.told = (self._told and not wish) or past or token.stem in section("talking")
         if self.kind(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1

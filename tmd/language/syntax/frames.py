@@ -78,6 +78,10 @@ class Frames(Words):
             return self._infinitive(self.peek(at))
         if self._is_thought(at):
             return self._joined(start, at - 1, advised=False)  # "I don't suppose you could"
+        if self.among(at - 1, "glad") and self.among(at, "awaited") and self.kind(at + 1) in NP:
+            token = self.tokens[at]  # "I'd be grateful for a tea"
+            token.kind, token.stem, token.form = K.V, first_of("ordering"), "base"
+            return at
         advised = self.stem_among(at - 1, "advising") and self.among(at, "persons")
         if advised or self.among(at, "frame_joints"):
             return self._joined(start, at, advised=advised)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 
 from lark import Tree
 
@@ -53,12 +54,18 @@ class TextReading:
         self.alone = len(trees(tree.children, "unit")) == 1
         self.polite = not section("polite").isdisjoint(re.findall(r"[a-z]+", self.text.lower()))
         goes_on = False
-        for unit in tree.children:
-            if isinstance(unit, Leaf):
-                goes_on = unit.source.form == ALSO
+        places: list[Node] = []
+        for unit, following in pairwise([*tree.children, None]):
+            if unit is None or isinstance(unit, Leaf):
+                goes_on = unit is not None and unit.source.form == ALSO
                 continue
             actions = trees(unit.children, "clause", "letting")
-            front = [n for n in unit.children if n not in actions]
+            front = places + [n for n in unit.children if n not in actions]
+            only_place = not actions and all(is_a(n, "place") for n in front)
+            heads = only_place and isinstance(following, Leaf) and following.source.text == ":"
+            places = front if heads else []  # "into the crate: rope, hose"
+            if heads:
+                continue
             for index, action in enumerate(actions):
                 self._clause(action, [] if index else front)
             if not actions and not (goes_on and self._gapped(front)):

@@ -33,6 +33,7 @@ _EDGE = Token(Kind.STOP, "", NOWHERE)
 """What stands before the first word and behind the last."""
 _LONGEST_RUN = 8
 """A pattern has at most so many words."""
+WHEN = "says when, which no state shows"
 _LONG = 5
 """Longer words that end in *ly* are adverbs."""
 
@@ -331,7 +332,9 @@ def _run(tokens: list[Token], at: int) -> tuple[ClassRow, Token, int] | None:
     for row in classes().tables["runs"]:
         if match := row.pattern.match(words):
             used = match.group().count(" ")
-            return row, fold(tokens[at : at + used], row.kind, " ", row.form), used
+            token = fold(tokens[at : at + used], row.kind, " ", row.form)
+            token.note = WHEN if row.kind is Kind.SKIP else ""
+            return row, token, used
     return None
 
 

@@ -343,7 +343,7 @@ INF, ONE = "INF", "ONE"
 GROUPS: dict[str, tuple[str, ...]] = {
     "NP": (K.DET, K.NUM, K.ADJ, K.N, K.PRON, ONE),
     "HEAD": (K.N, K.PRON, ONE),
-    "IDLE": (K.ADV, K.FILLER),
+    "IDLE": (K.ADV, K.FILLER, K.SKIP),
     "LINKS": (K.COMMA, K.CC),
     "BREAK": (K.STOP, K.COMMA, K.CC, K.SEP),
     "PLACE": (K.P, K.TO, K.EXC),
