@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseGoal
@@ -69,7 +70,7 @@ class RuleReader:
         Raises:
             TmdError: The lexicon declares something that is wrong; with its place.
         """
-        parsed = parse(request, self._lexicon)
+        parsed = parse(request, _with_names(self._lexicon, world.profiles.objects))
         if self._sources is None:
             return Dialogue(parsed)
         tables = goal_tables(self._lexicon, world.task.problem.domain, self._learned, self._sources)
@@ -82,6 +83,11 @@ class RuleReader:
     def revise(self, dialogue: Dialogue, reason: str) -> Dialogue | None:
         """Return ``None``: rules have no second reading to offer."""
         return None
+
+
+@lru_cache(maxsize=16)
+def _with_names(lexicon: Lexicon, names: tuple[str, ...]) -> Lexicon:
+    return lexicon.with_names(names)
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,7 +172,8 @@ class RuleDialogue(Dialogue):
         clause = step.clause
         named = (noun for noun in clause.resolved() if not self._goals.referents.points_back(noun))
         unknown = refusal.kind is RefusalKind.NO_SUCH_THING and not any(map(self._goals.knows_of, named))
-        return clause.implied and unknown and any(other.main and not other.optional for other in self.steps if other is not step)
+        others = (other for other in self.steps if isinstance(other, RuleStep) and other is not step)
+        return clause.implied and unknown and any(other.main and not other.optional for other in others)
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``: what its nouns turned out to mean."""

@@ -85,7 +85,13 @@ class Facts:
             condition = self.table.attributes[word]
             ways = (self.grounder.ground(condition, {"?x": one}, ("?x",), moments) for one in self._with_near(name))
             return next((way for way in ways if way != FALSE), FALSE)  # a lamp is brighter by its knob
-        return self.state_of(state_words(word), name)
+        found = self.state_of(state_words(word), name)
+        return self._emptied(name) if found is None and word in words_of("empty") else found
+
+    def _emptied(self, name: str) -> Formula | None:
+        """Return that nothing is in a thing; ``None`` where nothing ever is."""
+        inside = disjunction(self._related_by_facts("in", other, name) for other in self.world.profiles.objects)
+        return None if inside == FALSE else negation(inside)
 
     def state_of(self, words: Iterable[str], name: str) -> Formula | None:
         """Return that ``name`` is in a state that one of ``words`` names, by a predicate or a constant.

@@ -16,7 +16,7 @@ from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
 from tmd.goals.sources.table import ACTIONS, GoalTable
 from tmd.goals.words import BE, family, is_relation, is_verb, ranked, relations_said, the_word, words_of
-from tmd.language.clause import Clause
+from tmd.language.clause import BRING, TO, Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.task import Bits
 from tmd.world.world import World
@@ -98,6 +98,9 @@ class GoalReader:
             found = self.read(self._settled(clause), state, memory, decisions=decisions)
             if not isinstance(found, Refusal):
                 return found  # "mug on the table" says where it shall be
+        treated = self._treated(clause)
+        if treated is not None:
+            return self.read(treated, state, memory, decisions=decisions)
         if self._is_state(clause):
             return self._state(reading)
         found = self._by_tables(self._own_verbs(clause), reading)
@@ -117,6 +120,15 @@ class GoalReader:
         somewhere = any(not is_relation(r.relation, "composing") for r in placed)
         return clause.implied and is_verb(clause.verb, "having") and somewhere
 
+    def _treated(self, clause: Clause) -> Clause | None:
+        """Return "give the fern some water" as "water the fern", where that is a verb here, and no thing."""
+        receivers = tuple(r.target for r in clause.relations if r.source in clause.direct and r.relation == TO)
+        deed = clause.direct[0] if len(clause.direct) == 1 and len(receivers) == 1 else ""
+        gives = is_verb(clause.verb, "giving") and deed and any(table.of(deed) for table in self.tables)
+        if not gives or self.knows_of(deed):
+            return None
+        return replace(clause, verb=deed, direct=receivers, objects=receivers, relations=())
+
     def _settled(self, clause: Clause) -> Clause:
         """Return a clause without a verb as one that puts: "mug on the table", and "water for the kettle" in it."""
         inside = the_word("relations", "inside")
@@ -126,7 +138,9 @@ class GoalReader:
             else r
             for r in clause.relations
         )
-        return replace(clause, verb=the_word("verbs", "settling"), implied=False, relations=places)
+        given = any(is_relation(r.relation, "benefit") and self.referents.is_person(r.target) for r in places)
+        verb = BRING if given else the_word("verbs", "settling")  # "tea for Ann" is brought to her
+        return replace(clause, verb=verb, implied=False, relations=places)
 
     def _own_verbs(self, clause: Clause) -> list[str]:
         """Return the verb, that for which it stands, and the same without its particle, where that asks for as much."""

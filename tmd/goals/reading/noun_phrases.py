@@ -13,9 +13,10 @@ from tmd.goals.reading.facts import Facts
 from tmd.goals.sources.table import GoalTable
 from tmd.goals.words import ends_as, is_idle, is_noun, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
-from tmd.language.lexicon.lexicon import section
+from tmd.language.lexicon.lexicon import section, singular
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, split_name
 from tmd.pddl.ground_formula import FALSE, TRUE
+from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
 from tmd.world.world import CONTAINED, World
 
@@ -142,12 +143,21 @@ class Nouns(Facts):
         if ranked and ranked[0].name in self.places and ranked[0].how != WORDNET:
             return (ranked[0].name,)  # the floor, which is no substance that things contain
         if not self.guess and all(m.how == WORDNET for m in ranked):
-            return self._called_after(noun)  # what such a likeness contains is no more sure than itself
+            # what such a likeness contains is no more sure than itself
+            return self._called_after(noun) or self._with_part(noun)
         best = self._likeliest(noun, state, types)
         if best is None:
             return ()
         best = self._explained(noun, self._numbered(noun, self._told_apart(noun, best, state)), state)
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
+
+    def _with_part(self, noun: str) -> tuple[str, ...]:
+        """Return the things that a part is only told of: rooms, for *doors*, where ``door_open`` is said of rooms."""
+        facts = {
+            name: [f for f in self.facts_about(name) if _tells_of(noun, f)] for name in self.world.profiles.objects
+        }
+        having = tuple(n for n, told in facts.items() if any(f in self.world.task.static for f in told))
+        return having or tuple(n for n, told in facts.items() if told)
 
     def _all_that_are(self, adjectives: Sequence[str], moments: Moments) -> tuple[str, ...]:
         said = {n: [self.attribute(word, n, moments) for word in adjectives] for n in self.world.profiles.objects}
@@ -358,6 +368,12 @@ class Nouns(Facts):
     def _modified(self, name: str) -> bool:
         """Return whether the name of an object says which one of its kind it is: ``red_block``."""
         return len([word for word in split_name(name) if not word.isdigit()]) > 1
+
+
+def _tells_of(noun: str, fact: GroundAtom) -> bool:
+    """Return whether a fact about one thing speaks of a part of it: ``door_open``, ``has_door``."""
+    words = {singular(word) for word in split_name(fact.predicate)}
+    return len(fact.args) == 1 and noun in words and words - {noun} <= words_of("part_states") and len(words) > 1
 
 
 def _says_nothing(word: str) -> bool:

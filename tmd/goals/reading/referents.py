@@ -11,7 +11,7 @@ from tmd.goals.clause_goal import ClauseReading, Unit, words
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, SUBSTANCES, THINGS, Context, choose
 from tmd.goals.reading.noun_phrases import Memory, Mode, Nouns, Referent, mode_of
-from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types
+from tmd.goals.sources.table import ACTIONS, GoalRow, GoalTable, Slot, slot_types
 from tmd.goals.words import (
     IT,
     NEGATED,
@@ -27,7 +27,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier, Relation
+from tmd.language.clause import PERSONS, TO, Clause, Mood, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.lexicon.nouns import ALIAS, split_name
 from tmd.pddl.model import OBJECT
@@ -70,7 +70,23 @@ class Referents:
         # "the eggs in the fridge except the one on the shelf": what is acted on is excepted from
         excepted = [(r.relation, r.target) for r in said if is_relation(r.relation, "excepting")]
         found = [pair for pair in found if pair not in excepted] + (excepted if name in clause.direct else [])
-        return [(r, t) for r, t in found if t not in PERSONS]
+        return [self._received(r, t, clause) for r, t in found if t not in PERSONS or self._somebody(t, clause)]
+
+    def _received(self, relation: str, target: str, clause: Clause) -> tuple[str, str]:
+        """Return "for Ann", where she is here, as to her."""
+        name = self._somebody(target, clause) if target in PERSONS else target
+        benefit = is_relation(relation, "benefit") and self.is_person(name)
+        return (TO if benefit else relation), name
+
+    def _somebody(self, pronoun: str, clause: Clause) -> str:
+        """Return the noun of a person who is here that *him* or *her* stands for; empty for nobody."""
+        return next(filter(self.is_person, clause.antecedents.get(pronoun, ())), "")
+
+    def is_person(self, noun: str) -> bool:
+        """Return whether a noun names somebody who is here."""
+        kinds = self.world.mentions.types
+        named = self.nouns.things(noun, 0) if noun not in PERSONS else ()
+        return any(not words_of("names", "people").isdisjoint(kinds.get(name, ())) for name in named)
 
     def _measured(self, relations: Sequence[tuple[str, str]], clause: Clause) -> list[tuple[str, str]]:
         """Return relations to what measures hold: "coffee with two spoons of sugar" is with sugar."""
@@ -145,7 +161,7 @@ class Referents:
             for other in fact.args[1:]
             for where in resting
             if (not self.nouns.is_constant(other) or other in self.nouns.places)
-            and where in fact.args
+            and (where in fact.args or not any(other in resting for other in fact.args))
             and self.nouns.related_now((name,), where, (other,), reading.moments)
         ]
         return places[:1] or [(relation, target)]
@@ -256,7 +272,9 @@ class Referents:
         clause = reading.clause
         if not self.points_back(noun):
             phrase = clause.phrase(noun)
-            found = [self._named(noun, phrase, types, relations, reading, place=slot.is_place)]
+            # "the lids on the pots": one on each
+            place = slot.is_place and not (row.noun and row.source == ACTIONS)
+            found = [self._named(noun, phrase, types, relations, reading, place=place)]
             plain = not (phrase.attributes or relations) and phrase.quantifier is Quantifier.ALL
             mixed = self._brought_together(types, reading) if plain and is_noun(noun, "everything") else ()
             return [Referent(noun, mixed, definite=True), *found] if mixed else found

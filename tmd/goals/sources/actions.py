@@ -15,7 +15,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import permutations, product
 
-from tmd.goals.sources.table import ACTIONS, GoalRow, GoalTable, Slot
+from tmd.goals.sources.table import ACTIONS, FIRST, MARK, GoalRow, GoalTable, Slot
 from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, words_of
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.nouns import split_name, words_in_name
@@ -27,7 +27,9 @@ from tmd.pddl.model import (
     Domain,
     Effect,
     Exists,
+    Forall,
     Formula,
+    Imply,
     Not,
     Or,
     Predicate,
@@ -50,6 +52,7 @@ def rows_of_actions(domain: Domain) -> GoalTable:
         *words.contents(),
         *words.named_actions(),
         *words.states(),
+        *words.parts(),
         *words.participles(),
         *words.named_actions(shortened=True),
     ]
@@ -124,6 +127,20 @@ class _Words:
                         found = condition if positive else Not(condition)
                         yield self._row((verb,), (Slot("?x"),), found, f"{verb} X", f"'{wanted}' in {predicate.name}")
 
+    def parts(self) -> Iterator[GoalRow]:
+        """``put the lid on X`` for a predicate such as ``lid_on``."""
+        for predicate in self.domain.predicates:
+            noun, _, preposition = "_".join(split_name(predicate.name)).rpartition("_")
+            if predicate.name not in self.fluent or len(self.things(predicate)) != 1 or not noun:
+                continue
+            there = self._atom(predicate, {self.things(predicate)[0].name: "?y"})
+            if preposition in words_of("rows", "resting"):
+                on, off = Slot("?y", (preposition,)), Slot("?y", _ROWS["whence"])
+                row = self._row(_ROWS["lay"], (on,), there, f"put {noun} {preposition} Y", f"'{noun}' in its name")
+                yield replace(row, noun=noun)
+                row = self._row(_ROWS["take"], (off,), Not(there), f"take {noun} from Y", f"'{noun}' in its name")
+                yield replace(row, noun=noun)
+
     def _state(self, predicate: Predicate, word: str, *, any_value: bool = False) -> Formula | None:
         """That ``?x`` is in a state that has ``word`` in its name; everything else is left open.
 
@@ -176,6 +193,21 @@ class _Words:
             yield self._placed("bring", "whither", _any_of(whither), "take X to Y")
             nowhere = And(tuple(Not(atom) for atoms in places.values() for atom in atoms))
             yield self._placed("take", "whence", nowhere, "take X from Y")
+            yield from self._of_all_places()
+
+    def _of_all_places(self) -> Iterator[GoalRow]:
+        """``clear Y``: nothing is there; ``put back X``: it is where it was before the text."""
+        made = (self.fluent & self.made) - set(self.passing)
+        nothing: dict[Formula, None] = {}
+        back: dict[Formula, None] = {}
+        for predicate in self.domain.predicates:
+            for _, atom in self._places(predicate) if predicate.name in made else ():
+                thing, place = (p.types for p in self.things(predicate))
+                nothing[Not(Exists((TypedName("?x", thing),), atom))] = None
+                back[Forall((TypedName("?y", place),), Imply(_at_first(atom), atom))] = None
+        why = "predicates of place"
+        yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)
+        yield self._row(_ROWS["back"], (Slot("?x"),), _joined(list(back)), "put_back X", why)
 
     def _all_places(self) -> dict[str, list[Formula]]:
         """Return for each preposition the conditions of place that it says."""
@@ -228,6 +260,7 @@ class _Words:
     def _going(self) -> Iterator[GoalRow]:
         """``go to Y`` for the place that an action takes the one to who acts."""
         found: dict[Formula, None] = {}
+        sent: dict[Formula, None] = {}
         for action in self.domain.actions:
             given = {p.name: p for p in action.parameters}
             for atom, (place,) in _journeys(action):
@@ -237,9 +270,13 @@ class _Words:
                     there = Atom(atom.predicate, tuple(names.get(term, term) for term in atom.terms))
                     left = tuple(TypedName(names[p.name], p.types) for p in others)
                     found[Exists(left, there) if left else there] = None
+                    if len(left) == 1:
+                        sent[replace(there, terms=tuple("?x" if t == "?any_0" else t for t in there.terms))] = None
+        where, why = Slot("?y", _ROWS["going"]), "a predicate of where one is"
         for condition in found:
-            where = Slot("?y", _ROWS["going"])
-            yield self._row(_ROWS["go"], (where,), condition, "go to Y", "a predicate of where one is")
+            yield self._row(_ROWS["go"], (where,), condition, "go to Y", why)
+        for condition in sent:
+            yield self._row(_ROWS["send"], (Slot("?x"), where), condition, "send X to Y", why)
 
     def contents(self) -> Iterator[GoalRow]:
         """``fill V with S`` for predicates that join a thing and a value which actions bring about: loads, say."""
@@ -384,6 +421,13 @@ def _journeys(action: ActionSchema) -> Iterator[tuple[Atom, tuple[str]]]:
             differing = [there for there, here in zip(made.terms, left.terms, strict=True) if there != here]
             if len(differing) == 1 and differing[0].startswith("?"):
                 yield made, (differing[0],)
+
+
+def _at_first(formula: Formula) -> Formula:
+    """Return an atom, or one with some arguments left open, as that which was so before the text."""
+    if isinstance(formula, Exists):
+        return replace(formula, part=_at_first(formula.part))
+    return replace(formula, predicate=f"{formula.predicate}{MARK}{FIRST}") if isinstance(formula, Atom) else formula
 
 
 def _any_of(parts: Sequence[Formula]) -> Formula:

@@ -8,8 +8,8 @@ from __future__ import annotations
 import difflib
 import gzip
 import re
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache
 from importlib.resources import files
 
@@ -21,6 +21,8 @@ _TYPO_RATIO = 0.83
 """Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
 _NOUN_TYPO_RATIO = 0.8
 """The same where a noun of the domain may be meant: one wrong letter of five."""
+_SURE = 3
+"""The strength of a word that is an instruction rather than the first word of a name."""
 _DOER_TYPO_RATIO = 0.9
 """The same where the word could be made of a known one with -er: one letter more or less, of six."""
 
@@ -155,6 +157,12 @@ class Lexicon:
     kinds: frozenset[str] = frozenset()
     compounds: frozenset[tuple[str, ...]] = frozenset()
     phrases: tuple[PhraseRow, ...] = ()
+
+    def with_names(self, names: Iterable[str]) -> Lexicon:
+        """Return the lexicon with names of objects: all words of a name are one noun ("blood sample 1")."""
+        parts = (tuple(w for w in name.lower().replace("-", "_").split("_") if w.isalpha()) for name in names)
+        compounds = {words for words in parts if len(words) > 1 and (self.verb(words[0]) or ("", "", 0))[2] < _SURE}
+        return self if compounds <= self.compounds else replace(self, compounds=self.compounds | compounds)
 
     def canonical_verb(self, verb: str) -> str:
         """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""

@@ -1,6 +1,7 @@
 """Things of an environment that a noun may name, with the kind of evidence for each.
 
-The order of evidence is fixed: the thing's own name, an alias of the domain, WordNet similarity, nothing. A weaker kind
+The order of evidence is fixed: the thing's own name, an alias of the domain, a synonym in WordNet, similarity in
+WordNet, nothing. A weaker kind
 is only asked where all stronger ones are silent; but where a name agrees only in part, an alias of the whole noun goes
 before it. Similarity is that of Wu and Palmer (1994) among WordNet's artifacts, food and substances, loaded when a noun
 has to be compared (``experiments.language.rebuild`` writes the file).
@@ -108,6 +109,7 @@ def rank(
     for found in (
         named,
         _by_alias(noun, parsed, candidates, aliases),
+        _by_synonym(parsed, candidates),
         _by_wordnet(parsed, candidates, threshold),
     ):
         if found:
@@ -216,6 +218,13 @@ def _by_alias(
     return []
 
 
+def _by_synonym(noun: _Noun, candidates: Sequence[NounMatch]) -> list[Match]:
+    """Return what a synonym in WordNet names: *couch* is a sofa."""
+    meant = _usual_senses("_".join(noun.words))
+    named = [c for c in candidates if any(meant & _usual_senses("_".join(words)) for words in _vocabulary(c))]
+    return _numbered([Match(candidate.name, 1.0, ALIAS) for candidate in named], noun)
+
+
 def _by_wordnet(noun: _Noun, candidates: Sequence[NounMatch], threshold: float) -> list[Match]:
     whole = "_".join(noun.words)
     word = whole if _in_wordnet(whole) else noun.head
@@ -234,6 +243,8 @@ def _similar(word: str, words: tuple[str, ...]) -> float:
 
 _SENSES = 4
 """Rarer senses of a word are not looked at."""
+_USUAL = 2
+"""Synonyms share one of the first so many senses."""
 
 
 class _Taxonomy(NamedTuple):
@@ -268,6 +279,10 @@ def _senses(noun: str) -> list[int]:
     known = _taxonomy().senses
     found = known.get(noun) or known.get(singular(noun)) or []
     return [synset for sense, synset in sorted(found) if sense <= _SENSES]
+
+
+def _usual_senses(noun: str) -> frozenset[int]:
+    return frozenset(_senses(noun)[:_USUAL])
 
 
 @cache

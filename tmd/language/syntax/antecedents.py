@@ -92,7 +92,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
 
 
 def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:
-    places = [name for name in clause.objects if is_pronoun(name)]
+    places = [name for name in clause.objects if is_pronoun(name) or name in section("animate")]
     if not draft.direct and clause.verb not in section("intransitive"):
         places.append("")
     antecedents, together = {}, {}

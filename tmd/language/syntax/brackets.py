@@ -377,7 +377,7 @@ class Bracketer(Words):
         noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
         if self._verb is not None or not (own or noticed) or leads:
-            self._told = self._told or tells
+            self._told = self._told or (tells and self.kind(at - 1) is not K.AUX)
             return at + 1
         self.tokens[at].kind = K.PRON
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
@@ -531,6 +531,8 @@ class Bracketer(Words):
 
     def _deed(self, at: int) -> int:
         token = self.tokens[at]
+        if token.stem in section("wishing"):
+            self._told = False
         if token.stem in section("wishing") and self._wishes_state(at):
             return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
         if token.stem in section("causing") and self._causes(at):

@@ -125,9 +125,11 @@ class Token:
 
 
 _TOKEN = re.compile(
-    r"(?P<abbr>[-=]+>|(?<= )=(?= )|\u2192|\u21d2|\bw/(?:o\b)?)|(?P<markup></?[a-z][^<>]*>|&(?:[a-z]+|#\d+);|[\U0001F000-\U0001FAFF\u2600-\u27BF\uFE0F\u200D]+)|(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
-    r"|(?P<word>[^\W\d_]+(?:['\u2019\-_\u00ad\u200b-\u200d\u2060\ufeff]+[^\W\d_]+)*['\u2019]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,\u2013\u2014()\[\]/]|-)"
-    r"|(?P<cc>[&+])|(?P<unit>[%°])",
+    r"(?P<abbr>[-=]+>|(?<= )=(?= )|\u2192|\u21d2|\bw/(?:o\b)?)"
+    r"|(?P<markup></?[a-z][^<>]*>|&(?:[a-z]+|#\d+);|[\U0001F000-\U0001FAFF\u2600-\u27BF\uFE0F\u200D]+)"
+    r"|(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
+    r"|(?P<word>[^\W\d_]+(?:['\u2019\-_\u00ad\u200b-\u200d\u2060\ufeff]+[^\W\d_]+)*['\u2019]?)"
+    r"|(?P<stop>[.!?;:…]+)|(?P<comma>[,\u2013\u2014()\[\]/]|-)|(?P<cc>[&+])|(?P<unit>[%°])",
     re.UNICODE | re.IGNORECASE,
 )
 
