@@ -44,7 +44,7 @@ LEXICON = Lexicon(nouns={"pot": ("kettle", "mug"), "mug": ("kettle",)})
         ("pot", "kettle1", ALIAS),
         ("second_pot", "mug1", ALIAS),
         ("refrigerator", "fridge1", WORDNET),
-        ("sofa", "couch1", WORDNET),
+        ("sofa", "couch1", ALIAS),
         ("faucet", "sink1_tap", WORDNET),
     ],
 )

@@ -84,7 +84,7 @@ class NounPhrase:
         attributes: Adjectives, in order: ``empty``, ``dirty``.
         either: The language-objects of which any one will do: *the cup or the mug*.
         each: Said of every one by itself: *each cup*.
-        bare: Said without any determiner: *cup*.
+        undetermined: Said in the singular without any determiner: *cup*.
     """
 
     name: str
@@ -95,7 +95,7 @@ class NounPhrase:
     attributes: tuple[str, ...] = ()
     either: tuple[str, ...] = ()
     each: bool = False
-    bare: bool = False
+    undetermined: bool = False
 
 
 class Mood(StrEnum):
@@ -251,7 +251,7 @@ def clause_json(clause: Clause) -> dict[str, Any]:
     return always | {"text": clause.text} | said | ({"phrases": phrases} if phrases else {})
 
 
-_UNSAID = ("span", "name", "bare", "told")
+_UNSAID = ("span", "name", "undetermined", "told")
 """Fields that are not written."""
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -152,19 +152,19 @@ class Referents:
         """Return where something is now, for "where the plate is"; any other relation as it was said."""
         if not is_relation(relation, "locating") or reading.clause.mood is Mood.KEEP:
             return [(relation, target)]
+        names = self.targets(target, reading)[:1]
+        places = (place for name in names for place in self._places_of(name, reading))
+        return [next(places, (relation, target))]
+
+    def _places_of(self, name: str, reading: ClauseReading) -> Iterator[tuple[str, str]]:
+        """Yield where a thing is now, as relations and places."""
         resting = sorted(words_of("relations", "resting"))
-        places = [
-            (where, other)
-            for name in self.targets(target, reading)[:1]
-            for fact in self.nouns.facts_about(name)
-            if self.grounder.holds(fact, reading.state) and fact.args[0] == name
-            for other in fact.args[1:]
-            for where in resting
-            if (not self.nouns.is_constant(other) or other in self.nouns.places)
-            and (where in fact.args or not any(other in resting for other in fact.args))
-            and self.nouns.related_now((name,), where, (other,), reading.moments)
-        ]
-        return places[:1] or [(relation, target)]
+        facts = [f for f in self.nouns.facts_about(name) if f.args[0] == name and self.grounder.holds(f, reading.state)]
+        for fact, other in ((fact, other) for fact in facts for other in fact.args[1:]):
+            is_place = not self.nouns.is_constant(other) or other in self.nouns.places
+            for where in [r for r in resting if r in fact.args] or resting:
+                if is_place and self.nouns.related_now((name,), where, (other,), reading.moments):
+                    yield where, other
 
     def reattached(self, reading: ClauseReading) -> Clause:
         """Return the clause with the last of two places as the destination: "the cup on the table in the sink".
@@ -432,7 +432,7 @@ class Referents:
             return referent.only(n for n in referent.names if (n == one) != other)
         if phrase.quantifier is Quantifier.OTHER:
             return self._other(referent, context)
-        if (phrase.definite or phrase.bare) and referent.mode is Mode.ANY:
+        if (phrase.definite or phrase.undetermined) and referent.mode is Mode.ANY:
             return referent.only(choose(AS_BEFORE, referent.names, context))
         return referent
 

@@ -258,25 +258,29 @@ class _Words:
         return _ROWS["within"] if parts & words_of("located") or placed else ()
 
     def _going(self) -> Iterator[GoalRow]:
-        """``go to Y`` for the place that an action takes the one to who acts."""
+        """``go to Y`` for the place that an action takes the one to who acts, and ``send X to Y`` where he is named."""
         found: dict[Formula, None] = {}
         sent: dict[Formula, None] = {}
+        for there, left in self._whereabouts():
+            found[Exists(left, there) if left else there] = None
+            if len(left) == 1:
+                named = tuple("?x" if term == left[0].name else term for term in there.terms)
+                sent[Atom(there.predicate, named)] = None
+        where, why = Slot("?y", _ROWS["going"]), "a predicate of where one is"
+        yield from (self._row(_ROWS["go"], (where,), condition, "go to Y", why) for condition in found)
+        both = Slot("?x"), where
+        yield from (self._row(_ROWS["send"], both, condition, "send X to Y", why) for condition in sent)
+
+    def _whereabouts(self) -> Iterator[tuple[Atom, tuple[TypedName, ...]]]:
+        """Yield the atoms that say where one is who acts, with ``?y`` for the place, and the parameters left open."""
         for action in self.domain.actions:
             given = {p.name: p for p in action.parameters}
             for atom, (place,) in _journeys(action):
                 others = [given[term] for term in atom.terms if term in given and term != place]
                 if all(map(self.actor, others)):
                     names = {**{p.name: f"?any_{i}" for i, p in enumerate(others)}, place: "?y"}
-                    there = Atom(atom.predicate, tuple(names.get(term, term) for term in atom.terms))
-                    left = tuple(TypedName(names[p.name], p.types) for p in others)
-                    found[Exists(left, there) if left else there] = None
-                    if len(left) == 1:
-                        sent[replace(there, terms=tuple("?x" if t == "?any_0" else t for t in there.terms))] = None
-        where, why = Slot("?y", _ROWS["going"]), "a predicate of where one is"
-        for condition in found:
-            yield self._row(_ROWS["go"], (where,), condition, "go to Y", why)
-        for condition in sent:
-            yield self._row(_ROWS["send"], (Slot("?x"), where), condition, "send X to Y", why)
+                    terms = tuple(names.get(term, term) for term in atom.terms)
+                    yield Atom(atom.predicate, terms), tuple(TypedName(names[p.name], p.types) for p in others)
 
     def contents(self) -> Iterator[GoalRow]:
         """``fill V with S`` for predicates that join a thing and a value which actions bring about: loads, say."""

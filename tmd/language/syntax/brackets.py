@@ -370,17 +370,22 @@ class Bracketer(Words):
         if own and self.stem_among(verb, "ordering"):
             self._told = self.stem_among(verb, "liking")
             return at + 1  # "I'll have a tea"
+        tells = self._begin_telling(at, own=own)
+        noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
+        leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
+        if self._verb is not None or not (own or noticed) or leads:
+            self._told = self._told or tells
+            return at + 1
+        self.tokens[at].kind = K.PRON
+        return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
+
+    def _begin_telling(self, at: int, *, own: bool) -> bool:
+        """Begin a unit where somebody is the subject; tell whether it is somebody who is not asked."""
         tells = self.tokens[at].text.partition("'")[0] in section("tellers")
         if self._last() in LINKS and ((own and self._verb is not None) or (tells and self._named())):
             self.out[-1].kind = K.SEP
             self._begin()
-        noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
-        leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
-        if self._verb is not None or not (own or noticed) or leads:
-            self._told = self._told or (tells and self.kind(at - 1) is not K.AUX)
-            return at + 1
-        self.tokens[at].kind = K.PRON
-        return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
+        return tells and self.kind(at - 1) is not K.AUX
 
     def _is(self, at: int, verb: int) -> bool:
         """Tell whether a form of *be* stands between a subject and what is said of it."""
@@ -531,24 +536,29 @@ class Bracketer(Words):
 
     def _deed(self, at: int) -> int:
         token = self.tokens[at]
-        if token.stem in section("wishing"):
+        if token.stem in section("wishing") - section("liking"):
             self._told = False
         if token.stem in section("wishing") and self._wishes_state(at):
             return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
         if token.stem in section("causing") and self._causes(at):
             token.kind = K.LET
             return self._let(at) if self.kind(at + 1) is not K.V else at + 1
-        past = token.first is not None and token.first[1] == "ed"  # "I tripped over it, nearly fell"
-        wish = token.stem in section("wishing") | section("ordering") and token.form != "ing"
-        named = self._last() in HEADS and self.out[self._subject].kind is K.DET
-        # "my eyes get tired", but not "the boxes from the shelf put them in the bin"
-        subject = named and not (self.lexicon.names_thing(self.out[-1].text) or self.follows(at + 1, "IDLE* PRON"))
-        token.told = (self._told and not wish) or past or subject or token.stem in section("talking")
+        token.told = self._is_told(at)
         self.out.append(token)
         self._verb = token
         if self.kind(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1
+
+    def _is_told(self, at: int) -> bool:
+        """Tell whether a verb says what somebody does who is not asked: "they are starving", "my eyes get tired"."""
+        token = self.tokens[at]
+        past = token.first is not None and token.first[1] == "ed"  # "I tripped over it, nearly fell"
+        wish = token.stem in section("wishing") | section("ordering") and token.form != "ing"
+        named = self._last() in HEADS and self.out[self._subject].kind is K.DET
+        # but not "the boxes from the shelf put them in the bin"
+        subject = named and not (self.lexicon.names_thing(self.out[-1].text) or self.follows(at + 1, "IDLE* PRON"))
+        return (self._told and not wish) or past or subject or token.stem in section("talking")
 
     def _causes(self, at: int) -> bool:
         """Tell whether a verb only brings another one about: "make it play", "make close the door"."""
@@ -629,8 +639,8 @@ class Bracketer(Words):
 
     def _is_reason(self, at: int) -> bool:
         """Tell whether what stands before is the reason of what follows: "so", but not "so does the mug"."""
-        alike = self.follows(at + 1, "AUX NP") and not self.among(at + 1, "frame_modals")
-        return self.among(at, "reasoning") and not alike
+        asks = self.among(at + 1, "frame_modals") and self.among(at + 2, "addressee", "tellers")
+        return self.among(at, "reasoning") and (asks or not self.follows(at + 1, "AUX NP"))
 
     def _reasoned(self) -> None:
         """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""

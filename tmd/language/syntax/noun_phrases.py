@@ -87,8 +87,11 @@ class Phrase:
             tuple(dict.fromkeys([*self._adjectives(), *self.attributes])),
             self.either,
             not section("each_words").isdisjoint(words),
-            not (self.lead or self.plural or self.pronoun),
+            self._undetermined(),
         )
+
+    def _undetermined(self) -> bool:
+        return not (self.lead or self.plural or self.pronoun)
 
     def _adjectives(self) -> list[str]:
         """Return the adjectives before the head."""

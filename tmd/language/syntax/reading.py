@@ -61,17 +61,17 @@ class TextReading:
                 continue
             actions = trees(unit.children, "clause", "letting")
             front = places + [n for n in unit.children if n not in actions]
-            only_place = not actions and all(is_a(n, "place") for n in front)
-            heads = only_place and isinstance(following, Leaf) and following.source.text == ":"
-            places = front if heads else []  # "into the crate: rope, hose"
-            if heads:
-                continue
-            for index, action in enumerate(actions):
-                self._clause(action, [] if index else front)
-            if not actions and not (goes_on and self._gapped(front)):
-                self._verbless(front)
+            places = front if not actions and _is_heading(front, following) else []
+            if not places:
+                self._unit(actions, front, goes_on=goes_on)
         self._carry()
         return self
+
+    def _unit(self, actions: Sequence[Tree[Leaf]], front: list[Node], *, goes_on: bool) -> None:
+        for index, action in enumerate(actions):
+            self._clause(action, [] if index else front)
+        if not actions and not (goes_on and self._gapped(front)):
+            self._verbless(front)
 
     # clauses with a verb
 
@@ -392,6 +392,12 @@ class TextReading:
                 draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in section("guards")]
                 draft.fronted = True
             before = draft
+
+
+def _is_heading(front: Sequence[Node], following: Node | None) -> bool:
+    """Tell whether a unit is the place of those behind its colon: "into the crate: rope, hose"."""
+    colon = isinstance(following, Leaf) and following.source.text == ":"
+    return colon and all(is_a(n, "place") for n in front)
 
 
 def _treat(draft: ClauseDraft) -> None:

@@ -439,7 +439,7 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
         if token.kind is Kind.STOP:
             sentence = Sentence()
         _remember(word, sentence)
-        if token.kind not in (Kind.ADV, Kind.FILLER):
+        if token.kind not in (Kind.ADV, Kind.FILLER, Kind.SKIP):
             left = token
     if trace is not None:
         trace += [row.id for _, row in fired]
@@ -452,7 +452,7 @@ def _ahead(tokens: list[Token]) -> list[tuple[Token, Token]]:
     right = beyond = _EDGE
     for token in reversed(tokens):
         found.append((right, beyond))
-        if token.kind is not Kind.ADV:
+        if token.kind not in (Kind.ADV, Kind.SKIP):
             right, beyond = token, right
     return found[::-1]
 
