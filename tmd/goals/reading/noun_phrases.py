@@ -14,7 +14,7 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.words import ends_as, is_idle, is_noun, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section, singular
-from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, split_name
+from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, same, split_name
 from tmd.pddl.ground_formula import FALSE, TRUE
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
@@ -131,6 +131,9 @@ class Nouns(Facts):
         """
         if is_noun(noun, "everything"):
             return self.world.profiles.objects
+        head, _, vague = noun.rpartition("_")
+        if head and vague in section("vague_heads") and self.things(head, state, place=place, types=types):
+            return self.things(head, state, place=place, types=types)
         if ends_as(noun, "thing"):  # "flammable things", of whatever class
             return self._all_that_are(split_name(noun)[:-1], Moments(state, state))
         group = self._group(noun) if not (place and noun in self.lexicon.nouns) else ()
@@ -249,6 +252,7 @@ class Nouns(Facts):
         moments = Moments(state, state)
         if left and self._belongs("_".join(left), name, moments):
             return []
+        left = [w for w in left if not any(same(w, other) for other in called)]
         return [w for w in left if not (self._belongs(w, name, moments) or self._is_so(w, name, moments))]
 
     def _is_declared(self, noun: str) -> bool:

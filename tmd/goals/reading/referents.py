@@ -135,8 +135,16 @@ class Referents:
         return (some, [name for name in named if name not in some]) if some else (named, [])
 
     def _make_room(self, unit: Unit, clause: Clause) -> None:
-        """Let a measure make room for what it measures: *a spoon of sugar* is sugar."""
+        """Let a measure make room for what it measures: *a spoon of sugar* is sugar, *the contents* are all of it."""
         measured = next((t for r, t in unit.relations if is_relation(r, "partitive")), None)
+        if (
+            is_noun(unit.direct or "", "content")
+            and measured is not None
+            and not self.nouns.things(unit.direct or "", 0)
+        ):
+            inside, everything = the_word("relations", "inside"), the_word("nouns", "whole")
+            unit.direct = everything
+            unit.relations = [(inside if is_relation(r, "partitive") else r, t) for r, t in unit.relations]
         if unit.direct in words_of("measures") and measured is not None:
             others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
             unit.direct, unit.relations = measured, others + self.relations_of(measured, clause)
@@ -159,8 +167,9 @@ class Referents:
     def _places_of(self, name: str, reading: ClauseReading) -> Iterator[tuple[str, str]]:
         """Yield where a thing is now, as relations and places."""
         resting = sorted(words_of("relations", "resting"))
-        facts = [f for f in self.nouns.facts_about(name) if f.args[0] == name and self.grounder.holds(f, reading.state)]
-        for fact, other in ((fact, other) for fact in facts for other in fact.args[1:]):
+        about = (f for f in self.nouns.facts_about(name) if f.args[0] == name)
+        now = [f for f in about if self.grounder.holds(f, reading.state)]
+        for fact, other in [(each, place) for each in now for place in each.args[1:]]:
             is_place = not self.nouns.is_constant(other) or other in self.nouns.places
             for where in [r for r in resting if r in fact.args] or resting:
                 if is_place and self.nouns.related_now((name,), where, (other,), reading.moments):

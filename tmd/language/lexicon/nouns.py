@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import NamedTuple
 
-from tmd.language.lexicon.lexicon import Lexicon, builtin, data_text, sections, singular
+from tmd.language.lexicon.lexicon import Lexicon, builtin, data_text, pairs, sections, singular
 
 NAME, ALIAS, WORDNET = "name", "alias", "wordnet"
 """What :attr:`Match.how` can say, strongest first."""
@@ -106,15 +106,13 @@ def rank(
         # an alias of the whole noun says more than a name that shares its head only
         spelled = {form: aliases[form] for form in _spellings(noun, parsed)[:-1] if form in aliases}
         named = _by_alias(noun, parsed, candidates, spelled) or named
-    for found in (
-        named,
-        _by_alias(noun, parsed, candidates, aliases),
-        _by_synonym(parsed, candidates),
-        _by_wordnet(parsed, candidates, threshold),
-    ):
-        if found:
-            return sorted(found, key=lambda m: (-m.score, _natural(m.name)))
-    return []
+    found = (
+        named
+        or _by_alias(noun, parsed, candidates, aliases)
+        or _by_synonym(parsed, candidates)
+        or _by_wordnet(parsed, candidates, threshold)
+    )
+    return sorted(found, key=lambda m: (-m.score, _natural(m.name)))
 
 
 def _natural(name: str) -> tuple[tuple[int, int | str], ...]:
@@ -168,7 +166,7 @@ def _name_score(noun: _Noun, words: tuple[str, ...], extra: tuple[str, ...]) -> 
         return 0.0
     supporting = set(words[:-1]) | {singular(w.lower()) for e in extra for w in split_name(e)}
     wanted = set(noun.modifiers)
-    hits = len(wanted & supporting)
+    hits = sum(word in supporting or any(same(word, other) for other in supporting) for word in wanted)
     missing, unsaid = len(wanted) - hits, len(set(words[:-1]) - wanted)
     return _LOOSEST + (1 - _LOOSEST) * (1 + 2 * hits) / (1 + 2 * hits + 2 * missing + unsaid) - 0.05
 
@@ -220,8 +218,8 @@ def _by_alias(
 
 def _by_synonym(noun: _Noun, candidates: Sequence[NounMatch]) -> list[Match]:
     """Return what a synonym in WordNet names: *couch* is a sofa."""
-    meant = _usual_senses("_".join(noun.words))
-    named = [c for c in candidates if any(meant & _usual_senses("_".join(words)) for words in _vocabulary(c))]
+    said = "_".join(noun.words)
+    named = [c for c in candidates if any(same(said, "_".join(words)) for words in _vocabulary(c))]
     return _numbered([Match(candidate.name, 1.0, ALIAS) for candidate in named], noun)
 
 
@@ -279,6 +277,13 @@ def _senses(noun: str) -> list[int]:
     known = _taxonomy().senses
     found = known.get(noun) or known.get(singular(noun)) or []
     return [synset for sense, synset in sorted(found) if sense <= _SENSES]
+
+
+@cache
+def same(first: str, second: str) -> bool:
+    """Return whether two nouns are synonyms: in a usual sense of both in WordNet, or by ``same_things``."""
+    joined = pairs("same_things").get(first) == second
+    return joined or not _usual_senses(first).isdisjoint(_usual_senses(second))
 
 
 def _usual_senses(noun: str) -> frozenset[int]:

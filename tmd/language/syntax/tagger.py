@@ -34,6 +34,8 @@ _EDGE = Token(Kind.STOP, "", NOWHERE)
 _LONGEST_RUN = 8
 """A pattern has at most so many words."""
 WHEN = "says when, which no state shows"
+_STRETCHED = re.compile(r"(.)\1{2,}")
+"""A letter that is written three times or more."""
 _LONG = 5
 """Longer words that end in *ly* are adverbs."""
 
@@ -394,6 +396,8 @@ def _spelled(token: Token, lexicon: Lexicon) -> str:
     if word.endswith("'s") and word not in section("be") | section("whole"):
         word, token.form = word[:-2], "possessive"
     word = slips().get(word, word).rstrip("'")
+    if _STRETCHED.search(word) and not lexicon.knows(word):  # "pleeease"
+        word = _STRETCHED.sub(r"\1", word)
     if word.endswith(sections()["contracted"]):
         return word
     corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
