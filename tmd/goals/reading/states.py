@@ -106,8 +106,9 @@ class States:
         for name in referent.names:
             state = self.nouns.attribute(result, name, reading.moments) if result else TRUE
             if state is not None:
-                places = (self._related(name, r, self.referents.targets(t, reading), reading) for r, t in relations)
-                alive.append(conjunction((state, *places)))
+                ends = [(r, self.referents.targets(t, reading)) for r, t in relations]
+                told = ((r, names) for r, names in ends if names or not is_relation(r, "benefit"))  # "for my mother"
+                alive.append(conjunction((state, *(self._related(name, r, names, reading) for r, names in told))))
         if not alive:
             return self._unsaid(referent, reading)
         return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)

@@ -59,7 +59,9 @@ class Bracketer(Words):
         self._subject = 0
         """Where in ``out`` the arguments begin that may be the subject of a statement."""
         self._told = False
-        """The clause that is open has somebody as its subject."""
+        """The clause that is open has somebody as its subject who is not asked."""
+        self._somebody = False
+        """The clause that is open has a person as its subject."""
         self._units: list[tuple[int, bool]] = [(0, False)]
         """Where in ``out`` the clauses of the sentence begin, and whether somebody is the subject of the one before."""
         self._asked = False
@@ -154,7 +156,8 @@ class Bracketer(Words):
     def _begin(self) -> None:
         """Begin a unit."""
         self._units.append((len(self.out), self._told))
-        self._verb, self._subject, self._asked, self._told = None, len(self.out), False, False
+        self._verb, self._subject = None, len(self.out)
+        self._asked = self._told = self._somebody = False
 
     def _last(self) -> Kind:
         return self.out[-1].kind if self.out else K.SEP
@@ -298,6 +301,7 @@ class Bracketer(Words):
             back -= 1
         if back < 0 or self.out[back].kind is not K.V or self.out[back].stem not in section("lead_verbs"):
             return False
+        self._told = self._somebody and self.out[back].stem in section("wishing")  # "I want to watch it"
         del self.out[back:]
         self._verb = None
         return True
@@ -367,7 +371,8 @@ class Bracketer(Words):
             opener.negated = True
             return self._bracket(opener, K.ENSURE, wish + 1, self._statement_end(wish + 1))
         own = self._of_oneself(at, verb)
-        if own and self.stem_among(verb, "ordering"):
+        self._somebody = True
+        if own and self.stem_among(verb, "ordering") and self.tokens[verb].form != "ing":
             self._told = self.stem_among(verb, "liking")
             return at + 1  # "I'll have a tea"
         tells = self._begin_telling(at, own=own)
@@ -400,7 +405,9 @@ class Bracketer(Words):
             return True  # "they left the door open"
         liking = (self.stem_among(verb, "liking") or self._tells(verb)) and verb == self.peek(at)
         denied = self.follows(at + 1, "IDLE* NEG IDLE* V")
-        return self.among(at, "speakers") and (self._is(at, verb) or past or liking or denied)
+        if self.among(at, "tellers") and (denied or self.follows(at + 1, "IDLE* NEG IDLE* N")):
+            return True  # "he never puts them away"
+        return self.among(at, "speakers") and (self._is(at, verb) or past or liking)
 
     def _tells(self, at: int) -> bool:
         """Tell whether a verb is no instruction, in English or here: "I promise", "we prefer"."""
@@ -536,8 +543,9 @@ class Bracketer(Words):
 
     def _deed(self, at: int) -> int:
         token = self.tokens[at]
-        if token.stem in section("wishing") - section("liking"):
-            self._told = False
+        if token.stem in section("wishing"):
+            modal = any(self.among(i, "frame_modals") for i in range(max(at - 2, 0), at))
+            self._told = self._told and token.stem in section("liking") and not modal
         if token.stem in section("wishing") and self._wishes_state(at):
             return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
         if token.stem in section("causing") and self._causes(at):
