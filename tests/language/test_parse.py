@@ -277,6 +277,14 @@ def test_what_is_done_first_comes_first(text: str, expected: list[str]) -> None:
         ("rake: shed -> bench", ["(bring, [rake, shed, bench], from: rake -> shed, to: rake -> bench)"]),
         ("Fill the pot w/ water", ["(fill, [pot, water], with: pot -> water)"]),
         ("lamp: off; gate: shut", ["(turn_off, [lamp])", "(close, [gate])"]),
+        ("rope = shed", ["(bring, [rope, shed], to: rope -> shed)"]),
+        ("Into the shed: the rope, the rake.", ["(have, [shed, rope, rake], into: rope -> shed, into: rake -> shed)"]),
+        (
+            "Put the rope and the rake both in the shed.",
+            ["(put, [rope, rake, shed], in: rope -> shed, in: rake -> shed)"],
+        ),
+        ("Shut the gate pleeease", ["(shut, [gate])"]),
+        ("Oil the hinge, after shut the gate.", ["(oil, [hinge])", "(shut, [gate])"]),
     ],
 )
 def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
@@ -300,10 +308,40 @@ def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
         ("You should oil the hinge, so fetch the oil.", ["(oil, [hinge])", "(fetch, [oil])"]),
         ("Shut the gate, dear, and oil the hinge.", ["(shut, [gate])", "(oil, [hinge])"]),
         ("I promise it was not me, but shut the gate.", ["(shut, [gate])"]),
+        ("Shut the gate, my dear.", ["(shut, [gate])"]),
+        ("Shut the gate, the goats are loose!", ["(shut, [gate])"]),
+        ("Lamp off, the baby is asleep, it is late.", ["(turn_off, [lamp])"]),
+        ("He never puts it away, so take the rake.", ["(take, [rake])"]),
+        ("Uncle's coming up the path, shut the gate.", ["(shut, [gate])"]),
+        ("You know how they are, so could you shut the gate?", ["(shut, [gate])"]),
+        ("The hinge is dry, then oil it.", ["(oil, [it])"]),
+        ("Oil the hinge and shut the gate, in that order.", ["(oil, [hinge])", "(shut, [gate])"]),
+        ("Shut the gate by noon.", ["(shut, [gate])"]),
     ],
 )
 def test_what_is_said_beside_a_request_takes_nothing_away(text: str, expected: list[str]) -> None:
     assert clauses(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Shut the gate, they are starving.", "starve"),
+        ("My feet get cold. Shut the gate.", "get"),
+        ("Forgive the noise, but shut the gate.", "forgive"),
+    ],
+)
+def test_what_somebody_else_does_is_marked(text: str, told: str) -> None:
+    assert [clause.verb for clause in parse(text).clauses if clause.told] == [told]
+
+
+def test_requests_are_not_taken_for_what_somebody_does() -> None:
+    for text in (
+        "I want the rope. Shut the gate.",
+        "Could someone shut the gate?",
+        "I want the rope, and if it is wet, dry it",
+    ):
+        assert not any(clause.told for clause in parse(text).clauses)
 
 
 @pytest.mark.parametrize(

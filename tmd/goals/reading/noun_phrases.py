@@ -160,7 +160,11 @@ class Nouns(Facts):
             name: [f for f in self.facts_about(name) if _tells_of(noun, f)] for name in self.world.profiles.objects
         }
         having = tuple(n for n, told in facts.items() if any(f in self.world.task.static for f in told))
-        return having or tuple(n for n, told in facts.items() if told)
+        having = having or tuple(n for n, told in facts.items() if told)
+        owner, _, part = noun.rpartition("_")
+        if owner and not having:  # "the attic door"
+            having = tuple(m.name for m in self.mentions.ranked(owner) if m.name in self._with_part(part))
+        return having
 
     def _all_that_are(self, adjectives: Sequence[str], moments: Moments) -> tuple[str, ...]:
         said = {n: [self.attribute(word, n, moments) for word in adjectives] for n in self.world.profiles.objects}
