@@ -16,7 +16,7 @@ WORLDS = Path(__file__).parent / "worlds"
 FLOORS = {
     "garden": (25, 0, 8),
     "bikeshop": (29, 0, 7),
-    "ward": (23, 1, 7),
+    "ward": (26, 0, 7),
     "engine_room": (28, 2, 7),
     "theatre": (56, 0, 12),
 }
