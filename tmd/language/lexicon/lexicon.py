@@ -160,7 +160,8 @@ class Lexicon:
 
     def with_names(self, names: Iterable[str]) -> Lexicon:
         """Return the lexicon with names of objects: all words of a name are one noun ("blood sample 1")."""
-        parts = (tuple(w for w in name.lower().replace("-", "_").split("_") if w.isalpha()) for name in names)
+        words = (name.lower().replace("-", "_").rstrip("0123456789").split("_") for name in names)
+        parts = (tuple(word for word in name if word.isalpha()) for name in words)
         compounds = {words for words in parts if len(words) > 1 and (self.verb(words[0]) or ("", "", 0))[2] < _SURE}
         return self if compounds <= self.compounds else replace(self, compounds=self.compounds | compounds)
 
