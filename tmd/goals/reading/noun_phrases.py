@@ -14,7 +14,7 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.words import ends_as, is_idle, is_noun, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section, singular
-from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, same, split_name
+from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, same, split_name, words_in_name
 from tmd.pddl.ground_formula import FALSE, TRUE
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
@@ -371,7 +371,14 @@ class Nouns(Facts):
         kinds = self.mentions.kinds
         states = {name: self.attribute(word, name, moments) for name in self.world.profiles.objects}
         other = {kinds.get(name, name) for name, f in states.items() if f not in (None, TRUE, FALSE)}
-        return tuple(n for n in names if states[n] != TRUE or kinds.get(n, n) in other) if other else names
+        said = {word, *state_words(word)}
+
+        def stated(name: str) -> bool:
+            static = (fact for fact in self.facts_about(name) if fact in self.world.task.static)
+            return any(not said.isdisjoint(words_in_name(fact.predicate)) for fact in static)
+
+        kept = tuple(n for n in names if states[n] != TRUE or kinds.get(n, n) in other or stated(n))
+        return kept if other else names
 
     def _modified(self, name: str) -> bool:
         """Return whether the name of an object says which one of its kind it is: ``red_block``."""

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 from itertools import permutations, product
 
 from tmd.goals.sources.table import ACTIONS, FIRST, MARK, GoalRow, GoalTable, Slot
@@ -255,7 +256,19 @@ class _Words:
                 return (preposition,)
         done = _participle(name)
         placed = done is not None and not words_of("verbs", "settling").isdisjoint(family(done))  # "stowed"
-        return _ROWS["within"] if parts & words_of("located") or placed else ()
+        return _ROWS["within"] if parts & words_of("located") or placed or name in self._exchanged else ()
+
+    @cached_property
+    def _exchanged(self) -> frozenset[str]:
+        """The predicates that actions exchange for each other: who goes aboard is ashore no longer, and back."""
+        ways = {
+            (lost.atom.predicate, made.atom.predicate)
+            for action in self.domain.actions
+            for lost, made in product(action.effects, action.effects)
+            if made.positive and not lost.positive and lost.atom.predicate != made.atom.predicate
+            if len(lost.atom.terms) == len(made.atom.terms) == 2 and lost.atom.terms[0] == made.atom.terms[0]
+        }
+        return frozenset(one for one, other in ways if (other, one) in ways)
 
     def _going(self) -> Iterator[GoalRow]:
         """``go to Y`` for the place that an action takes the one to who acts, and ``send X to Y`` where he is named."""

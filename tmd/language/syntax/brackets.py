@@ -247,7 +247,8 @@ class Bracketer(Words):
             contrast = self.among(end, "contrasts") or self.kind(end) is K.COMMA
             if contrast and self.follows(end + 1, "IDLE* (V|SUBJECT|SUB|NP|P|TO|INF)"):
                 break
-            run_on = self.follows(end - 1, "(HEAD|STATE) V") and self.tokens[end].strength == 3
+            tells = self.kind(end) is K.SUBJECT and self.among(end, "tellers") and end > at
+            run_on = tells or (self.follows(end - 1, "(HEAD|STATE) V") and self.tokens[end].strength == 3)
             if run_on or (not deed and self.follows(end, "INF|SUB|PURP|V")):
                 break  # "the saw, not the axe, to cut it"
             end += 1

@@ -353,7 +353,9 @@ class Attachment:
         placing = self.draft.verb.stem in section("placing") | section("belonging")
         bare = phrases[0].determined and not phrases[-1].determined and not self.draft.direct[0].determined
         opposite = any(w in section("other_words") for p in _targets(rest[0]) for w in p.lead)
-        terse = not any(phrase.determined for phrase in (*phrases, self.draft.direct[0]))  # "cup in sink and pan in bin"
+        terse = not any(
+            phrase.determined for phrase in (*phrases, self.draft.direct[0])
+        )  # "cup in sink and pan in bin"
         told = phrases[-1].determined or phrases[-1].name in section("one_words")
         return (told or terse or bare or opposite) and (name == opening or (placing and goes))
 

@@ -73,7 +73,7 @@ def _placing(words: Words, at: int) -> str:
     place = words.follows(at + 1, "P|TO|STATE") or words.among(at + 1, "back_words", "where_words")
     if words.among(at, "belonging") and place:
         return first_of("belonging")
-    stays = words.follows(at + 1, "BREAK") or words.among(at + 1, "there_words")
+    stays = words.follows(at + 1, "BREAK") or words.among(at + 1, "there_words", "end_states")
     return pairs("standing").get(words.tokens[at].text, "") if place or stays else ""
 
 

@@ -344,6 +344,7 @@ class TextReading:
         if empty and (draft.verb.stem == BE or vague):
             return
         self._modify(draft, conditions, fronted=True)
+        draft.spans += spans(conditions)
         if draft.mood is Mood.AVOID:
             self.forbidden.append((len(self.drafts), draft))
         else:
