@@ -113,13 +113,10 @@ def _in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:
     if heading is not None and not heading.implied:
         clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]
     ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
-    asked = any(not clause.told for clause in clauses)
     return tuple(
         step
         for number, clause in ordered
-        for step in _steps(
-            clause, number, summarises=not number and len(clauses) > _FEWEST, aside=asked and clause.told
-        )
+        for step in _steps(clause, number, summarises=not number and len(clauses) > _FEWEST)
     )
 
 
@@ -129,15 +126,8 @@ def _step(clause: Clause, number: int, owner: Clause, *, main: bool = True) -> R
     return RuleStep(clause, number, main=main, direct=clause.direct, guards=guards, otherwise=owner.otherwise)
 
 
-def _steps(clause: Clause, number: int, *, summarises: bool, aside: bool) -> Iterator[RuleStep]:
-    """Yield the steps of a clause.
-
-    Args:
-        clause: The clause.
-        number: Its number in the text.
-        summarises: Enough follows that it may only be a heading.
-        aside: It may be what somebody does who is not asked, and other clauses ask for something.
-    """
+def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleStep]:
+    """Yield the steps of a clause; ``summarises`` where enough follows that it may only be a heading."""
     if clause.mood is Mood.KEEP:
         step = _step(clause, number, clause)
         if clause.result and clause.result not in words_of("outcomes", "alone"):
@@ -151,8 +141,8 @@ def _steps(clause: Clause, number: int, *, summarises: bool, aside: bool) -> Ite
         awaited = inner.verb == BE or any(map(is_pronoun, inner.direct))
         yield replace(_step(inner, number, clause, main=False), optional=True, awaited=awaited)
     summary = is_verb(clause.verb, "summary")
-    optional = clause.heading or aside or (summarises and summary)
-    yield replace(_step(clause, number, clause), optional=optional, loose=aside or (optional and summary))
+    optional = clause.heading or (summarises and summary)
+    yield replace(_step(clause, number, clause), optional=optional, loose=optional and summary)
     if clause.duration and not is_verb(clause.verb.partition("_")[0], "waiting"):
         # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
         waiting = Clause(the_word("verbs", "waiting"), span=clause.span, text=clause.text)

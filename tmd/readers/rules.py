@@ -170,12 +170,18 @@ class RuleDialogue(Dialogue):
         return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
 
     def _is_aside(self, step: RuleStep, refusal: Refusal) -> bool:
-        """Return whether a step without a verb names nothing that the domain knows: "what a day!", among others."""
-        clause = step.clause
-        named = (noun for noun in clause.resolved() if not self._goals.referents.points_back(noun))
-        unknown = refusal.kind is RefusalKind.NO_SUCH_THING and not any(map(self._goals.knows_of, named))
+        """Return whether a step that is refused may be left out, since another one asks for something.
+
+        It has no verb, or tells what somebody does who is not asked, and names nothing that the domain knows: *what a
+        day!*, *they are starving*.
+        """
+        clause, referents = step.clause, self._goals.referents
+        kinds = (RefusalKind.NO_SUCH_THING, *((RefusalKind.UNKNOWN_VERB, RefusalKind.NOT_UNDERSTOOD) * clause.told))
+        named = (noun for noun in clause.objects if not (referents.points_back(noun) or noun in PERSONS))
+        idle = (clause.implied or clause.told) and not any(map(self._goals.knows_of, named))
         others = (other for other in self.steps if isinstance(other, RuleStep) and other is not step)
-        return clause.implied and unknown and any(other.main and not other.optional for other in others)
+        asked = any(other.main and not (other.optional or other.clause.told) for other in others)
+        return idle and asked and refusal.kind in kinds
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``: what its nouns turned out to mean."""
