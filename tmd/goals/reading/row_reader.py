@@ -202,7 +202,11 @@ class RowReader:
         phrase = reading.clause.phrase(unit.direct or "")
         known = self.nouns.things(unit.direct or "", reading.state)
         every = phrase.quantifier is Quantifier.ALL and bool(phrase.attributes)
-        return every and bool(known) and refusal.kind is RefusalKind.NO_SUCH_THING
+        understood = all(
+            any(self.nouns.attribute(word, name, reading.moments) is not None for name in known)
+            for word in phrase.attributes
+        )
+        return every and understood and bool(known) and refusal.kind is RefusalKind.NO_SUCH_THING
 
     def _as_at_first(self, formula: Formula, reading: ClauseReading) -> Formula:
         """Return of several places where a thing may be put *back* the one where it was: *back on its burner*."""
