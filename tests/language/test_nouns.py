@@ -43,9 +43,11 @@ LEXICON = Lexicon(nouns={"pot": ("kettle", "mug"), "mug": ("kettle",)})
         ("container", "kettle1", NAME),
         ("pot", "kettle1", ALIAS),
         ("second_pot", "mug1", ALIAS),
-        ("refrigerator", "fridge1", WORDNET),
+        ("refrigerator", "fridge1", ALIAS),
+        ("icebox", "fridge1", WORDNET),
         ("sofa", "couch1", ALIAS),
-        ("faucet", "sink1_tap", WORDNET),
+        ("faucet", "sink1_tap", ALIAS),
+        ("spigot", "sink1_tap", WORDNET),
     ],
 )
 def test_first_choice(noun: str, first: str, how: str) -> None:

@@ -256,8 +256,12 @@ class Nouns(Facts):
         moments = Moments(state, state)
         if left and self._belongs("_".join(left), name, moments):
             return []
-        left = [w for w in left if not any(same(w, other) for other in called)]
-        return [w for w in left if not (self._belongs(w, name, moments) or self._is_so(w, name, moments))]
+        return [w for w in left if not self._is_about(w, name, called, moments)]
+
+    def _is_about(self, modifier: str, name: str, called: Collection[str], moments: Moments) -> bool:
+        """Return whether a modifier is a synonym of a word for a thing, or says what it belongs to or how it is."""
+        alike = any(same(modifier, other) for other in called)
+        return alike or self._belongs(modifier, name, moments) or self._is_so(modifier, name, moments)
 
     def _is_declared(self, noun: str) -> bool:
         """Return whether the lexicon says what a noun means here."""

@@ -351,13 +351,16 @@ class Attachment:
         origin = opening in section("origins") and len(rest) > 1 and is_a(rest[1], "place")
         goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
         placing = self.draft.verb.stem in section("placing") | section("belonging")
-        bare = phrases[0].determined and not phrases[-1].determined and not self.draft.direct[0].determined
         opposite = any(w in section("other_words") for p in _targets(rest[0]) for w in p.lead)
-        terse = not any(
-            phrase.determined for phrase in (*phrases, self.draft.direct[0])
-        )  # "cup in sink and pan in bin"
-        told = phrases[-1].determined or phrases[-1].name in section("one_words")
-        return (told or terse or bare or opposite) and (name == opening or (placing and goes))
+        alike = opposite or self._is_thing_again(phrases)
+        return alike and (name == opening or (placing and goes))
+
+    def _is_thing_again(self, phrases: list[Phrase]) -> bool:
+        """Tell whether the last of some nouns behind a preposition has the determiner of a thing, and of no place."""
+        last, direct = phrases[-1], self.draft.direct[0]
+        bare = phrases[0].determined and not direct.determined
+        terse = not (direct.determined or any(p.determined for p in phrases))  # "cup in sink and pan in bin"
+        return last.determined or last.name in section("one_words") or bare or terse
 
     def _hosted(self, name: str, targets: list[Phrase]) -> bool:
         """Tell whether a preposition stands beside the noun before it rather than the direct object."""
