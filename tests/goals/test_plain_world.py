@@ -70,6 +70,11 @@ def test_requests_end_as_they_ask(folder: Path, text: str, held: set[str], gone:
     assert facts.isdisjoint(gone)
 
 
+def test_a_prohibition_that_nothing_can_check_is_told(folder: Path) -> None:
+    grounded = tmd.load_domain(str(folder)).ground("Clear the attic, don't scratch it.", folder / "problem.pddl")
+    assert any("scratch" in warning for warning in grounded.warnings)
+
+
 def test_a_fragment_that_names_nothing_known_is_left_out_with_a_warning(folder: Path) -> None:
     grounded = tmd.load_domain(str(folder)).ground("What a day! Shut the attic door.", folder / "problem.pddl")
     assert "(door_open attic)" not in end(grounded)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Refusal, RefusalKind
-from tmd.goals.clause_goal import ClauseGoal, ClauseReading
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading, text_of
 from tmd.goals.grounder import Moments
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Memory
@@ -27,17 +27,20 @@ class TextConstraints:
         kept: Literals that must hold at the end of every step.
         untouched: Objects that must not be handled.
         left: Objects that must stay where they are.
+        notes: Prohibitions that nothing can check, for people.
     """
 
     never: tuple[Formula, ...] = ()
     kept: tuple[Formula, ...] = ()
     untouched: frozenset[str] = frozenset()
     left: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
     def __or__(self, other: TextConstraints) -> TextConstraints:
         never = tuple(dict.fromkeys((*self.never, *other.never)))
         left = tuple(dict.fromkeys((*self.left, *other.left)))
-        return TextConstraints(never, (*self.kept, *other.kept), self.untouched | other.untouched, left)
+        notes = (*self.notes, *other.notes)
+        return TextConstraints(never, (*self.kept, *other.kept), self.untouched | other.untouched, left, notes)
 
 
 class ConstraintReader:
@@ -73,9 +76,9 @@ class ConstraintReader:
         return replace(found, left=(*found.left, *sorted(found.untouched)))
 
     def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> TextConstraints | Refusal:
-        """Return what a prohibition asks for; nothing where it is about persons only: "don't leave me in the dark"."""
+        """Return what a prohibition asks for; a note where it is about persons only: "don't leave me in the dark"."""
         if clause.direct and PERSONS.issuperset(clause.direct):
-            return TextConstraints()
+            return TextConstraints(notes=(f"'{text_of(clause)}' is not checked: it is about persons",))
         if is_verb(clause.verb, "handling") and not self.leaves_a_trace(clause.verb):
             names = self._kept_things(clause, state)
             if not names:
@@ -84,9 +87,10 @@ class ConstraintReader:
         said = replace(clause, verb=BE if clause.result else clause.verb, mood=Mood.DO)
         goal = self.reader.read(said, state, memory)
         if isinstance(goal, Refusal):
-            # what is impossible here, or what no instruction is known to do, does not come about
-            never = (RefusalKind.IMPOSSIBLE, RefusalKind.CONTRADICTION, RefusalKind.UNKNOWN_VERB)
-            return TextConstraints() if goal.kind in never else goal
+            if goal.kind is RefusalKind.UNKNOWN_VERB:  # no instruction is known to do it
+                return TextConstraints(notes=(f"'{text_of(clause)}' is not checked: {goal.message}",))
+            never = goal.kind in (RefusalKind.IMPOSSIBLE, RefusalKind.CONTRADICTION)
+            return TextConstraints() if never else goal
         means = self._means(clause, goal, state)
         if means:
             return TextConstraints(untouched=frozenset(means))

@@ -133,6 +133,7 @@ class RuleDialogue(Dialogue):
         spoken = tuple(dict.fromkeys(n for noun in kept for n in self._goals.nouns.things(noun, state)[:1]))
         self.memory = _Progress(replace(memory, left=constraints.left, recent=spoken))
         self.constraints = PlanConstraints(constraints.never, constraints.kept, constraints.untouched)
+        self.notes = constraints.notes
         return None
 
     def _names_thing(self, piece: Skipped, state: Bits) -> bool:

@@ -137,13 +137,9 @@ class Referents:
     def _make_room(self, unit: Unit, clause: Clause) -> None:
         """Let a measure make room for what it measures: *a spoon of sugar* is sugar, *the contents* are all of it."""
         measured = next((t for r, t in unit.relations if is_relation(r, "partitive")), None)
-        if (
-            is_noun(unit.direct or "", "content")
-            and measured is not None
-            and not self.nouns.things(unit.direct or "", 0)
-        ):
-            inside, everything = the_word("relations", "inside"), the_word("nouns", "whole")
-            unit.direct = everything
+        noun = unit.direct or ""
+        if measured is not None and is_noun(noun, "content") and not self.nouns.things(noun, 0):
+            inside, unit.direct = the_word("relations", "inside"), the_word("nouns", "whole")
             unit.relations = [(inside if is_relation(r, "partitive") else r, t) for r, t in unit.relations]
         if unit.direct in words_of("measures") and measured is not None:
             others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
