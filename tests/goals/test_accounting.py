@@ -23,6 +23,7 @@ from tmd.goals.words import family
         ("kitchen/kitchen1", "Put three cups on the table.", "not 3"),
         ("kitchen/kitchen1", "Open the cupboard using the crowbar.", "crowbar"),
         ("kitchen/kitchen1", "Pour half of the milk into the cup.", "half"),
+        ("kitchen/kitchen1", "Put the mug where the piano is.", "piano"),
         ("living_room/room1", "Turn on the garden lamp.", "garden lamp"),
     ],
 )

@@ -317,6 +317,7 @@ def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
         ("The hinge is dry, then oil it.", ["(oil, [it])"]),
         ("Oil the hinge and shut the gate, in that order.", ["(oil, [hinge])", "(shut, [gate])"]),
         ("Shut the gate by noon.", ["(shut, [gate])"]),
+        ("Put the eggs in the shed, they are getting warm.", ["(put, [egg, shed], in: egg -> shed)"]),
     ],
 )
 def test_what_is_said_beside_a_request_takes_nothing_away(text: str, expected: list[str]) -> None:

@@ -153,12 +153,15 @@ class Referents:
         return [(without if t in none and r in places else r, t) for r, t in relations]
 
     def _whereabouts(self, relation: str, target: str, reading: ClauseReading) -> list[tuple[str, str]]:
-        """Return where something is now, for "where the plate is"; any other relation as it was said."""
+        """Return where something is now, for "where the plate is"; any other relation as it was said.
+
+        Where there is no plate, that is a place that nothing is known of.
+        """
         if not is_relation(relation, "locating") or reading.clause.mood is Mood.KEEP:
             return [(relation, target)]
         names = self.targets(target, reading)[:1]
         places = (place for name in names for place in self._places_of(name, reading))
-        return [next(places, (relation, target))]
+        return [next(places, (relation if names else the_word("relations", "inside"), target))]
 
     def _places_of(self, name: str, reading: ClauseReading) -> Iterator[tuple[str, str]]:
         """Yield where a thing is now, as relations and places."""
@@ -327,7 +330,9 @@ class Referents:
         known = (*bound.names, *bound.containers)
         names = tuple(n for n in known if self.grounder.is_a(n, types))
         if not names:
-            return Referent(antecedent, self.nouns.contained(known, types, reading.state))
+            now = self.nouns.contained(known, types, reading.state)
+            then = self.nouns.contained(bound.names, types, reading.memory.first)  # the egg that was in its shell
+            return Referent(antecedent, now or self._by_now(then, types, reading))
         names = self._by_now(names, types, reading)
         if many and len(names) > 1:
             return Referent(antecedent, names, Mode.ALL, definite=True)

@@ -188,7 +188,8 @@ class Bracketer(Words):
         end += self.kind(end) is K.V
         while self.kind(end) is not K.STOP:
             deed = self.kind(end) is K.V and self.kind(end - 1) not in (K.TO, K.AUX, K.NEG)
-            deed = deed and not self.among(end - 1, "self_forms")  # "such a draught that I'll catch a cold"
+            # "such a draught that I'll catch a cold", "they are getting warm"
+            deed = deed and not (self.among(end - 1, "self_forms") or self.stem_among(end - 1, "becoming"))
             joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
             also = self.kind(end) is K.COMMA and self._statement_follows(end)
             also = also or (self.kind(end) in LINKS and self._is_reason(end + 1))
@@ -408,6 +409,8 @@ class Bracketer(Words):
         denied = self.follows(at + 1, "IDLE* NEG IDLE* V")
         if self.among(at, "tellers") and (denied or self.follows(at + 1, "IDLE* NEG IDLE* N")):
             return True  # "he never puts them away"
+        if self.among(at, "tellers") and self.kind(verb) is K.ING and self._is(at, verb):
+            return True  # "they are getting warm"
         return self.among(at, "speakers") and (self._is(at, verb) or past or liking)
 
     def _tells(self, at: int) -> bool:
