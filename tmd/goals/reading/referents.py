@@ -10,7 +10,7 @@ from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseReading, Unit, words
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, SUBSTANCES, THINGS, Context, choose
-from tmd.goals.reading.noun_phrases import Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.reading.noun_phrases import Bound, Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.sources.table import ACTIONS, GoalRow, GoalTable, Slot, slot_types
 from tmd.goals.words import (
     IT,
@@ -318,11 +318,17 @@ class Referents:
             return replace(self._one_of(antecedent, pronoun, types, reading), noun=pronoun)
         bound = reading.memory.bound.get(antecedent)
         many = is_noun(pronoun, "plural") or self.nouns.is_group(antecedent) or (bound is not None and bound.every)
-        if bound is None:
-            phrase = NounPhrase(antecedent, definite=True, plural=many)
-            stated = antecedent not in reading.clause.objects  # "There is a mug on the shelf. Wash it."
-            relations = self.relations_of(antecedent, reading.clause) if stated else []
-            return self._named(antecedent, phrase, types, relations, reading)
+        if bound is not None:
+            return self._bound(antecedent, bound, types, reading, many=many)
+        phrase = NounPhrase(antecedent, definite=True, plural=many)
+        stated = antecedent not in reading.clause.objects  # "There is a mug on the shelf. Wash it."
+        relations = self.relations_of(antecedent, reading.clause) if stated else []
+        return self._named(antecedent, phrase, types, relations, reading)
+
+    def _bound(
+        self, antecedent: str, bound: Bound, types: tuple[str, ...], reading: ClauseReading, *, many: bool
+    ) -> Referent:
+        """Return a noun that was bound before: its objects, what they contain, or what they turned into."""
         if bound.containers and self.puts_back(reading):
             things = self._named(antecedent, NounPhrase(antecedent, definite=True), types, [], reading)
             if things.names:

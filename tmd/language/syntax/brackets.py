@@ -403,15 +403,16 @@ class Bracketer(Words):
         if self.among(at, "self_forms"):
             return True
         past = verb < len(self.tokens) and self.tokens[verb].form == "ed" and self.kind(verb) is not K.ADJ
-        if past and verb == self.peek(at) and self.among(at, "tellers"):
-            return True  # "they left the door open"
+        if self.among(at, "tellers") and self._reports(at, verb, past=past):
+            return True
         liking = (self.stem_among(verb, "liking") or self._tells(verb)) and verb == self.peek(at)
-        denied = self.follows(at + 1, "IDLE* NEG IDLE* V")
-        if self.among(at, "tellers") and (denied or self.follows(at + 1, "IDLE* NEG IDLE* N")):
-            return True  # "he never puts them away"
-        if self.among(at, "tellers") and self.kind(verb) is K.ING and self._is(at, verb):
-            return True  # "they are getting warm"
         return self.among(at, "speakers") and (self._is(at, verb) or past or liking)
+
+    def _reports(self, at: int, verb: int, *, past: bool) -> bool:
+        """Tell whether a clause reports: "they left it open", "he never puts them away", "they are getting warm"."""
+        denied = self.follows(at + 1, "IDLE* NEG IDLE* (V|N)")
+        progressive = self.kind(verb) is K.ING and self._is(at, verb)
+        return denied or progressive or (past and verb == self.peek(at))
 
     def _tells(self, at: int) -> bool:
         """Tell whether a verb is no instruction, in English or here: "I promise", "we prefer"."""
