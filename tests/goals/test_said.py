@@ -819,3 +819,29 @@ def test_where_food_must_not_be_cooked_it_need_not_be_spoiled() -> None:
 def test_both_bowls_are_served() -> None:
     facts = end(said("kitchen", "kitchen3", "Make ramen for two: one packet in each bowl."))
     assert {"(contains bowl1 cooked_ramen)", "(contains bowl2 cooked_ramen)"} <= facts
+
+
+def test_a_demonstration_does_not_move_what_another_way_leaves_alone() -> None:
+    grounded = said("kitchen", "kitchen5", "The fork from drawer 2 on the table.")
+    assert goals(grounded) == ["(at fork1 table1 on)"]
+    assert not any("spoon1" in step for step in steps(grounded))
+
+
+def test_without_an_article_the_one_of_which_it_does_not_hold_yet_is_meant() -> None:
+    facts = end(said("kitchen", "kitchen5", "Fork from drawer 2 on table, drawer shut."))
+    assert "(at fork1 table1 on)" in facts and "(opened drawer2)" not in facts
+
+
+def test_what_asks_for_nothing_is_no_reading() -> None:
+    text = "Put vanilla ice cream in the cup. Make a coffee with the machine and pour it over the ice cream."
+    assert {"(contains cup1 coffee)", "(contains cup1 vanilla_ice_cream)"} <= end(said("kitchen", "kitchen3", text))
+
+
+def test_a_verb_of_several_meanings_means_what_can_be_done() -> None:
+    assert "(at ramen1 table1 on)" in end(said("kitchen", "kitchen2", "Transfer both packets of ramen to the table."))
+    assert "(contains mug1 milk)" in end(said("kitchen", "kitchen1", "Transfer the milk to the mug."))
+
+
+def test_what_is_named_alone_is_what_the_next_words_are_about() -> None:
+    facts = end(said("kitchen", "kitchen1", "Fridge door!! Cupboard door!! Open please!"))
+    assert {"(opened fridge1_door)", "(opened cupboard1_door)"} <= facts

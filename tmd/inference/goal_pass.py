@@ -334,11 +334,21 @@ class GoalPass(ForwardPass):
                 own = self._restored(way, (*begun, *answer.plan), target)
                 found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}, aim))
             if found:
-                return found
+                return self._undisturbing(found, state)
         if reason:
             return _impossible(target, reason)
         message = f"no plan was found for '{target.step.text}'; nothing is proven"
         return Refusal(RefusalKind.GAVE_UP, message, "ask another planner with --planner")
+
+    def _undisturbing(self, found: Sequence[tuple[Choice, Bits]], state: Bits) -> list[tuple[Choice, Bits]]:
+        """Return the choices but for those that move more than another one: all that it moves, and something else."""
+        moved = [self._moved(state, end) for _, end in found]
+        return [choice for choice, own in zip(found, moved, strict=True) if not any(other < own for other in moved)]
+
+    def _moved(self, state: Bits, end: Bits) -> frozenset[str]:
+        """Return the objects that are somewhere else, or have other contents, in ``end`` than in ``state``."""
+        changed = self.task.names((state ^ end) & self.lasting)
+        return frozenset(atom.args[0] for atom in changed if len(atom.args) > 1)
 
     def _takes(self, target: Target, way: Way, instructions: Instructions) -> bool:
         """Return whether a plan may be taken: it meets the conditions on the way, or it is a guess."""

@@ -18,6 +18,7 @@ from tmd.goals.sources.table import ACTIONS, GoalTable
 from tmd.goals.words import BE, family, is_relation, is_verb, ranked, relations_said, the_word, words_of
 from tmd.language.clause import BRING, TO, Clause
 from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.ground_formula import TRUE
 from tmd.pddl.task import Bits
 from tmd.world.world import World
 
@@ -73,7 +74,7 @@ class GoalReader:
                     break
                 changed = Decisions({decision: number})
                 other = self.read(clause, state, memory, awaited=awaited, decisions=changed)
-                if isinstance(other, ClauseGoal):
+                if isinstance(other, ClauseGoal) and other.formula != TRUE:  # nobody asks for nothing
                     found.setdefault(other.formula, (-odds * number, other))
         return sorted(found.values(), key=lambda goal: -goal[0])
 

@@ -416,7 +416,8 @@ class Referents:
             objects, group = self._all_kinds(noun, objects, context.types, context.reading, all_of_it=every)
         if phrase.number == 2 and mode is Mode.ALL:
             mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
-        definite = phrase.definite and phrase.quantifier is not Quantifier.SOME  # "one of the lamps": any of them
+        one = phrase.definite or phrase.undetermined
+        definite = one and phrase.quantifier is not Quantifier.SOME  # "one of the lamps": any of them
         return Referent(noun, objects, mode, number, definite, group, phrase.each)
 
     def _told_apart(self, whole: Referent, context: Context) -> Referent:

@@ -591,6 +591,8 @@ class Bracketer(Words):
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
         if (also := self._also(at)) != at:
             return also
+        if self.among(at, "dashes") and self._verb is None and self._named():
+            return self._stop(at)  # "the radio - off"
         listed = any(t.kind is K.COMMA for t in self.out[self._subject :])
         apart = self.follows(at, "COMMA CC") and self._named() and not listed
         return self._stop(at) if (self._verb is not None or apart) and self._statement_follows(at) else self._keep(at)
@@ -614,7 +616,8 @@ class Bracketer(Words):
 
     def _noun(self, at: int) -> int:
         """Keep a noun, but for a name that is called: "Dave, take"."""
-        called = self._last() is K.SEP and self.kind(at - 1) not in NP
+        known = self.lexicon.names_thing(self.tokens[at].text)
+        called = self._last() is K.SEP and self.kind(at - 1) not in NP and not known
         if called and self.follows(at + 1, "COMMA IDLE* (V|SUBJECT|AUX|NEG|ENSURE|LET)"):
             self.tokens[at].note = ADDRESS
             return at + 2
@@ -788,6 +791,8 @@ class Bracketer(Words):
             return self._keep(at)
         if opener.kind is K.NEG and self._last() in HEADS:
             return self._bracket(token, K.PURP, at + 1, self._clause_end(at + 1))
+        if self.among(at + 1, "infinitive_be"):
+            self.tokens[at + 1].kind = K.AUX
         state = self.kind(at + 1) is K.AUX or self.stem_among(at + 1, "staying")
         if self._last() is K.AUX and state and self.out[-1].text in section("be"):
             opener.form = DUTY  # "no lamp is to be on"

@@ -75,7 +75,7 @@ class Frames(Words):
     def _counts(self, start: int, at: int) -> int:
         """Return the place of the verb that counts where a frame leads to it at ``at``; 0 elsewhere."""
         if self.kind(at) is K.TO and (self.tokens[at].form == "inf" or self.kind(self.peek(at)) is K.ENSURE):
-            return self._infinitive(self.peek(at))
+            return 0 if self._offers(start, at) else self._infinitive(self.peek(at))
         if self._is_thought(at):
             return self._joined(start, at - 1, advised=False)  # "I don't suppose you could"
         if self.among(at - 1, "glad") and self.among(at, "awaited") and self.kind(at + 1) in NP:
@@ -86,6 +86,14 @@ class Frames(Words):
         if advised or self.among(at, "frame_joints"):
             return self._joined(start, at, advised=advised)
         return at if self.stem_among(self._before(at), "mind") and self._made_deed(at, "ing") else 0
+
+    def _offers(self, start: int, at: int) -> bool:
+        """Tell whether speakers say what they do, or feel: "I'd be ashamed to serve it"; but "glad to have some"."""
+        frame = range(start, at)
+        speaks = self.tokens[start].text.partition("'")[0] in section("speakers")
+        feels = speaks and any(self.among(i, "be") for i in frame)
+        wishes = any(self.stem_among(i, "wishing", "framing") or self.among(i, "glad", "welcome") for i in frame)
+        return feels and not wishes
 
     def _infinitive(self, verb: int) -> int:
         """Return the place of the verb behind "to", if it counts; 0 for others."""
@@ -142,7 +150,7 @@ class Frames(Words):
         """Return where a condition ends that is only polite: "if that is possible", "when you have a moment"."""
         if self.kind(at) is not K.SUB or not self.among(at, "courteous"):
             return at
-        end = self.first(at, "STOP|COMMA|V (DET|PRON|N)")
+        end = self.first(at, "STOP|COMMA|V P? (DET|PRON|N)")
         inner = range(at + 1, end)
         about = self.among(at + 1, "singular_pronouns", "subjects", "persons")
         words = {word for i in inner for word in (*self.tokens[i].text.split(), self.tokens[i].stem)}

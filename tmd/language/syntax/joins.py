@@ -45,9 +45,9 @@ def _copulas(tokens: list[Token]) -> list[Token]:
         result.append(token)
         its = token.kind is K.DET and words.among(at, "its_words")
         its = its and words.follows(at + 1, "ADV* (P|ADJ)") and not words.follows(at + 1, "(ADJ|ADV|NUM)* N")
-        state = words.follows(at + 1, "ADV* (P | (ADJ|ING|PARTICIPLE) BREAK | ING (P|TO|DET|PRON))") or words.among(
-            at + 1, "end_states"
-        )
+        state = words.follows(
+            at + 1, "ADV BREAK | ADV* (P | (ADJ|ING|PARTICIPLE) BREAK | ING (P|TO|DET|PRON))"
+        ) or words.among(at + 1, "end_states")
         if its:
             token.kind, token.text = K.PRON, first_of("singular_pronouns")
         if its or (token.kind is K.N and token.form == "possessive" and state):

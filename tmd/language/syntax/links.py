@@ -124,9 +124,11 @@ class Linker(Words):
 
     def _before_verb(self, before: Kind, after: Kind, end: int, *, joined: bool) -> Kind | None:
         if self._fronted:
-            said = joined or self.kind(end + 1) is not K.PRON  # "the cup on the shelf, wash it"
+            # "the lid on, shake it"; but not "the cup on the shelf, wash it"
+            said = joined or self.kind(end + 1) is not K.PRON or before in (K.P, K.STATE)
             return K.SEP if said and self._named(joined=joined) else None
-        shares = before is K.V and self.out[-1].form != ALONE and self.out[-1].stem not in section("intransitive")
+        last = self.out[-1] if self.out else self.tokens[end]
+        shares = before is K.V and not last.told and last.form != ALONE and last.stem not in section("intransitive")
         return K.VCC if shares and after is K.V else K.SEP
 
     def _unit(self) -> list[Token]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from itertools import islice, pairwise
 
 from lark import Tree
 
@@ -55,15 +55,19 @@ class TextReading:
         self.polite = not section("polite").isdisjoint(re.findall(r"[a-z]+", self.text.lower()))
         goes_on = False
         places: list[Node] = []
-        for unit, following in pairwise([*tree.children, None]):
+        topic: list[Tree[Leaf]] = []
+        for number, (unit, following) in enumerate(pairwise([*tree.children, None])):
             if unit is None or isinstance(unit, Leaf):
                 goes_on = unit is not None and unit.source.form == ALSO
                 continue
             actions = trees(unit.children, "clause", "letting")
             front = places + [n for n in unit.children if n not in actions]
             places = front if not actions and _is_heading(front, following) else []
-            if not places:
-                self._unit(actions, front, goes_on=goes_on)
+            if not actions and self._is_topic(front) and _is_taken_up(tree.children[number + 1 :]):
+                topic += trees(front, "group")
+            elif not places:
+                self._unit(actions, _supplied(unit, front, topic), goes_on=goes_on)
+                topic = topic if _is_leaf(following, ",") else []
         self._carry()
         return self
 
@@ -355,6 +359,8 @@ class TextReading:
         before = self.drafts[-1] if self.drafts else None
         if before is not None and before.elliptic and all(is_a(n, "group") for n in nodes):
             before.add(named_in(nodes), spans(nodes))
+        elif before is not None and self._is_topic(nodes) and _takes_up(before, nodes):
+            before.spans += spans(nodes)
         elif self._orders(nodes):
             start = next(leaves(nodes[0])).span.start
             verb = Token(Kind.V, HAVE, Span(start, start), stem=HAVE, form=IMPLIED)
@@ -376,13 +382,16 @@ class TextReading:
         self.drafts.append(draft)
         return True
 
+    def _is_topic(self, nodes: Sequence[Node]) -> bool:
+        """Tell whether a unit only names what those behind it are about: "the bag! close it", "kettle: fill"."""
+        last = self.drafts[-1] if self.drafts else None
+        return _is_named(nodes) and not (_is_counted(nodes) or (last is not None and last.elliptic))
+
     def _orders(self, nodes: Sequence[Node]) -> bool:
         """Tell whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
         if any(is_a(n, "state", "place", "exception") or isinstance(n, Leaf) for n in nodes):
             return True
-        lead = next(leaves(nodes[0])).text
-        counted = lead in section("indefinite") or is_number(lead)
-        return counted or self.polite or (self.alone and sum(1 for n in nodes for _ in leaves(n)) > 1)
+        return _is_counted(nodes) or self.polite or (self.alone and sum(1 for n in nodes for _ in leaves(n)) > 1)
 
     def _carry(self) -> None:
         """A condition in front of a sentence holds for the whole of it."""
@@ -397,8 +406,75 @@ class TextReading:
 
 def _is_heading(front: Sequence[Node], following: Node | None) -> bool:
     """Tell whether a unit is the place of those behind its colon: "into the crate: rope, hose"."""
-    colon = isinstance(following, Leaf) and following.source.text == ":"
-    return colon and all(is_a(n, "place") for n in front)
+    return _is_leaf(following, ":") and all(is_a(n, "place") for n in front)
+
+
+def _is_leaf(node: Node | None, text: str) -> bool:
+    return isinstance(node, Leaf) and node.source.text == text
+
+
+def _is_taken_up(nodes: Sequence[Node]) -> bool:
+    """Tell whether the next unit that does more than name something does not say what it is about."""
+    units = (unit for unit in trees(nodes, "unit") if not _is_named(unit.children))
+    return any(map(_lacks, islice(units, 1)))
+
+
+def _takes_up(draft: ClauseDraft, nodes: Sequence[Node]) -> bool:
+    """Put what is named last in the place of the pronoun before it: "make it loud, the radio"."""
+    named, pronouns = named_in(nodes), section("singular_pronouns")
+    if len(named) != 1 or [p.name in pronouns and not p.lead for p in draft.direct] != [True]:
+        return False
+    old, new = draft.direct[0].name, named[0].name
+    draft.relations = [Relation(r.relation, new if r.source == old else r.source, r.target) for r in draft.relations]
+    draft.direct = named
+    return True
+
+
+def _is_named(nodes: Sequence[Node]) -> bool:
+    """Tell whether things are named, and nothing else."""
+    groups = trees(nodes, "group")
+    return 0 < len(groups) == len(nodes) and not any(map(_is_pronoun, groups))
+
+
+def _lacks(unit: Tree[Leaf]) -> bool:
+    """Tell whether a unit does not name what it is about: "close it", "fill", "lid on", "off the stove"."""
+    actions = trees(unit.children, "clause", "letting")
+    nodes = [*unit.children, *(actions[0].children if actions else ())]
+    groups = trees(nodes, "group")
+    if trees(nodes, *_ASIDES, *_DENIALS):
+        return False
+    if not actions:
+        return _bare_place(nodes) is not None or (bool(trees(nodes, "place", "state")) and not groups)
+    verbs = {t.stem for t in leaves(trees(actions[0].children, "verbs")[0])}
+    bare = _bare_place(nodes) is not None or not groups
+    return (bare and section("intransitive").isdisjoint(verbs)) or (bool(groups) and _is_pronoun(groups[0]))
+
+
+def _supplied(unit: Tree[Leaf], front: list[Node], topic: Sequence[Tree[Leaf]]) -> list[Node]:
+    """Return what stands in front of the verb of a unit, with the topic where the unit lacks it."""
+    if not (topic and _lacks(unit)):
+        return front
+    group = Tree("group", [part for named in topic for part in named.children])
+    actions = trees(unit.children, "clause", "letting")
+    nodes = [*front, *(actions[0].children if actions else ())]
+    place = _bare_place(nodes)
+    if place is not None and trees(nodes, "group"):
+        place.children.append(group)
+        return front
+    if place is not None and not actions:  # "the lamp! off!"
+        next(leaves(place)).kind = Kind.STATE
+        return [group, *(Tree("state", place.children) if n is place else n for n in front)]
+    return [group, *front]
+
+
+def _bare_place(nodes: Sequence[Node]) -> Tree[Leaf] | None:
+    """Return the first place that is only a preposition."""
+    return next((place for place in trees(nodes, "place") if not trees(place.children, "group")), None)
+
+
+def _is_counted(nodes: Sequence[Node]) -> bool:
+    lead = next(leaves(nodes[0])).text
+    return lead in section("indefinite") or is_number(lead)
 
 
 def _treat(draft: ClauseDraft) -> None:
