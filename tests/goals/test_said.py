@@ -845,3 +845,15 @@ def test_a_verb_of_several_meanings_means_what_can_be_done() -> None:
 def test_what_is_named_alone_is_what_the_next_words_are_about() -> None:
     facts = end(said("kitchen", "kitchen1", "Fridge door!! Cupboard door!! Open please!"))
     assert {"(opened fridge1_door)", "(opened cupboard1_door)"} <= facts
+
+
+@pytest.mark.parametrize(
+    ("room", "text", "goal"),
+    [
+        ("room2", "Turn the volume all the way up.", "(set_to tv1_speaker loud)"),
+        ("room2", "Turn the floor lamp all the way down.", "(set_to floor_lamp1_knob low)"),
+        ("room5", "Pull the blind all the way up.", "(opened window1_blind)"),
+    ],
+)
+def test_to_the_end_of_its_scale_where_it_has_one(room: str, text: str, goal: str) -> None:
+    assert goals(said("living_room", room, text)) == [goal]

@@ -290,6 +290,11 @@ def test_what_is_done_first_comes_first(text: str, expected: list[str]) -> None:
         ("the jug: the cork in, shake it", ["(have, [jug, cork], in: cork -> jug)", "(shake, [jug])"]),
         ("The lamp! Off!", ["(turn_off, [lamp])"]),
         ("Make it dry, the rope!", ["(make, [rope])"]),
+        (
+            "Clear the bench (rope -> shed)",
+            ["(clear, [bench])", "(bring, [rope, shed], to: rope -> shed)"],
+        ),
+        ("Shut the gate till six.", ["(shut, [gate])"]),
         ("Take everything what is wet to the shed.", ["(take, [everything, shed], to: everything -> shed)"]),
         ("Oil the hinge, after shut the gate.", ["(oil, [hinge])", "(shut, [gate])"]),
     ],

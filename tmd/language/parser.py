@@ -170,7 +170,7 @@ def _is_idle(token: Token, *, inside: bool) -> bool:
     """Tell whether nothing is to be said of a token: a clause covers it, or it carries nothing."""
     if token.kind is Kind.SKIP or token.note:
         return False
-    return inside or token.kind in _SIGNS or _all_filler(token)
+    return inside or token.span.start == token.span.end or token.kind in _SIGNS or _all_filler(token)
 
 
 _SIGNS = frozenset({Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC, Kind.LINK, Kind.END})

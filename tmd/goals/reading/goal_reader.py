@@ -108,6 +108,8 @@ class GoalReader:
         if isinstance(found, Refusal) and clause.verb == BE and found.kind is not RefusalKind.NO_SUCH_THING:
             asked = self._state(reading.again())
             found = found if isinstance(asked, Refusal) else asked
+        if isinstance(found, Refusal) and clause.setting in words_of("extremes"):
+            return self.read(replace(clause, setting=None), state, memory, awaited=awaited, decisions=decisions)
         return found
 
     def _is_state(self, clause: Clause) -> bool:

@@ -585,6 +585,8 @@ class Bracketer(Words):
             return self.peek(at) + 1  # "the door, however, should be shut"
         inner = range(at + 1, min(self.first(at + 1, "V|STOP"), at + 2 * _NEAR) if self.tokens[at].text == "(" else at)
         end = next((i for i in inner if self.tokens[i].text == ")"), None)
+        if end is not None and any(self.tokens[i].arrow for i in range(at, end)):
+            return self._stop(at)  # "clear the chair (rope -> shed)"
         return self._joint(at) if end is None else self._skip(at, end + 1, ASIDE)
 
     def _joint(self, at: int) -> int:

@@ -176,8 +176,9 @@ class ClauseDraft:
         return all(r.target in section("pronouns") for r in placed) and not any(p.pronoun for p in self.direct)
 
     def _folded(self, text: str, form: str) -> str | None:
-        spans = [t.span for t in self.folds if t.form == form]
-        return _MULTIPLE.join(" ".join(text[s.start : s.end].split()) for s in spans) or None
+        folds = [t for t in self.folds if t.form == form]
+        # a word of a phrase row stands nowhere in the text
+        return _MULTIPLE.join(" ".join(text[t.span.start : t.span.end].split()) or t.text for t in folds) or None
 
     def _written(self, form: str) -> str | None:
         return _MULTIPLE.join(words for kind, words in self.written if kind == form) or None
