@@ -47,8 +47,8 @@ class Planners(Protocol):
         """Return the planner that fills gaps."""
         ...
 
-    def resort(self, task: Task) -> Planner:
-        """Return the planner that is asked where the quick one gave up."""
+    def resort(self, task: Task, *, brief: bool = False) -> Planner:
+        """Return the planner that is asked where the quick one gave up; a ``brief`` one gives up after some seconds."""
         ...
 
 

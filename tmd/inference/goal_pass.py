@@ -82,9 +82,9 @@ class GoalPass(ForwardPass):
         self.constraints = Constraints(self.task)
         self.dialogue = dialogue
         self.chosen = chosen
-        self._resort: Planner | None = None
+        self._resorts: dict[bool, Planner] = {}
         self._may_go_far = True
-        self._far_answers: dict[tuple[Bits, tuple[Cube, ...]], Answer] = {}
+        self._far_answers: dict[tuple[Bits, tuple[Cube, ...], bool], Answer] = {}
 
     def infer(self, state: Bits) -> Inferred:
         """Return the best distinct plans for the steps from ``state``, or the reason why there is none."""
@@ -379,10 +379,15 @@ class GoalPass(ForwardPass):
         return bool(trace)
 
     def _far_if_needed(self, quick: Answer, state: Bits, aim: tuple[Cube, ...], target: Target) -> Answer:
-        """Return the far planner's answer where the quick one gave up, unless its plan keeps too much at any price."""
+        """Return the far planner's answer where the quick one gave up, unless its plan keeps too much at any price.
+
+        Where the quick planner reaches the new goal, but not together with the earlier ones, these are often out of
+        reach, and the far planner would take minutes to find nothing: it is asked briefly.
+        """
         if not isinstance(quick, GaveUp):
             return quick
-        answer = self._far(state, aim)
+        least = target.aims[-1]
+        answer = self._far(state, aim, brief=aim != least and isinstance(self.planner.fill(state, least), Filled))
         if isinstance(answer, Filled) and not self._worth_it(state, answer, target.aims[-1]):
             return quick
         return answer
@@ -407,29 +412,30 @@ class GoalPass(ForwardPass):
 
     def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
-        if self._far_answers.get((state, tuple(least))) is answer:
+        if self._far_answers.get((state, tuple(least), False)) is answer:
             return True
         quick = self.planner.fill(state, least)
         bare = quick if isinstance(quick, Filled) else self._far(state, least)
         return not isinstance(bare, Filled) or len(answer.plan) <= len(bare.plan) + _MOST_FURTHER_STEPS
 
-    def _far(self, state: Bits, aim: Sequence[Cube]) -> Answer:
+    def _far(self, state: Bits, aim: Sequence[Cube], *, brief: bool = False) -> Answer:
         """Return the answer of the planner that goes further than the quick one."""
         if not (self._may_go_far and self.config.last_resort):
             return GaveUp("the quick planner")
-        asked = state, tuple(aim)
+        asked = state, tuple(aim), brief
         if asked not in self._far_answers:
-            self._far_answers[asked] = self._asked_afar(state, aim)
+            self._far_answers[asked] = self._asked_afar(state, aim, brief=brief)
         return self._far_answers[asked]
 
-    def _asked_afar(self, state: Bits, aim: Sequence[Cube]) -> Answer:
-        if self._resort is None:
-            self._resort = self.setup.planners.resort(self.task)
+    def _asked_afar(self, state: Bits, aim: Sequence[Cube], *, brief: bool) -> Answer:
+        if brief not in self._resorts:
+            self._resorts[brief] = self.setup.planners.resort(self.task, brief=brief)
+        resort = self._resorts[brief]
         # facts that hold already are seldom undone on the way and slow the planner down: first without them
         open_ = tuple(dict.fromkeys(Cube(c.positive & ~state, c.negative & state) for c in aim))
-        answer = self._resort.fill(state, open_)
+        answer = resort.fill(state, open_)
         if isinstance(answer, Filled) and not any(cube.holds(answer.state) for cube in aim):
-            answer = self._resort.fill(state, aim)
+            answer = resort.fill(state, aim)
         if isinstance(answer, Filled):
             shorter = eliminate(answer.plan, self.task, state, aim)
             return Filled(shorter, self.simulated(state, shorter), len(shorter))

@@ -89,7 +89,12 @@ def last_resort(task: Task) -> Planner:
     """
     if find_spec("up_fast_downward") is None:
         return make(IN_PROCESS_FIRST, task)
-    return InTurn((EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON)), FirstPlan(task)))
+    return InTurn((soon(task), FirstPlan(task)))
+
+
+def soon(task: Task) -> Planner:
+    """Return the planner of this process that is content with any plan, and gives up after some seconds."""
+    return EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON))
 
 
 class TaskPlanners:
@@ -115,11 +120,12 @@ class TaskPlanners:
         """Return the planner that fills gaps."""
         return self._quick if task is self._task else make(IN_PROCESS, task, cap=self._cap)
 
-    def resort(self, task: Task) -> Planner:
-        """Return the planner that is asked where the quick one gave up."""
+    def resort(self, task: Task, *, brief: bool = False) -> Planner:
+        """Return the planner that is asked where the quick one gave up; a ``brief`` one gives up after some seconds."""
+        if brief:
+            return soon(task)
         if task is not self._task:
-            soon = EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON))
-            return InTurn((soon, make(IN_PROCESS_FIRST, task)))
+            return InTurn((soon(task), make(IN_PROCESS_FIRST, task)))
         return last_resort(task) if self._name == IN_PROCESS else make(self._name, task)
 
 
