@@ -331,6 +331,7 @@ def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
         ("Shut the gate by noon.", ["(shut, [gate])"]),
         ("Put the eggs in the shed, they are getting warm.", ["(put, [egg, shed], in: egg -> shed)"]),
         ("Shut the gate, the farmer's here.", ["(shut, [gate])"]),
+        ("The gate on the left, can you shut it?", ["(have, [gate, left], on: gate -> left)", "(shut, [it])"]),
         ("I tripped over a can, nearly fell, so shut the gate.", ["(shut, [gate])"]),
         ("The hinge is dry; it is to be oiled.", ["(oil, [it])"]),
     ],

@@ -442,6 +442,7 @@ class Bracketer(Words):
     def _auxiliary(self, at: int) -> int:
         """Open a statement where a subject or "there" stands before an auxiliary; drop any other."""
         there, after = self.among(at - 1, "there_words"), self.peek(at)
+        self._begin_question(after)
         if self.among(after, "needless"):
             return self._negation(after)
         fresh = self._verb is None and all(t.kind in LINKS for t in self.out[self._subject :])
@@ -457,6 +458,12 @@ class Bracketer(Words):
             return self._statement(at)
         self._asked = fresh and self.among(at, "asking")
         return self._negation(at) if self.kind(after) is K.NEG else at + 1
+
+    def _begin_question(self, subject: int) -> None:
+        """Begin a unit with an auxiliary that stands between a comma and its subject: "a tea, can you make it?"."""
+        if self._verb is None and self._last() is K.COMMA and self.kind(subject) is K.SUBJECT:
+            self.out[-1].kind = K.SEP
+            self._begin()
 
     def _run_on(self) -> int:
         """Return where the subject of a statement begins that follows a noun phrase without a sign; 0 for none."""
