@@ -334,6 +334,11 @@ def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
         ("The gate on the left, can you shut it?", ["(have, [gate, left], on: gate -> left)", "(shut, [it])"]),
         ("I tripped over a can, nearly fell, so shut the gate.", ["(shut, [gate])"]),
         ("The hinge is dry; it is to be oiled.", ["(oil, [it])"]),
+        (
+            "The rope that stands on the bench belongs in the shed.",
+            ["(put, [rope, bench, shed], on: rope -> bench, in: rope -> shed)"],
+        ),
+        ("Take the pot. Stick the egg in there.", ["(take, [pot])", "(stick, [egg, it], in: egg -> it)"]),
     ],
 )
 def test_what_is_said_beside_a_request_takes_nothing_away(text: str, expected: list[str]) -> None:

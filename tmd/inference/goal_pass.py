@@ -388,7 +388,7 @@ class GoalPass(ForwardPass):
             return quick
         least = target.aims[-1]
         answer = self._far(state, aim, brief=aim != least and isinstance(self.planner.fill(state, least), Filled))
-        if isinstance(answer, Filled) and not self._worth_it(state, answer, target.aims[-1]):
+        if isinstance(answer, Filled) and not self._worth_it(state, answer, least):
             return quick
         return answer
 

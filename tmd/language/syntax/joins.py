@@ -62,7 +62,8 @@ def _finite(words: Words) -> None:
         if token.kind in (K.STOP, K.COMMA, K.CC, K.SUB, K.ENSURE):
             subject, verb = subject and token.kind is K.CC and not verb, False
             continue
-        if subject and not verb and (stem := _placing(words, at)):
+        main = subject and not verb and words.kind(at - 1) is not K.REL  # "the cup that stands there goes in the sink"
+        if main and (stem := _placing(words, at)):
             token.kind, token.stem, verb = K.FINITE, stem, True
         subject = subject or token.kind in (K.N, K.PRON, K.NUM)
         verb = verb or token.kind in (K.V, K.LET)
@@ -245,6 +246,8 @@ class _Particles(Words):
 
     def _joins(self, at: int, place: int, *, behind: bool) -> bool:
         """Tell whether the word at a place is the particle of the verb."""
+        if self.among(place + 1, "there_words") and self.among(place, "static"):
+            return False  # "make it dark in here"
         match = self._match(self.tokens[at].stem, place)
         if match is None:
             return not behind and self._moves_object(at, place) and self._before_noun(at, place, strict=False)

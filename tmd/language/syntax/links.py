@@ -127,9 +127,11 @@ class Linker(Words):
             # "the lid on, shake it"; but not "the cup on the shelf, wash it"
             said = joined or self.kind(end + 1) is not K.PRON or before in (K.P, K.STATE)
             return K.SEP if said and self._named(joined=joined) else None
-        last = self.out[-1] if self.out else self.tokens[end]
-        shares = before is K.V and not last.told and last.form != ALONE and last.stem not in section("intransitive")
-        return K.VCC if shares and after is K.V else K.SEP
+        if before is not K.V or after is not K.V:
+            return K.SEP
+        last = self.out[-1]
+        alone = last.told or last.form == ALONE or last.stem in section("intransitive")
+        return K.SEP if alone else K.VCC
 
     def _unit(self) -> list[Token]:
         """Return what has come of the open unit or bracket."""
