@@ -141,7 +141,7 @@ def constrained(task: Task, constraints: PlanConstraints) -> Task:
     operators = []
     for operator in task.operators:
         if not constraints.untouched.intersection(operator.instruction.args):
-            allowed = _without(operator, forbidden)
+            allowed = _without(operator, forbidden, task)
             if allowed is not None:
                 operators.append(allowed)
     return replace(task, operators=tuple(operators), by_instruction={o.instruction: o for o in operators})
@@ -150,7 +150,7 @@ def constrained(task: Task, constraints: PlanConstraints) -> Task:
 _ALWAYS = Cube(0, 0)
 
 
-def _without(operator: Operator, forbidden: Iterable[Cube]) -> Operator | None:
+def _without(operator: Operator, forbidden: Iterable[Cube], task: Task) -> Operator | None:
     """Return an operator restricted to states in which it brings about none of the ``forbidden`` cubes.
 
     ``None`` where it always does. Each effect under a condition is looked at together with the unconditional ones, but
@@ -158,17 +158,26 @@ def _without(operator: Operator, forbidden: Iterable[Cube]) -> Operator | None:
     """
     states: dict[Cube, None] = {}
     for cube in forbidden:
-        if (always := _brought_about(cube, operator.add, operator.delete)) is not None:
-            states[always] = None
+        always = _brought_about(cube, operator.add, operator.delete)
+        unconditional = [always] if always is not None else []
         for condition, add, delete in operator.conditional:
             further = _brought_about(cube, operator.add | add, operator.delete | delete)
-            if further is not None and not (
-                further.positive & condition.negative | further.negative & condition.positive
-            ):
-                states[Cube(further.positive | condition.positive, further.negative | condition.negative)] = None
+            if further is None:
+                # this effect undoes the cube: the unconditional ones bring it about only where its condition fails
+                fails = [Cube(negative, positive) for (positive, negative), _ in _literals(condition, task)]
+                unconditional = [both for c, f in product(unconditional, fails) if (both := _both(c, f)) is not None]
+            elif (both := _both(further, condition)) is not None:
+                states[both] = None
+        states.update(dict.fromkeys(unconditional))
     if _ALWAYS in states:
         return None
     return replace(operator, forbidden=(*operator.forbidden, *states)) if states else operator
+
+
+def _both(one: Cube, other: Cube) -> Cube | None:
+    """Return the conjunction of two cubes; ``None`` where they contradict each other."""
+    positive, negative = one.positive | other.positive, one.negative | other.negative
+    return None if positive & negative else Cube(positive, negative)
 
 
 def _brought_about(cube: Cube, add: Bits, delete: Bits) -> Cube | None:
