@@ -11,12 +11,14 @@ KITCHEN ?= kitchen4
 AFFOGATO := Take some coffee in a cup. Add ice cream of your choice. Finally, add raspberry syrup to the mixture.
 
 VENV := .venv
+comma := ,
 BIN := $(VENV)/bin
 # The copy of pyproject.toml that .venv/ was made from: compared by content, so a fresh checkout of the same
 # file, whatever its date, asks nothing of the network.
 STAMP := $(VENV)/.made-from-pyproject.toml
-# The same for the main job alone, which needs neither what tests need nor a compiler.
+# The same for the main job and for the studio, which need neither what tests need nor a compiler.
 JOB := $(VENV)/.made-for-the-job-from-pyproject.toml
+STUDIO := $(VENV)/.made-for-the-studio-from-pyproject.toml
 # The versions that were tested; `make LOCK=` takes the newest that pyproject.toml allows.
 LOCK ?= requirements.lock
 PIP = $(BIN)/python -m pip install --disable-pip-version-check --progress-bar on $(if $(wildcard $(LOCK)),--constraint $(LOCK))
@@ -34,32 +36,44 @@ help: ## List the targets.
 	@echo "  every target takes PYTHON=python3.12, the interpreter that .venv/ is made with, and LOCK= for the newest versions"
 
 setup: ## Make .venv/ with everything in it (once; the other targets do it by themselves).
-	@$(BIN)/python -c '' 2>/dev/null && cmp -s pyproject.toml $(STAMP) || $(MAKE) --no-print-directory $(STAMP)
+	@$(call current,$(STAMP)) || $(MAKE) --no-print-directory $(STAMP)
 
 # What is installed and what is downloaded stays where it is when this is stopped: the same command goes on from there.
-.PHONY: venv job $(STAMP) $(JOB)
+.PHONY: venv job studio-setup $(STAMP) $(JOB) $(STUDIO)
 venv:
 	@command -v $(PYTHON) >/dev/null || { echo "error: there is no $(PYTHON); name an interpreter, 3.11 or newer: make PYTHON=python3.12" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "error: tmd needs Python 3.11 or newer, and $(PYTHON) is older; name another: make PYTHON=python3.12" >&2; exit 1; }
 	@$(BIN)/python -c '' 2>/dev/null || $(PYTHON) -m venv --clear $(VENV)
 
+# $(call installed,EXTRAS)
+define installed
+	@$(PIP) --editable '.[$(1)]'
+	@$(BIN)/python -m compileall -q tmd  # each start of the program is quicker, wherever Python may not write
+	@$(BIN)/python -m tmd.planning || true
+	@cp pyproject.toml $@
+endef
+
+# $(call current,STAMPS): whether one of them was made from this pyproject.toml
+current = $(BIN)/python -c '' 2>/dev/null && { $(foreach stamp,$(1),cmp -s pyproject.toml $(stamp) ||) false; }
+
 $(STAMP): venv
 	@command -v g++ >/dev/null || { echo "error: there is no g++, which pr2-ikfast is compiled with; install it (apt-get install g++). 'make experiment' and 'make demo' do without" >&2; exit 1; }
-	@echo "installing everything, tests and tools too, into $(VENV)/: some 2.1 GB on disk; stop and go on as you like …"
-	@$(PIP) --editable '.[fast,dev]'
-	@$(BIN)/python -m compileall -q tmd  # each start of the program is quicker, wherever Python may not write
-	@$(BIN)/python -m tmd.planning || true
-	@cp pyproject.toml $@
+	@echo "installing everything, tests and tools too, into $(VENV)/: 2.3 GB on disk, about 4 minutes; stop and go on as you like …"
+	$(call installed,dev)
 
 job:
-	@$(BIN)/python -c '' 2>/dev/null && { cmp -s pyproject.toml $(STAMP) || cmp -s pyproject.toml $(JOB); } || $(MAKE) --no-print-directory $(JOB)
+	@$(call current,$(STAMP) $(JOB)) || $(MAKE) --no-print-directory $(JOB)
 
 $(JOB): venv
-	@echo "installing what the main job needs into $(VENV)/: some 1.7 GB on disk; stop and go on as you like …"
-	@$(PIP) --editable '.[fast,robot]'
-	@$(BIN)/python -m compileall -q tmd  # each start of the program is quicker, wherever Python may not write
-	@$(BIN)/python -m tmd.planning || true
-	@cp pyproject.toml $@
+	@echo "installing what the main job needs into $(VENV)/: 1.8 GB on disk, about 3 minutes; stop and go on as you like …"
+	$(call installed,fast$(comma)report$(comma)robot)
+
+studio-setup:
+	@$(call current,$(STAMP) $(STUDIO)) || $(MAKE) --no-print-directory $(STUDIO)
+
+$(STUDIO): venv
+	@echo "installing what the studio needs into $(VENV)/: 1.7 GB on disk, about 2 minutes; stop and go on as you like …"
+	$(call installed,fast$(comma)studio)
 
 lock: setup ## Write the versions in .venv/ to requirements.lock, after the tests have passed.
 	@{ grep '^#' requirements.lock; $(BIN)/python -m pip freeze --exclude-editable; } > requirements.lock.new
@@ -76,7 +90,7 @@ demo: job ## Let a simulated PR2 make the affogato of the paper, and film it.
 		--video runs/demo/affogato.mp4 --strip runs/demo/affogato.png --log runs/demo/affogato.jsonl $(ARGS); \
 	code=$$?; echo "film: runs/demo/affogato.mp4, one picture for each instruction: runs/demo/affogato.png"; exit $$code
 
-studio: setup ## Open the studio: a page in the browser to watch, correct and demonstrate.
+studio: studio-setup ## Open the studio: a page in the browser to watch, correct and demonstrate.
 	@$(BIN)/tmd studio --environment '$(KITCHEN)' $(ARGS)
 
 test: setup ## Run the tests (VEIL500_DIR=DIR runs those on the real data as well).

@@ -129,7 +129,7 @@ def test_processes_at_once_in_one_directory(tmp_path: Path, serial: dict[str, by
 @pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash here")
 def test_the_script_for_slurm(tmp_path: Path, serial: dict[str, bytes]) -> None:
     """The script in the page, with the variables that Slurm sets; the second share comes first."""
-    page = (ROOT / "docs" / "clusters.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "experiments.md").read_text(encoding="utf-8")
     script = re.search(r"<!-- slurm -->\n```bash\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     assert script
     assert re.search(r"#SBATCH --array=1-(\d+)$", script[1], re.MULTILINE)[1] == "10"  # type: ignore[index]
