@@ -78,6 +78,16 @@ def is_relation(word: str, kind: str) -> bool:
     return word in words_of("relations", kind)
 
 
+@cache
+def is_unknown_relation(word: str) -> bool:
+    """Return whether a relation is of no class, such as ``to_the_left_of``: it says a place that nothing is known of."""
+    known = {
+        *table("inverse"),
+        *(w for name in ("prepositions", "relations") for row in table(name).values() for w in row),
+    }
+    return word not in known
+
+
 def is_verb(verb: str, kind: str) -> bool:
     """Return whether a verb is of a class of the section ``verbs``."""
     return verb in words_of("verbs", kind)

@@ -22,6 +22,7 @@ from tmd.goals.words import (
     is_one,
     is_pronoun,
     is_relation,
+    is_unknown_relation,
     position,
     table,
     the_word,
@@ -235,7 +236,8 @@ class Referents:
 
     def unplaced(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
         """Return whether a relation says a place where what is acted on is not yet."""
-        place = is_relation(relation, "unplaced") and bool(self.targets(target, reading))
+        unplaced = is_relation(relation, "unplaced") or is_unknown_relation(relation)
+        place = unplaced and bool(self.targets(target, reading))
         return place and not self.tells_which(unit.direct, relation, target, reading)
 
     # ------------------------------------------------------------------ pronouns

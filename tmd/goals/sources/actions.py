@@ -401,11 +401,14 @@ class _Words:
     def _with_slots(self, action: ActionSchema, verbs: tuple[str, ...], wanted: Sequence[Effect]) -> Iterator[GoalRow]:
         """One row for each choice of which parameters are said; the others are whatever they may be."""
         mentioned = {term for effect in wanted for term in effect.atom.terms}
+        relations = {name for p in action.parameters for name in self.fixed(p)} & set(PREPOSITIONS)
+        # an action that puts things in or on others says nothing of what is under them
+        anywhere = tuple(p for p in _ANYWHERE if not relations or p in relations or p not in _ROWS["located"])
         used = [p for p in action.parameters if p.name in mentioned and not self.actor(p)]
         for count in range(min(len(used), _MOST_SLOTS), 0, -1):
             for said in permutations(used, count):
                 names = {p.name: f"?{'xyz'[i]}" for i, p in enumerate(said)}
-                slots = (Slot("?x"), *(Slot(names[p.name], _ANYWHERE) for p in said[1:]))
+                slots = (Slot("?x"), *(Slot(names[p.name], anywhere) for p in said[1:]))
                 pattern = " … ".join([verbs[0], *(p.name.removeprefix("?").upper() for p in said)])
                 formula = _joined([self._said(effect, names, action) for effect in wanted])
                 yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")

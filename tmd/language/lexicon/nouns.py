@@ -112,11 +112,17 @@ def rank(
         or _by_synonym(parsed, candidates)
         or _by_wordnet(parsed, candidates, threshold)
     )
-    return sorted(found, key=lambda m: (-m.score, _natural(m.name)))
+    return sorted(_numbered(found, parsed), key=lambda m: (-m.score, _natural(m.name)))
 
 
 def _natural(name: str) -> tuple[tuple[int, int | str], ...]:
     return tuple((0, int(p)) if p.isdigit() else (1, p) for p in re.split(r"(\d+)", name) if p)
+
+
+def number_of(noun: str) -> int | None:
+    """Return the number that a thing is called by: 3 for ``burner_3`` and ``burner_three``, none for ``third_burner``."""
+    parsed = _parse(noun)
+    return None if parsed.ordinal else parsed.number
 
 
 def _parse(noun: str) -> _Noun:
@@ -155,7 +161,7 @@ def _by_name(noun: _Noun, candidates: Sequence[NounMatch]) -> list[Match]:
     best = max((score for _, score in found), default=0.0)
     # "cup" is the cup, not the cup_holder's cup, where an exact name exists
     kept = [(c, s) for c, s in found if s >= best - 0.25]
-    return _numbered([Match(c.name, round(s, 4), NAME) for c, s in kept], noun)
+    return [Match(c.name, round(s, 4), NAME) for c, s in kept]
 
 
 def _name_score(noun: _Noun, words: tuple[str, ...], extra: tuple[str, ...]) -> float:
@@ -172,7 +178,10 @@ def _name_score(noun: _Noun, words: tuple[str, ...], extra: tuple[str, ...]) -> 
 
 
 def _numbered(matches: list[Match], noun: _Noun) -> list[Match]:
-    """Pick by number: the thing that carries it in its name, else (and for "second") the n-th in order."""
+    """Pick by number: the thing that carries it in its name, else (and for "second") the n-th in order.
+
+    Of two cups none is the third one; a number that no name carries only lowers the scores.
+    """
     if not noun.number:
         return matches
     carrying = [m for m in matches if _number(m.name) == noun.number]
@@ -182,7 +191,7 @@ def _numbered(matches: list[Match], noun: _Noun) -> list[Match]:
     if noun.number <= len(ordered):
         chosen = ordered[noun.number - 1]
         return [chosen, *(m._replace(score=round(m.score / 2, 4)) for m in ordered if m is not chosen)]
-    return [m._replace(score=round(m.score / 2, 4)) for m in matches]
+    return [] if noun.ordinal else [m._replace(score=round(m.score / 2, 4)) for m in matches]
 
 
 def _number(name: str) -> int | None:
@@ -212,7 +221,7 @@ def _by_alias(
                 if candidate.name not in found and _names(candidate, target):
                     found[candidate.name] = Match(candidate.name, round(0.9**place, 4), ALIAS)
         if found:
-            return _numbered(list(found.values()), parsed)
+            return list(found.values())
     return []
 
 
@@ -220,7 +229,7 @@ def _by_synonym(noun: _Noun, candidates: Sequence[NounMatch]) -> list[Match]:
     """Return what a synonym in WordNet names: *couch* is a sofa."""
     said = "_".join(noun.words)
     named = [c for c in candidates if any(same(said, "_".join(words)) for words in _vocabulary(c))]
-    return _numbered([Match(candidate.name, 1.0, ALIAS) for candidate in named], noun)
+    return [Match(candidate.name, 1.0, ALIAS) for candidate in named]
 
 
 def _by_wordnet(noun: _Noun, candidates: Sequence[NounMatch], threshold: float) -> list[Match]:
@@ -231,7 +240,7 @@ def _by_wordnet(noun: _Noun, candidates: Sequence[NounMatch], threshold: float) 
         score = max((_similar(word, words) for words in _vocabulary(candidate)), default=0.0)
         if score >= threshold:
             found.append(Match(candidate.name, round(score, 4), WORDNET))
-    return _numbered(found, noun)
+    return found
 
 
 def _similar(word: str, words: tuple[str, ...]) -> float:
