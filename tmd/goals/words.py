@@ -80,7 +80,7 @@ def is_relation(word: str, kind: str) -> bool:
 
 @cache
 def is_unknown_relation(word: str) -> bool:
-    """Return whether a relation is of no class, such as ``to_the_left_of``: it says a place that nothing is known of."""
+    """Return whether a relation is of no class: an unknown place, such as ``to_the_left_of``."""
     known = {
         *table("inverse"),
         *(w for name in ("prepositions", "relations") for row in table(name).values() for w in row),

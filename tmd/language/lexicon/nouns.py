@@ -120,7 +120,7 @@ def _natural(name: str) -> tuple[tuple[int, int | str], ...]:
 
 
 def number_of(noun: str) -> int | None:
-    """Return the number that a thing is called by: 3 for ``burner_3`` and ``burner_three``, none for ``third_burner``."""
+    """Return the number in the name of a thing: 3 for ``burner_3`` and ``burner_three``, none for ``third_burner``."""
     parsed = _parse(noun)
     return None if parsed.ordinal else parsed.number
 
