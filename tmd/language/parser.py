@@ -8,20 +8,20 @@ length of the text.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cache
 
 from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
-from tmd.language.lexicon.lexicon import Lexicon, builtin, section, sections, slips
+from tmd.language.lexicon.lexicon import Lexicon, builtin, pairs, section, sections, sections_of
 from tmd.language.syntax.antecedents import resolve
-from tmd.language.syntax.brackets import ADDRESS, Bracketer
+from tmd.language.syntax.brackets import Bracketer
 from tmd.language.syntax.frames import Frames
 from tmd.language.syntax.joins import join
 from tmd.language.syntax.links import Linker
 from tmd.language.syntax.phrases import rewrite
 from tmd.language.syntax.reading import TextReading
-from tmd.language.syntax.tagger import decide, tag
+from tmd.language.syntax.tagger import ADVERB, decide, tag
 from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_endearments, drop_repeats, tokenise
 from tmd.language.syntax.tree import parse_tokens
 
@@ -35,8 +35,6 @@ _ENGLISH_SHARE = 0.5
 """A text of which fewer words than this are known is not English ..."""
 _FEWEST_WORDS = 3
 """... if it has as many different words."""
-_ADVERB = 5
-"""Longer words that end in *ly* are adverbs."""
 
 
 def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = None) -> Parsed:
@@ -54,14 +52,10 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     cut = _of_bearable_length(tokenise(text))
     markup = [t for t in cut if t.note]
     kept, repeated = drop_repeats([t for t in cut if not t.note])
-    for token in repeated:
-        token.note = "repeats what was just said"
     kept, called = drop_endearments(kept)
-    for token in called:
-        token.note = ADDRESS
     strange = _foreign(kept, words)
-    if strange is not None:
-        return Parsed(text, (), strange(text))
+    if strange:
+        return Parsed(text, (), (Skipped(text.strip(), Span(0, len(text)), strange),))
     tokens = tag(kept, words, trace)
     decide(tokens, words, trace)
     tokens = Frames(tokens, words).run()
@@ -107,38 +101,26 @@ def is_filler(word: str) -> bool:
 
 
 def _is_filler(word: str) -> bool:
-    word = slips().get(word, word)
+    word = pairs("slips").get(word, word)
     word = word.removesuffix("'s") if word not in section("be") else word
-    if (
-        word in section("joints")
-        or (word.endswith("ly") and len(word) > _ADVERB)
-        or word.endswith(sections()["contracted"])
-    ):
-        return True
-    return any(word in section(name) for name in sections()["fillers"]) or word in _inside_phrases()
+    adverb = word.endswith("ly") and len(word) > ADVERB
+    listed = not sections_of(word).isdisjoint(("joints", *sections()["fillers"]))
+    return adverb or listed or word.endswith(sections()["contracted"]) or word in _inside_phrases()
 
 
 @cache
 def _inside_phrases() -> frozenset[str]:
-    words: set[str] = set()
-    for name in ("multiword_adverbs", "ensure"):
-        for entry in section(name):
-            words.update(entry.split("_"))
-    return frozenset(words)
+    entries = section("multiword_adverbs") | section("ensure")
+    return frozenset(word for entry in entries for word in entry.split("_"))
 
 
-def _foreign(tokens: Sequence[Token], lexicon: Lexicon) -> Callable[[str], tuple[Skipped, ...]] | None:
-    """Return how to report a text without English words, or ``None`` for all other texts."""
-    words = [t.text for t in tokens if t.kind is Kind.WORD]
+def _foreign(tokens: Sequence[Token], lexicon: Lexicon) -> str:
+    """Return why a text without English words is skipped; empty for all other texts."""
+    words = {t.text for t in tokens if t.kind is Kind.WORD}
     if not words and not any(t.kind is Kind.NUM for t in tokens):
-        return lambda text: (Skipped(text.strip(), Span(0, len(text)), NO_WORDS),)
-    distinct = sorted(set(words))
-    if len(distinct) < _FEWEST_WORDS:
-        return None
-    known = sum(lexicon.knows(w) or lexicon.correct(w) is not None for w in distinct)
-    if known >= _ENGLISH_SHARE * len(distinct):
-        return None
-    return lambda text: (Skipped(text.strip(), Span(0, len(text)), FOREIGN),)
+        return NO_WORDS
+    known = sum(lexicon.knows(w) or lexicon.correct(w) is not None for w in words)
+    return FOREIGN if len(words) >= _FEWEST_WORDS and known < _ENGLISH_SHARE * len(words) else ""
 
 
 def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> tuple[Skipped, ...]:
@@ -170,14 +152,11 @@ def _is_idle(token: Token, *, inside: bool) -> bool:
     """Tell whether nothing is to be said of a token: a clause covers it, or it carries nothing."""
     if token.kind is Kind.SKIP or token.note:
         return False
-    return inside or token.span.start == token.span.end or token.kind in _SIGNS or _all_filler(token)
+    filler = token.kind is not Kind.MOD and all(map(is_filler, token.text.split()))
+    return inside or token.span.start == token.span.end or token.kind in _SIGNS or filler
 
 
 _SIGNS = frozenset({Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC, Kind.LINK, Kind.END})
-
-
-def _all_filler(token: Token) -> bool:
-    return token.kind is not Kind.MOD and all(is_filler(word) for word in token.text.split())
 
 
 def _adjacent(text: str, before: Span, after: Span, reason: str) -> bool:

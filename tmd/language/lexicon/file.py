@@ -94,8 +94,8 @@ class _Source:
         """Return a scalar that is a PDDL condition, and where it begins."""
         if not isinstance(node, yaml.ScalarNode) or not node.value.strip():
             self.fail(node.start_mark, "expected a PDDL condition here", "write (opened ?x)")
-        quoted = node.style in ("'", '"')
-        return node.value, Location(str(self.path), node.start_mark.line + 1, node.start_mark.column + 1 + quoted)
+        place = self.place(node.start_mark)
+        return node.value, replace(place, column=place.column + (node.style in ("'", '"')))
 
     def aliases(self, node: yaml.Node) -> dict[str, tuple[str, ...]]:
         result = {}
@@ -231,16 +231,10 @@ def _merged(own: Mapping[str, str], other: Mapping[str, str]) -> dict[str, str]:
 def _places(source: _Source, parts: Mapping[str, yaml.Node]) -> dict[tuple[str, str], Location]:
     """Return where each word of a file was declared."""
     found = {}
-    for name in _WORDS:
-        node = parts.get(name)
-        keys = (
-            [key for key, _ in node.value]
-            if isinstance(node, yaml.MappingNode)
-            else node.value
-            if isinstance(node, yaml.SequenceNode)
-            else []
-        )
-        found.update({(name, str(key.value)): source.place(key.start_mark) for key in keys})
+    for name in (name for name in _WORDS if isinstance(parts.get(name), yaml.CollectionNode)):
+        for entry in parts[name].value:
+            key = entry[0] if isinstance(entry, tuple) else entry
+            found[name, str(key.value)] = source.place(key.start_mark)
     return found
 
 

@@ -350,6 +350,11 @@ def section(name: str) -> frozenset[str]:
     return frozenset(sections()[name])
 
 
+def first_of(name: str) -> str:
+    """Return the first word of a section of ``data/words.txt``, which represents the others."""
+    return sections()[name][0]
+
+
 def sections_of(word: str) -> frozenset[str]:
     """Return the names of the sections of ``data/words.txt`` that have a word."""
     return _by_word().get(word, frozenset())
@@ -368,11 +373,6 @@ def _by_word() -> Mapping[str, frozenset[str]]:
 def pairs(name: str) -> Mapping[str, str]:
     """Return a section whose entries are "this=that"."""
     return dict(entry.split("=") for entry in sections()[name])
-
-
-def slips() -> Mapping[str, str]:
-    """Return the slips that no likeness finds, with the words they stand for."""
-    return pairs("slips")
 
 
 _VOWELS = "aeiou"

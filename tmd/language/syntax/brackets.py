@@ -10,9 +10,8 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon, pairs, section
-from tmd.language.syntax.joins import first_of
-from tmd.language.syntax.tokens import BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, Words, mark
+from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
+from tmd.language.syntax.tokens import ADDRESS, BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, Words, mark, noted
 
 K = Kind
 ALSO = "also"
@@ -26,7 +25,6 @@ DUTY = "duty"
 STATEMENT = "a statement, not an instruction"
 UNNEEDED = "says what need not be done"
 REMINDER = "names a thing, and not what to do with it"
-ADDRESS = "addresses somebody"
 ASIDE = "an aside in brackets"
 QUESTION = "a question, not an instruction"
 REASON = "says what the rest is for"
@@ -80,8 +78,8 @@ class Bracketer(Words):
         }  # fmt: skip
         self._inner: dict[Kind, Handler] = shared | {
             K.STOP: self._drop, K.TO: self._inner_to, K.NEG: self._inner_negation, K.ENSURE: self._drop,
-            K.LET: self._inner_let, K.SUBJECT: self._inner_subject, K.AUX: self._inner_auxiliary,
-            K.DET: self._inner_determiner, K.N: self._inner_noun, K.V: self._inner_verb,
+            K.LET: self._inner_let, K.SUBJECT: self._inner_subject, K.AUX: self._inner_negation,
+            K.DET: self._inner_negation, K.N: self._inner_noun, K.V: self._inner_verb,
             K.COMMA: self._inner_joint, K.CC: self._inner_joint,
         }  # fmt: skip
 
@@ -482,10 +480,7 @@ class Bracketer(Words):
     def _is_question(self, at: int) -> bool:
         """Tell whether a question begins that asks for nothing: "Is the lamp on?"."""
         starts = (not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}) and self._last() in BREAKS
-        if not (starts and self.among(at, "questions")) or self.kind(at + 1) is K.ING:
-            return False
-        end = self.first(at, "STOP")
-        return end < len(self.tokens) and "?" in self.tokens[end].text
+        return starts and self.among(at, "questions") and self.kind(at + 1) is not K.ING and self.asked(at)
 
     def _question(self, at: int) -> int:
         """Set a question aside; one that "if so" or "if not" follows is a condition of what is asked then."""
@@ -512,8 +507,7 @@ class Bracketer(Words):
             start -= 1
         while start and thing and self.out[start - 1].kind in NP:
             start -= 1
-        self.tokens[at].note = CORRECTED
-        self.dropped.append(self.tokens[at])
+        self.dropped += noted([self.tokens[at]], CORRECTED)
         self._take_back(max(start - place, 0), CORRECTED)
         return begin
 
@@ -525,16 +519,12 @@ class Bracketer(Words):
         """Tell whether a condition begins that has its verb first: "should the door be open, shut it"."""
         if self.kind(at) is not K.AUX or not self.among(at, "inverting") or self._last() not in BREAKS:
             return False
-        stop = self.first(at, "STOP")
-        asked = stop < len(self.tokens) and "?" in self.tokens[stop].text
-        apart = any(self.kind(i) is K.COMMA for i in range(at, stop))
-        return apart and not asked and self.kind(at + 1) in NP
+        apart = self.kind(self.first(at, "STOP|COMMA")) is K.COMMA
+        return apart and not self.asked(at) and self.kind(at + 1) in NP
 
     def _take_back(self, start: int, note: str) -> None:
         """Set aside what has been emitted from a place on."""
-        for token in self.out[start:]:
-            token.note = note
-        self.dropped += self.out[start:]
+        self.dropped += noted(self.out[start:], note)
         del self.out[start:]
         if self._verb is not None and self._verb.note:
             self._begin()
@@ -679,9 +669,7 @@ class Bracketer(Words):
             if not (told or stated):
                 break
             if not stated:
-                for token in unit:
-                    token.note = REASON
-                self.dropped += unit
+                self.dropped += noted(unit, REASON)
                 del self.out[start : end - 1]
                 self._subject -= len(unit)
 
@@ -808,13 +796,12 @@ class Bracketer(Words):
         return at + 1
 
     def _inner_negation(self, at: int) -> int:
-        self._open[-1].negated = True
-        return at + 1
-
-    def _inner_determiner(self, at: int) -> int:
-        if self.among(at, "none_words") and self._open[-1].kind is K.SUB:
-            self._open[-1].negated = True
-        return self._keep(at)
+        """Note a negation in the opener: "not", "isn't", and "no" in a condition; keep all but the first."""
+        kind, opener = self.kind(at), self._open[-1]
+        none = kind is K.DET and opener.kind is K.SUB and self.among(at, "none_words")
+        if kind is K.NEG or none or (kind is K.AUX and self.among(at, "not_forms")):
+            opener.negated = True
+        return at + 1 if kind is K.NEG else self._keep(at)
 
     def _inner_subject(self, at: int) -> int:
         self.tokens[at].kind = K.PRON
@@ -844,9 +831,4 @@ class Bracketer(Words):
         """Keep a verb, but for what is a state behind a denied form of *be*: "it is not open"."""
         if self._last() is K.AUX and self.out[-1].text in section("be") and self.kind(at - 1) is K.NEG:
             self.tokens[at].kind = K.STATE
-        return self._keep(at)
-
-    def _inner_auxiliary(self, at: int) -> int:
-        if self.among(at, "not_forms"):
-            self._open[-1].negated = True
         return self._keep(at)

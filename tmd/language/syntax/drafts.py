@@ -22,9 +22,9 @@ from tmd.language.clause import (
     Relation,
     Span,
 )
-from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, RELATIVE
-from tmd.language.syntax.joins import SETTING, first_of
+from tmd.language.syntax.joins import SETTING
 from tmd.language.syntax.links import CHOICE
 from tmd.language.syntax.noun_phrases import Phrase, also_of, named_in, phrases_of
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
@@ -50,7 +50,6 @@ class ClauseDraft:
         further: Noun phrases that stand in relative clauses.
         result: The state that something shall be in.
         mood: What is asked of it, if it says so itself.
-        written: Conditions and purposes as written, by kind.
         elliptic: Its verb was read off a state: "TV on".
         host: The clause that it is said with, whose objects its pronouns may mean.
     """
@@ -68,7 +67,6 @@ class ClauseDraft:
     result: str | None = None
     mood: Mood | None = None
     relative: bool = False
-    written: list[tuple[str, str]] = field(default_factory=list)
     elliptic: bool = False
     host: ClauseDraft | None = None
 
@@ -100,14 +98,10 @@ class ClauseDraft:
             setting=self._folded(text, "setting"),
             heading=self.verb.heading,
             told=self.verb.told,
-            condition=self._written("condition"),
+            condition=self._written(purpose=False),
             duration=self._folded(text, "duration"),
-            purpose=self._written("purpose"),
+            purpose=self._written(purpose=True),
         )
-
-    def places(self) -> list[Relation]:
-        """Return the relations that say where something shall be."""
-        return [r for r in self.relations if r.relation in section("static") | section("arrivals")]
 
     def add(self, phrases: Sequence[Phrase], places: Sequence[Span]) -> None:
         """Add what was named behind a state: "TV on, channel two"; "lights off, both" says how many."""
@@ -116,10 +110,6 @@ class ClauseDraft:
             phrase.lead = (*both, *phrase.lead)
         self.direct += [p for p in phrases if p.name not in both]
         self.spans += places
-
-    def owns(self) -> bool:
-        """Tell whether it says what something has."""
-        return any(r.relation == WITH for r in self.relations)
 
     def take_places(self, other: ClauseDraft) -> None:
         """Put what it acts on where another clause puts its things."""
@@ -180,8 +170,9 @@ class ClauseDraft:
         # a word of a phrase row stands nowhere in the text
         return _MULTIPLE.join(" ".join(text[t.span.start : t.span.end].split()) or t.text for t in folds) or None
 
-    def _written(self, form: str) -> str | None:
-        return _MULTIPLE.join(words for kind, words in self.written if kind == form) or None
+    def _written(self, *, purpose: bool) -> str | None:
+        said = ((c.text, c.word == TO or c.word in section("reasons")) for c in self.conditions if not c.carried)
+        return _MULTIPLE.join(words for words, aimed in said if aimed == purpose) or None
 
 
 class Attachment:
@@ -335,7 +326,7 @@ class Attachment:
         """Read "the cups on the table and the books on the shelf": the second pair stands by itself."""
         if not (is_a(node, "place") and rest and is_a(rest[0], "place") and self.draft.direct):
             return False
-        phrases = _targets(node)
+        phrases = named_in(node.children)
         if len(phrases) < 2 or not self._pairs(node, rest, phrases):
             return False
         sources = list(self.host if self._paired else self.draft.direct)
@@ -346,13 +337,13 @@ class Attachment:
         self.host, self._behind, self._paired = phrases[1:], "", True
         return True
 
-    def _pairs(self, node: Node, rest: Sequence[Node], phrases: list[Phrase]) -> bool:
+    def _pairs(self, node: Tree[Leaf], rest: Sequence[Node], phrases: list[Phrase]) -> bool:
         """Tell whether the last nouns behind a preposition are things that the next one places."""
         name, opening = next(leaves(node)).text, next(leaves(rest[0])).text
         origin = opening in section("origins") and len(rest) > 1 and is_a(rest[1], "place")
         goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
         placing = self.draft.verb.stem in section("placing") | section("belonging")
-        opposite = any(w in section("other_words") for p in _targets(rest[0]) for w in p.lead)
+        opposite = any(w in section("other_words") for p in named_in(rest[0].children) for w in p.lead)
         alike = opposite or self._is_thing_again(phrases)
         return alike and (name == opening or (placing and goes))
 
@@ -394,10 +385,6 @@ class Attachment:
         for name, targets in self._pending:
             self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)
         self._pending.clear()
-
-
-def _targets(node: Node) -> list[Phrase]:
-    return named_in(node.children) if isinstance(node, Tree) else []
 
 
 def _tells(phrases: list[Phrase]) -> bool:

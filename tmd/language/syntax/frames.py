@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from tmd.language.lexicon.lexicon import Lexicon, section
-from tmd.language.syntax.joins import first_of
+from tmd.language.lexicon.lexicon import Lexicon, first_of, section
 from tmd.language.syntax.tokens import IDLE, NP, Kind, Token, Words
 
 K = Kind
@@ -173,9 +172,7 @@ class Frames(Words):
     def _asks(self, start: int, at: int, end: int) -> bool:
         """Tell whether a frame asks for what follows, and does not state or deny it."""
         frame = range(start, end)
-        denied = [i for i in frame if self.kind(i) is K.NEG]
-        question = self.first(at, "STOP")
-        asked = question < len(self.tokens) and "?" in self.tokens[question].text
+        denied, asked = [i for i in frame if self.kind(i) is K.NEG], self.asked(at)
         if denied and not (asked and self._is_harmless(denied, frame)):
             return False
         modal = any(self.among(i, "frame_modals", "frame_negations") for i in frame)

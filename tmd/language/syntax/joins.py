@@ -7,7 +7,7 @@ of the text, up to a bounded look ahead.
 from __future__ import annotations
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon, pairs, section, sections, singular
+from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section, singular
 from tmd.language.syntax.tokens import HEADS, IDLE, NP, Kind, Token, Words, fold
 
 K = Kind
@@ -31,11 +31,6 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _Particles(tokens, lexicon).run()
     _sentences(tokens)
     return tokens
-
-
-def first_of(name: str) -> str:
-    """Return the first word of a section of ``words.txt``, which stands for the others."""
-    return sections()[name][0]
 
 
 def _copulas(tokens: list[Token]) -> list[Token]:

@@ -9,7 +9,7 @@ from functools import cache
 from lark import Tree
 
 from tmd.language.clause import PERSONS, NounPhrase, Quantifier
-from tmd.language.lexicon.lexicon import section, sections, singular
+from tmd.language.lexicon.lexicon import first_of, section, sections, singular
 from tmd.language.syntax.brackets import ALSO
 from tmd.language.syntax.links import CHOICE
 from tmd.language.syntax.tokens import NAME, Kind, Token
@@ -79,15 +79,15 @@ class Phrase:
         quantity = self.quantity or next((w for w in self.lead if is_number(w) and number_of(w) != 1), "")
         both = not section("both_words").isdisjoint(words)
         return NounPhrase(
-            self.name,
-            self._quantifier(words, quantity),
-            number_of(quantity) if quantity else 2 if both else None,
-            self.determined and (section("indefinite") | section("none_words")).isdisjoint(self.lead),
-            self.plural,
-            tuple(dict.fromkeys([*self._adjectives(), *self.attributes])),
-            self.either,
-            not section("each_words").isdisjoint(words),
-            self._undetermined(),
+            name=self.name,
+            quantifier=self._quantifier(words, quantity),
+            number=number_of(quantity) if quantity else 2 if both else None,
+            definite=self.determined and (section("indefinite") | section("none_words")).isdisjoint(self.lead),
+            plural=self.plural,
+            attributes=tuple(dict.fromkeys([*self._adjectives(), *self.attributes])),
+            either=self.either,
+            each=not section("each_words").isdisjoint(words),
+            undetermined=self._undetermined(),
         )
 
     def _undetermined(self) -> bool:
@@ -173,13 +173,13 @@ def _head(words: list[Token], lead: list[Token]) -> Phrase:
     """Return the phrase of a head; "the white one" and "the other" tell which of what was spoken of."""
     start, said = words[0].span.start, tuple(t.text for t in lead)
     texts, last = [t.text for t in words], words[-1]
-    one = sections()["one_words"][0]
+    one = first_of("one_words")
     if texts[0] in section("other_words") and len(texts) == 1:
         return Phrase(one, start, False, True, lead=(*said, *texts))
     if texts[0] in section("ordinals") and len(texts) == 1:
         return Phrase(f"{texts[0]}_{one}", start, False, True, lead=said)
     if texts[0] in section("rest_words") and len(texts) == 1 and said:
-        return Phrase(one, start, True, True, lead=(*said, sections()["other_words"][0]))
+        return Phrase(one, start, True, True, lead=(*said, first_of("other_words")))
     written = "_".join(texts)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     if last.text in section("one_words"):

@@ -26,7 +26,7 @@ from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon, PhraseRow, data_text, section
 from tmd.language.syntax.rows import Entry, read_file, read_rows, section_names
 from tmd.language.syntax.tagger import decide, tag
-from tmd.language.syntax.tokens import Kind, Token, tokenise
+from tmd.language.syntax.tokens import Kind, Token, noted, tokenise
 
 _LEAD = rf"(?:[^\t ]+\t(?:{Kind.ADV}|{Kind.FILLER}) )*"
 _MARKS = {
@@ -199,9 +199,8 @@ def _new(
     """Return what takes the place of a match; the first new word covers the words that are gone without a note."""
     spans = [span for token in gone for span in (token.span, *token.parts)]
     if row.note:
-        spans, dropped[len(dropped) :] = [], gone
-        for token in gone:
-            token.note = row.note
+        spans = []
+        dropped += noted(gone, row.note)
     new: list[Token] = []
     for element, name in row.replacement:
         if name and not element.endswith(".stem}"):

@@ -10,12 +10,11 @@ from itertools import islice, pairwise
 from lark import Tree
 
 from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mood, Quantifier, Relation, Span
-from tmd.language.lexicon.lexicon import pairs, section, sections
+from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
-from tmd.language.syntax.joins import first_of
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
-from tmd.language.syntax.sayings import Saying, demand, described, name_verb
+from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, name_verb
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
@@ -173,7 +172,6 @@ class TextReading:
             elif node.data == "purpose" or not (self._ordered(draft, node) or _only_when(node)):
                 draft.conditions.append(self._condition(node))
                 draft.fronted = draft.fronted or (fronted and node.data == "condition")
-                draft.written.append((str(node.data), draft.conditions[-1].text))
 
     def _explained(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
         """Set a reason aside; pronouns may mean what it speaks of."""
@@ -182,7 +180,7 @@ class TextReading:
             self._stated(part, self._said(part), before, REASON)
 
     def _said(self, part: Tree[Leaf]) -> list[ClauseDraft]:
-        return Saying.of(part).clauses(self._attach)
+        return Saying(part).clauses(self._attach)
 
     # what is subordinate
 
@@ -246,12 +244,12 @@ class TextReading:
         """Record what a denial forbids: a clause of its own, or the verb before it with other arguments."""
         before = self._number(draft, next(leaves(node)))
         for part in trees(node.children, "part"):
-            saying = Saying.of(part)
+            saying = Saying(part)
             deed = any(t.kind is Kind.V for t in leaves(part))
             own = trees(part.children, "predicate") and (deed or draft is None or saying.complement)
             if not own and draft is not None and self._excepted(draft, part):
                 continue
-            found = saying.clauses(self._attach) if own else [self._contrasted(draft, saying)] if draft else []
+            found = saying.clauses(self._attach) if own else [self._contrasted(draft, part.children)] if draft else []
             for item in found:
                 item.mood, item.spans = Mood.AVOID, spans([node])
                 item.verb.form = IMPLIED if not deed and draft is not None else item.verb.form
@@ -277,10 +275,9 @@ class TextReading:
         place = next((i for i, d in enumerate(self.drafts) if d is draft), len(self.drafts))
         return place if draft is None or opener.span < draft.verb.span else len(self.drafts)
 
-    def _contrasted(self, draft: ClauseDraft, saying: Saying) -> ClauseDraft:
+    def _contrasted(self, draft: ClauseDraft, nodes: Sequence[Node]) -> ClauseDraft:
         """Return a clause with what stands in place of its objects, or of its place: "…, not the mug"."""
-        copy = saying.draft(draft.verb.stem)
-        nodes = list(saying.part.children)
+        copy = empty_draft(draft.verb.stem, nodes)
         if not about_things(nodes):
             copy.direct = list(draft.direct)
         self._attach(copy, nodes)
@@ -303,7 +300,7 @@ class TextReading:
             return
         if trees(nodes, "denial") and self.forbidden and trees(rest, "group", "place"):
             denied = self.forbidden[-1][1]  # "don't put it on the stove but on the shelf"
-            draft = self._contrasted(denied, Saying(Tree("part", rest), [], [], [], []))
+            draft = self._contrasted(denied, rest)
             draft.mood = None
             self.drafts.append(draft)
         elif about_things(rest):
@@ -316,7 +313,7 @@ class TextReading:
         opener = next(leaves(node))
         asked = node.data == "demand" or opener.form == DUTY
         for part in trees(node.children, "part"):
-            saying = Saying.of(part)
+            saying = Saying(part)
             asked = asked or saying.asks()
             if opener.negated and self.drafts and saying.bare:
                 self._forbid(self.drafts[-1], node)  # "the cup goes there, the mug does not"
@@ -377,7 +374,7 @@ class TextReading:
         """Read "then the mug" and "the mug too" with the verb, and the place, of the clause before."""
         if not self.drafts or not about_things(nodes) or trees(nodes, *_ASIDES, *_DENIALS):
             return False
-        draft = self._contrasted(self.drafts[-1], Saying(Tree("part", nodes), [], [], [], []))
+        draft = self._contrasted(self.drafts[-1], nodes)
         draft.verb.sentence, draft.verb.form = self.drafts[-1].verb.sentence, self.drafts[-1].verb.form
         self.drafts.append(draft)
         return True
@@ -491,9 +488,9 @@ def _is_deed(part: Tree[Leaf]) -> bool:
     verb = next((t for t in leaves(part) if t.kind in (Kind.V, Kind.ING, Kind.FINITE)), None)
     if verb is None or verb.form == "ing":
         return verb is not None
-    saying = Saying.of(part)
+    saying = Saying(part)
     subject = [t.text for n in saying.subject for t in leaves(n)]
-    return subject == [sections()["addressee"][0]] and bool(saying.verbs) and saying.complement
+    return subject == [first_of("addressee")] and bool(saying.verbs) and saying.complement
 
 
 def _is_pronoun(group: Tree[Leaf]) -> bool:
@@ -507,7 +504,7 @@ def _is_fold(node: Node) -> bool:
 
 def _only_when(node: Tree[Leaf]) -> bool:
     """Tell whether a condition says of somebody that he goes or is done, which no state of things shows."""
-    sayings = [Saying.of(part) for part in trees(node.children, "part")]
+    sayings = [Saying(part) for part in trees(node.children, "part")]
     return bool(sayings) and all(
         saying.verbs
         and saying.verbs[-1].stem in section("intransitive")

@@ -6,16 +6,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from lark import Tree
 
 from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WITH, Mood, Quantifier, Relation, Span
-from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
-from tmd.language.syntax.joins import SETTING, first_of
+from tmd.language.syntax.joins import SETTING
 from tmd.language.syntax.noun_phrases import Phrase, about_things, named_in
-from tmd.language.syntax.tokens import IMPLIED, Kind, Token
+from tmd.language.syntax.tokens import IMPLIED, VERBAL, Kind, Token
 from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
 EXISTS = "exists"
@@ -24,7 +23,6 @@ Attach = Callable[[ClauseDraft, Sequence[Node], Sequence[Node]], None]
 """Attaches arguments, and what a predicate says of them, to a clause."""
 
 
-@dataclass(slots=True)
 class Saying:
     """One part of a subordinate clause or statement.
 
@@ -36,21 +34,15 @@ class Saying:
         helpers: Its auxiliaries.
     """
 
-    part: Tree[Leaf]
-    subject: list[Node]
-    rest: list[Node]
-    verbs: list[Token]
-    helpers: list[Token]
-
-    @classmethod
-    def of(cls, part: Tree[Leaf]) -> Saying:
+    def __init__(self, part: Tree[Leaf]) -> None:
         """Take a part of the grammar to pieces."""
         predicate = [n for p in trees(part.children, "predicate") for n in p.children]
         words = [n.source for n in predicate if isinstance(n, Leaf)]
-        rest = [n for n in predicate if not isinstance(n, Leaf) or n.source.kind is Kind.MOD]
-        verbs = [t for t in words if t.kind in (Kind.FINITE, Kind.PARTICIPLE, Kind.ING, Kind.V) and t.stem]
-        helpers = [t for t in words if t.kind is Kind.AUX]
-        return cls(part, [n for n in part.children if not is_a(n, "predicate")], rest, verbs, helpers)
+        self.part = part
+        self.subject = [n for n in part.children if not is_a(n, "predicate")]
+        self.rest = [n for n in predicate if not isinstance(n, Leaf) or n.source.kind is Kind.MOD]
+        self.verbs = [t for t in words if t.kind in VERBAL - {Kind.AUX} and t.stem]
+        self.helpers = [t for t in words if t.kind is Kind.AUX]
 
     @property
     def complement(self) -> bool:
@@ -110,13 +102,8 @@ class Saying:
         """Tell whether a participle says in what state its subject is, not what it has done."""
         return self._helped("be") or (not self._helped("having") and about_things(self.subject))
 
-    def draft(self, stem: str) -> ClauseDraft:
-        """Return an empty clause that stands where it stands."""
-        places = spans([self.part]) or [Span(0, 0)]
-        return ClauseDraft(Token(Kind.V, stem, places[0], stem=stem, form="base"), spans=places)
-
     def _state(self, attach: Attach) -> ClauseDraft:
-        draft = self.draft(BE)
+        draft = empty_draft(BE, [self.part])
         named = about_things(self.subject)
         if not named and not about_things(self.rest) and trees([*self.subject, *self.rest], "state", "place"):
             start = min(t.span.start for t in leaves(self.part))
@@ -132,14 +119,14 @@ class Saying:
 
     def _done(self, verb: Token, attach: Attach) -> ClauseDraft:
         """*The kettle is filled with water*: a state that a participle names."""
-        draft = self.draft(BE)
+        draft = empty_draft(BE, [self.part])
         attach(draft, self.subject, self.rest)
         draft.result, draft.verb.lead = verb.text, [verb.stem]
         return draft
 
     def _event(self, verb: Token, attach: Attach) -> ClauseDraft:
         """*The water boils* is what *boil the water* brings about; of *when you take it* only the verb counts."""
-        draft = self.draft(verb.stem)
+        draft = empty_draft(verb.stem, [self.part])
         draft.spans += verb.parts
         named = about_things(self.subject)
         about = self.subject if named else [n for n in self.subject if not is_a(n, "group")]
@@ -148,7 +135,7 @@ class Saying:
 
     def _owned(self, attach: Attach) -> ClauseDraft:
         """*The cup has milk in it*: a state with a relation."""
-        draft = self.draft(BE)
+        draft = empty_draft(BE, [self.part])
         if not about_things(self.subject):
             attach(draft, self.rest, ())
             return draft
@@ -159,6 +146,12 @@ class Saying:
         draft.relations += [Relation(WITH, owner, p.name) for p in contents]
         draft.relations += [Relation(OF, p.name, part.name) for p in contents for part in p.of]
         return draft
+
+
+def empty_draft(stem: str, nodes: Sequence[Node]) -> ClauseDraft:
+    """Return a clause without arguments that stands where some nodes stand."""
+    places = spans(nodes) or [Span(0, 0)]
+    return ClauseDraft(Token(Kind.V, stem, places[0], stem=stem, form="base"), spans=places)
 
 
 def demand(draft: ClauseDraft, *, denied: bool) -> None:
@@ -194,12 +187,12 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
 
 def _demand_plainly(draft: ClauseDraft, result: str) -> None:
     """Give a verb to a state that shall be: "the floor should be clean", "the cup should be on the shelf"."""
-    verb = draft.verb
+    verb, said = draft.verb, {r.relation for r in draft.relations}
     if result in pairs("state_verbs") or result in section("verbs"):
         verb.stem, draft.result = pairs("state_verbs").get(result, result), None
     elif draft.set_to():
         verb.stem, draft.result = SET, None
-    elif not result and draft.places() and not draft.owns():
+    elif not result and WITH not in said and not said.isdisjoint(section("static") | section("arrivals")):
         verb.stem = PUT
 
 

@@ -24,7 +24,6 @@ from tmd.language.lexicon.lexicon import (
     section,
     sections,
     singular,
-    slips,
 )
 from tmd.language.syntax.rows import Conditions, Entry, Test, read_file, section_names
 from tmd.language.syntax.tokens import NAME, Kind, Token, fold
@@ -36,7 +35,7 @@ _LONGEST_RUN = 8
 WHEN = "says when, which no state shows"
 _STRETCHED = re.compile(r"(.)\1{2,}")
 """A letter that is written three times or more."""
-_LONG = 5
+ADVERB = 5
 """Longer words that end in *ly* are adverbs."""
 
 
@@ -377,7 +376,7 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) ->
     token.kind = row.kind
     trace.append(row.id)
     if token.kind is Kind.WORD:
-        if word.endswith("ly") and len(word) > _LONG and not lexicon.is_noun(word):
+        if word.endswith("ly") and len(word) > ADVERB and not lexicon.is_noun(word):
             token.kind = Kind.ADV
         elif token.capital and not lexicon.knows(singular(word)):
             token.form = NAME
@@ -396,7 +395,7 @@ def _spelled(token: Token, lexicon: Lexicon) -> str:
     word = token.text
     if word.endswith("'s") and word not in section("be") | section("whole"):
         word, token.form = word[:-2], "possessive"
-    word = slips().get(word, word).rstrip("'")
+    word = pairs("slips").get(word, word).rstrip("'")
     if _STRETCHED.search(word) and not lexicon.knows(word):  # "pleeease"
         word = _STRETCHED.sub(r"\1", word)
     if word.endswith(sections()["contracted"]):

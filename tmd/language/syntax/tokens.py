@@ -14,7 +14,7 @@ from functools import cache
 from itertools import pairwise, takewhile
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import pairs, section, sections, sections_of
+from tmd.language.lexicon.lexicon import first_of, pairs, section, sections, sections_of
 
 
 class Kind(StrEnum):
@@ -140,6 +140,7 @@ _KINDS = {
 _AMPERSAND = "&amp;"
 MARKUP = "a sign, not a word"
 """Why HTML, entities and pictures are skipped."""
+ADDRESS = "addresses somebody"
 _RUN = 3
 """Repeated runs of at least this many words are slips."""
 _LONGEST_RUN = 120
@@ -181,7 +182,7 @@ def tokenise(text: str) -> list[Token]:
 
 def _units(tokens: list[Token]) -> None:
     """Set aside the sign of a unit behind no number."""
-    for before, token in pairwise([Token(Kind.STOP, "", Span(0, 0)), *tokens]):
+    for before, token in pairwise([mark(Kind.STOP, 0), *tokens]):
         if token.text in _UNITS and before.kind is not Kind.NUM:
             token.kind, token.note = Kind.SKIP, MARKUP
 
@@ -192,11 +193,10 @@ def _labelled(tokens: list[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         if token.text == ":" and token.kind is Kind.STOP:
             ahead = _until_sign(tokens[at + 1 : at + 1 + _NOTE])
-            before = _until_sign(reversed(tokens[max(at - _NOTE, 0) : at]))
-            if 0 < len(before) <= _LABEL and any(t.arrow for t in ahead):
-                found.append(replace(token, kind=Kind.WORD, text=sections()["arrows"][1], arrow=True))
-                continue
-            if 0 < len(before) <= _LABEL and 0 < len(ahead) <= 2 and ahead[-1].text in section("noted_states"):
+            label = 0 < len(_until_sign(reversed(tokens[max(at - _NOTE, 0) : at]))) <= _LABEL
+            if label and any(t.arrow for t in ahead):
+                token = replace(token, kind=Kind.WORD, text=sections()["arrows"][1], arrow=True)
+            elif label and 0 < len(ahead) <= 2 and ahead[-1].text in section("noted_states"):
                 continue
         found.append(token)
     return found
@@ -225,7 +225,7 @@ def _token(match: re.Match[str]) -> Token:
         return Token(kind, word, span, note=MARKUP)
     if match.lastgroup == "abbr":
         short = pairs("written_signs").get(word)
-        return Token(kind, short or sections()["arrows"][0], span, arrow=short is None)
+        return Token(kind, short or first_of("arrows"), span, arrow=short is None)
     word = word[:_LONG_WORD]
     if kind is Kind.NUM:
         word = word.replace(",", ".")  # a name of a thing has no comma
@@ -286,14 +286,15 @@ def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
         key = tuple(words[position : position + _RUN])
         length = position - last_seen.get(key, position)
         last_seen[key] = position
-        if not _repeats(words, position, length):
+        run = _RUN <= length <= _LONGEST_RUN
+        if not run or words[position - length : position] != words[position : position + length]:
             length = 2 if _doubled(tokens, position) else 0
         if not length and kept and token.kind is Kind.WORD is kept[-1].kind and kept[-1].text == token.text:
             length = 1
         dropped += tokens[position : position + length]
         kept += [] if length else [token]
         position += length or 1
-    return kept, dropped
+    return kept, noted(dropped, "repeats what was just said")
 
 
 def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
@@ -307,7 +308,7 @@ def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
     position = 0
     while position < len(tokens):
         words = [t.text for t in tokens[position : position + 4]]
-        end = 1 + (words[1:2] == [sections()["address"][0]]) if tokens[position].kind is Kind.COMMA else len(words)
+        end = 1 + (words[1:2] == [first_of("address")]) if tokens[position].kind is Kind.COMMA else len(words)
         ended = end + 1 < len(words) and tokens[position + end + 1].kind in (Kind.COMMA, Kind.STOP)
         last = position + end + 1 == len(tokens)
         if end < len(words) and words[end] in section("endearments") and (ended or last):
@@ -316,12 +317,14 @@ def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
         else:
             kept.append(tokens[position])
             position += 1
-    return kept, dropped
+    return kept, noted(dropped, ADDRESS)
 
 
-def _repeats(words: list[str], at: int, length: int) -> bool:
-    """Tell whether so many words from here on are those before."""
-    return _RUN <= length <= _LONGEST_RUN and words[at - length : at] == words[at : at + length]
+def noted(tokens: list[Token], note: str) -> list[Token]:
+    """Return tokens with the reason for which they are set aside."""
+    for token in tokens:
+        token.note = note
+    return tokens
 
 
 def _doubled(tokens: list[Token], at: int) -> bool:
@@ -405,6 +408,11 @@ class Words:
     def peek(self, at: int, skip: str = "IDLE*") -> int:
         """Return the place of the next word behind ``at`` that is none of those to skip."""
         return self.past(at + 1, skip)
+
+    def asked(self, at: int) -> bool:
+        """Return whether the sentence of a place ends with a question mark."""
+        end = self.first(at, "STOP")
+        return end < len(self.tokens) and "?" in self.tokens[end].text
 
     def first(self, at: int, pattern: str) -> int:
         """Return the first place from ``at`` on where a pattern matches; the end where there is none."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cache
 from importlib.resources import files
+from typing import TypeGuard
 
 from lark import Lark, Tree
 from lark import Token as LarkToken
@@ -72,14 +73,14 @@ def leaves(node: Node) -> Iterator[Token]:
             yield from leaves(child)
 
 
-def is_a(node: Node, *names: str) -> bool:
+def is_a(node: Node, *names: str) -> TypeGuard[Tree[Leaf]]:
     """Tell whether a node is a rule of one of these names."""
     return isinstance(node, Tree) and node.data in names
 
 
 def trees(nodes: Sequence[Node], *names: str) -> list[Tree[Leaf]]:
     """Return those of the nodes that are rules of one of these names."""
-    return [n for n in nodes if isinstance(n, Tree) and n.data in names]
+    return [n for n in nodes if is_a(n, *names)]
 
 
 def spans(nodes: Sequence[Node]) -> list[Span]:
