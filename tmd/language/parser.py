@@ -131,14 +131,11 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         clauses: Its clauses.
         tokens: Every token, folded or not; those with a ``note`` know why they are skipped.
     """
-    covered = _merge([*(c.span for c in clauses), *(t.span for t in tokens if t.kind is Kind.SKIP)])
+    spans = [*(c.span for c in clauses), *(t.span for t in tokens if t.kind is Kind.SKIP)]
+    covered = {place for span in spans for place in range(*span)}
     pieces: list[tuple[Span, str]] = []
-    place = 0
     for token in sorted(tokens, key=lambda t: t.span):
-        while place < len(covered) and covered[place].end <= token.span.start:
-            place += 1
-        inside = place < len(covered) and covered[place].start <= token.span.start
-        if _is_idle(token, inside=inside):
+        if _is_idle(token, inside=token.span.start in covered):
             continue
         reason = token.note or NO_VERB
         if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span, reason):
@@ -162,13 +159,3 @@ _SIGNS = frozenset({Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC, Kind.L
 def _adjacent(text: str, before: Span, after: Span, reason: str) -> bool:
     between = text[before.end : after.start]
     return not between.strip() if reason == MARKUP else not any(sign in between for sign in ".!?;")
-
-
-def _merge(spans: list[Span]) -> list[Span]:
-    merged: list[Span] = []
-    for span in sorted(spans):
-        if merged and span.start <= merged[-1].end:
-            merged[-1] = Span(merged[-1].start, max(merged[-1].end, span.end))
-        else:
-            merged.append(span)
-    return merged

@@ -212,7 +212,8 @@ class Lexicon:
         """
         if word in pairs("spellings"):
             return pairs("spellings")[word], "base", 3
-        found = verb_stem(word, self._known_verb, _wordnet_verbs()[1])
+        listed = _wordnet_verbs()[0]
+        found = verb_stem(word, lambda verb: verb in self._own_verbs or verb in listed, _wordnet_verbs()[1])
         if found is None:
             return None
         stem, form = found
@@ -223,12 +224,7 @@ class Lexicon:
             return stem, form, 1
         if stem in section("verbs"):
             return stem, form, 2 if noun else 3
-        flag = _wordnet_verbs()[0].get(stem, "v")
-        strength = {"v": 2, "vn": 2, "nv": 1}[flag]
-        return stem, form, min(strength, 1) if noun else strength
-
-    def _known_verb(self, word: str) -> bool:
-        return word in self._own_verbs or word in _wordnet_verbs()[0]
+        return stem, form, 1 if noun or listed.get(stem) == "nv" else 2
 
     def particle(self, stem: str, particle: str) -> bool | None:
         """Tell whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
@@ -242,15 +238,12 @@ class Lexicon:
     def knows(self, word: str) -> bool:
         """Tell whether a word is in any list, WordNet's included."""
         return (
-            word in _closed_words()
-            or singular(word) in _closed_words()
+            not _closed_words().isdisjoint((word, singular(word), positive(word)))
+            or not _english().isdisjoint((word, singular(word)))
             or self.is_noun(word)
             or self.verb(word) is not None
-            or word in _english()
-            or positive(word) in _closed_words()
             or not section("drop_adjectives").isdisjoint(comparative_root(word))
             or self._is_doer(word)
-            or singular(word) in _english()
         )
 
     def _is_doer(self, word: str) -> bool:
@@ -269,7 +262,8 @@ class Lexicon:
         group = self._by_initial.get(word[0], ())
         if self.knows(word):
             return self._doer_slip(word, group)
-        swaps = _swaps(word)
+        # each pair of neighbouring letters changed, but for the first
+        swaps = {word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(1, len(word) - 1)}
         if swapped := swaps.intersection(group):
             return min(swapped)
         if word.endswith("s") and not word.endswith("ss") and (stem := self.correct(word[:-1])):
@@ -307,11 +301,6 @@ class Lexicon:
             if "_" not in word and len(word) >= TYPO_LENGTH:
                 table.setdefault(word[0], []).append(word)
         return {initial: tuple(group) for initial, group in table.items()}
-
-
-def _swaps(word: str) -> set[str]:
-    """Return a word with each pair of neighbouring letters changed, but for the first."""
-    return {word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(1, len(word) - 1)}
 
 
 @cache
@@ -449,14 +438,11 @@ def verb_stem(word: str, known: Callable[[str], bool], irregular: dict[str, str]
     if word in irregular:
         return irregular[word], "ing" if word.endswith("ing") else "ed"
     for stem, form in verb_candidates(word):
-        # "bathing" is of "bathe", "heating" of "heat": the bare root wins where both are verbs
-        if form in ("ed", "ing") and stem.endswith("e") and known(stem[:-1]) and not _wants_e(stem[:-1]):
-            return stem[:-1], form
+        # "bathing" is of "bathe", "heating" of "heat": the bare root wins where both are verbs, unless it is short and
+        # ends in a consonant ("us")
+        root = stem[:-1]
+        if form in ("ed", "ing") and stem.endswith("e") and known(root) and (len(root) > 3 or root[-1] in _VOWELS):
+            return root, form
         if known(stem):
             return stem, form
     return None
-
-
-def _wants_e(root: str) -> bool:
-    """Tell whether a root with one vowel and one consonant at the end needs its e ("plac", "us")."""
-    return len(root) < 4 and root[-1] not in _VOWELS
