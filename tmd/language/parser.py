@@ -42,7 +42,7 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
 
     Args:
         text: Any text: run-ons, typos, missing full stops, upper case, segment marks.
-        lexicon: Words of the domain besides the built-in ones.
+        lexicon: Words of the domain, in addition to the built-in ones.
         trace: Takes the ids of the rows of ``data/pos.yaml`` and ``data/phrases.yaml`` that fire.
 
     Returns:
@@ -92,7 +92,7 @@ def short_enough(text: str) -> str:
 
 
 def is_filler(word: str) -> bool:
-    """Tell whether a word may stand outside of all clauses without being reported.
+    """Return whether a word may stand outside of all clauses without being reported.
 
     Fillers carry nothing of a clause: conjunctions, adverbs, articles, politeness, auxiliaries, addressing
     words and verbs that only introduce another ("need to").
@@ -146,7 +146,7 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
 
 
 def _is_idle(token: Token, *, inside: bool) -> bool:
-    """Tell whether nothing is to be said of a token: a clause covers it, or it carries nothing."""
+    """Return whether a token needs no report: a clause covers it, or it carries nothing."""
     if token.kind is Kind.SKIP or token.note:
         return False
     filler = token.kind is not Kind.MOD and all(map(is_filler, token.text.split()))

@@ -136,7 +136,7 @@ def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
 
 
 def _declared(source: _Source, parts: Mapping[str, yaml.Node]) -> Lexicon:
-    """Return what a file says itself."""
+    """Return the entries of a file itself, without its includes."""
 
     def part(name: str, read: Callable[[_Source, yaml.Node], _Part]) -> _Part | None:
         return read(source, parts[name]) if name in parts else None
@@ -147,7 +147,7 @@ def _declared(source: _Source, parts: Mapping[str, yaml.Node]) -> Lexicon:
     return Lexicon(
         verbs=frozenset(part("verbs", lambda _, verbs: source.sequence(verbs, source.name)) or ()),
         phrasal=part("phrasal", _phrasal) or {},
-        nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
+        nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" names one as well
         verb_synonyms=part("verb_synonyms", _synonyms) or {},
         goals=goals,
         attributes=part("attributes", _attributes) or (),
@@ -218,7 +218,7 @@ def _phrases(source: _Source, node: yaml.Node) -> tuple[PhraseRow, ...]:
 
 
 def _merged(own: Mapping[str, str], other: Mapping[str, str]) -> dict[str, str]:
-    """Join synonyms: what stands for a verb that itself stands for another one by ``own`` stands for that one."""
+    """Join synonyms: a synonym of a verb that ``own`` replaces by another one is a synonym of that one."""
     served = set(own.values())
     found = dict(own)
     for verb, target in other.items():

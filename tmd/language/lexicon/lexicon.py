@@ -125,7 +125,7 @@ class Lexicon:
 
     Attributes:
         verbs: Further verbs.
-        phrasal: Further verbs with a particle, each with the verb it stands for (``turn_on`` itself, or
+        phrasal: Further verbs with a particle, each with the verb it means (``turn_on`` itself, or
             another): ``{"fire_up": "turn_on"}``.
         nouns: What a noun may mean here: names of classes, objects or substances, likeliest first.
         verb_synonyms: Verb to the verb whose templates serve it as well.
@@ -137,7 +137,7 @@ class Lexicon:
         included: The files of these base lexicons, in order.
         places: Where a word of a section was declared: ``("verb_synonyms", "get")``.
         names: The words in names of types and constants of the domain that are long enough for slips.
-        kinds: Last words of names of types and constants of the domain: nouns, be they verbs as well.
+        kinds: Last words of names of types and constants of the domain: nouns, even if they are verbs as well.
         compounds: Such names with a particle inside: their words together are one noun ("the volume down button").
         phrases: Turns of phrase of the domain.
     """
@@ -227,16 +227,16 @@ class Lexicon:
         return stem, form, 1 if noun or listed.get(stem) == "nv" else 2
 
     def particle(self, stem: str, particle: str) -> bool | None:
-        """Tell whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
+        """Return whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
         return self._phrasal.get(f"{stem}_{particle}")
 
     @lru_cache(maxsize=1 << 14)  # noqa: B019 - there are few lexicons, and they stay
     def is_noun(self, word: str) -> bool:
-        """Tell whether the own lists or the domain know a noun, in any number."""
+        """Return whether the own lists or the domain know a noun, in any number."""
         return word in self._own_nouns or singular(word) in self._own_nouns
 
     def knows(self, word: str) -> bool:
-        """Tell whether a word is in any list, WordNet's included."""
+        """Return whether a word is in any list, WordNet's included."""
         return (
             not _closed_words().isdisjoint((word, singular(word), positive(word)))
             or not _english().isdisjoint((word, singular(word)))
@@ -247,12 +247,12 @@ class Lexicon:
         )
 
     def _is_doer(self, word: str) -> bool:
-        """Tell whether a word is made of a known one with -er."""
+        """Return whether a word is made of a known one with -er."""
         return word.endswith("er") and word[:-2] in self._own_nouns | self._own_verbs
 
     @lru_cache(maxsize=1 << 14)  # noqa: B019 - there are few lexicons, and they stay
     def correct(self, word: str) -> str | None:
-        """Return the known word a typo stands for, or ``None``.
+        """Return the known word that a typo was meant to be, or ``None``.
 
         Only words that are in no list are corrected, and only to a word with the same first letter that is
         alike enough (:data:`_TYPO_RATIO`).
@@ -286,7 +286,7 @@ class Lexicon:
         return begun[0] if len(begun) == 1 else next(iter(near), None)
 
     def _doer_slip(self, word: str, group: tuple[str, ...]) -> str | None:
-        """Return the noun that a word stands for which is known only since it ends in -er: "wraper" is a wrapper."""
+        """Return the noun meant by a word that is known only by its ending -er: "wraper" is a wrapper."""
         if not self._is_doer(word) or self.is_noun(word) or word in _english():
             return None
         nouns = sorted(self._own_nouns.intersection(group))

@@ -24,7 +24,7 @@ _AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
 
 @dataclass(frozen=True, slots=True)
 class _Mention:
-    """A thing that was spoken of, how far it stands from the verb, and how it was told apart."""
+    """A thing that was mentioned, its distance from the verb, and its distinguishing words."""
 
     name: str
     plural: bool
@@ -43,22 +43,22 @@ class _Scene:
 
 
 def is_singular(name: str) -> bool:
-    """Tell whether a pronoun stands for one thing."""
+    """Return whether a pronoun refers to one thing."""
     return name in section("singular_pronouns")
 
 
 def is_plural(name: str) -> bool:
-    """Tell whether a pronoun stands for several things."""
+    """Return whether a pronoun refers to several things."""
     return name in section("plural_pronouns")
 
 
 def is_one(name: str) -> bool:
-    """Tell whether a language-object is *one*, or *red_one*: one of what was spoken of."""
+    """Return whether a language-object is *one*, or *red_one*: one of the things mentioned."""
     return name.rpartition("_")[2] in section("one_words")
 
 
 def is_pronoun(name: str) -> bool:
-    """Tell whether a language-object stands for something said before."""
+    """Return whether a language-object refers to something mentioned before."""
     return is_singular(name) or is_plural(name) or name in section("open_pronouns") or is_one(name)
 
 
@@ -110,7 +110,7 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
 
 
 def _new(said: ClauseDraft, fact: Clause, before: Sequence[Clause], reading: TextReading) -> dict[str, Clause]:
-    """Return a statement by the nouns that it speaks of first; a prohibition states nothing."""
+    """Return a statement by the nouns that it mentions first; a prohibition states nothing."""
     known = {name for clause in before for name in _named(clause)}
     if fact.verb != BE or any(said is draft for _, draft in reading.forbidden):
         return {}
@@ -120,7 +120,7 @@ def _new(said: ClauseDraft, fact: Clause, before: Sequence[Clause], reading: Tex
 def _stated(clause: Clause, facts: dict[str, Clause]) -> tuple[Relation, ...]:
     """Return where statements say that the things of a clause are.
 
-    A statement tells which thing is meant when it is first spoken of again; the text binds it from then on.
+    A statement says which thing is meant when it is next mentioned; from then on, the text binds it.
     """
     found: list[Relation] = []
     for name in (*clause.objects, ""):
@@ -137,7 +137,7 @@ def _place(pronoun: str, draft: ClauseDraft) -> int:
 
 
 def _vessels(pronoun: str, clause: Clause, draft: ClauseDraft) -> list[str]:
-    """Return what the clause itself spoke of as a vessel: "coffee in a mug, and some ice cream in it"."""
+    """Return what the clause itself mentions as a vessel: "coffee in a mug, and some ice cream in it"."""
     vessels = {r.target for r in clause.relations if r.relation in section("insides")}
     place = _place(pronoun, draft)
     return [p.name for p in draft.mentions() if p.place < place and p.name in vessels and not p.pronoun]
@@ -150,10 +150,10 @@ def _told(phrase: Phrase) -> bool:
 def _one(
     pronoun: str, ranked: tuple[str, ...], clause: Clause, draft: ClauseDraft, before: Collection[str]
 ) -> tuple[str, ...]:
-    """Rank what *one* may be one of: what the clause itself spoke of before comes first.
+    """Rank what *one* may be one of: what the clause itself mentions before comes first.
 
-    Of that, what stands behind the same preposition ("the chips in one bowl and the nuts in the other"), then what was
-    told apart; before all, the place that a thing is moved from where *one* is the place that it goes to.
+    Of that, what stands behind the same preposition ("the chips in one bowl and the nuts in the other"), then what
+    is distinguished; before all, the place that a thing is moved from where *one* is the place that it goes to.
     """
     own = _own(pronoun, clause, draft, before, apart=bool(before and ranked))
     goes = not section("arrivals").isdisjoint(before)
@@ -164,14 +164,14 @@ def _one(
 
 
 def _in_order(pronoun: str, scenes: Sequence[_Scene]) -> tuple[str, ...]:
-    """Return what *the former* or *the second* means of several things that were spoken of together."""
+    """Return what *the former* or *the second* means of several things mentioned together."""
     place = pairs("places_in_order").get(pronoun.partition("_")[0])
     group = _group(list(scenes[-_REACH:][::-1]), set()) if place is not None else ()
     return (group[int(place)],) if place is not None and 1 < len(group) > int(place) else ()
 
 
 def _own(pronoun: str, clause: Clause, draft: ClauseDraft, before: Collection[str], *, apart: bool) -> list[str]:
-    """Return what a clause spoke of before *one*, likeliest first; where ``apart``, only what was told apart."""
+    """Return what a clause mentions before *one*, likeliest first; where ``apart``, only what is distinguished."""
     alike = {r.target for r in clause.relations if r.relation in before}
     own = [p for p in draft.mentions() if p.place < _place(pronoun, draft) and not p.pronoun]
     own = [p for p in own if not apart or p.name in alike or _told(p)]
@@ -179,7 +179,7 @@ def _own(pronoun: str, clause: Clause, draft: ClauseDraft, before: Collection[st
 
 
 def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
-    """Return a clause that stands by itself with its pronouns' antecedents among the clauses before it."""
+    """Return a separate clause with its pronouns' antecedents among the clauses before it."""
     names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
     places = [name for name in clause.objects if is_pronoun(name)]
     telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
@@ -191,7 +191,7 @@ def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
 
 
 def _named(clause: Clause) -> list[str]:
-    """Return what a clause speaks of by name, what it acts on first."""
+    """Return the names in a clause, first those that it acts on."""
     names = [n for name in (*clause.direct, *clause.objects) for n in clause.meant(name)]
     return [name for name in dict.fromkeys(names) if name and not is_pronoun(name) and name not in section("pronouns")]
 
@@ -258,7 +258,7 @@ def _fitting(
     """Return the candidates with those first, or those only, that fit the pronoun."""
     mentions = [m for scene in recent for m in scene.mentions]
     plural = {m.name for m in mentions if m.plural}
-    if is_one(pronoun):  # "the book and the empty can … the full one": what was told apart, or one of many
+    if is_one(pronoun):  # "the book and the empty can … the full one": a distinguished thing, or one of many
         telling = plural | {m.name for m in mentions if m.described}
         alike = {m.name for m in mentions if m.behind and m.behind in before}
         return sorted(scored, key=lambda pair: (pair[0] not in alike, pair[0] not in telling))

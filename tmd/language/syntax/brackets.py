@@ -21,7 +21,7 @@ RELATIVE = "relative"
 ALONE = "alone"
 """The form of a verb that shares no object with the next one."""
 DUTY = "duty"
-"""The form of the opener of a statement that says what shall be."""
+"""The form of the opener of a statement that demands a state."""
 STATEMENT = "a statement, not an instruction"
 UNNEEDED = "says what need not be done"
 REMINDER = "names a thing, and not what to do with it"
@@ -57,9 +57,9 @@ class Bracketer(Words):
         self._subject = 0
         """Where in ``out`` the arguments begin that may be the subject of a statement."""
         self._told = False
-        """The clause that is open has somebody as its subject who is not asked."""
+        """The subject of the open clause is a person other than the addressee."""
         self._somebody = False
-        """The clause that is open has a person as its subject."""
+        """The subject of the open clause is a person."""
         self._units: list[tuple[int, bool]] = [(0, False)]
         """Where in ``out`` the clauses of the sentence begin, and whether somebody is the subject of the one before."""
         self._asked = False
@@ -132,7 +132,7 @@ class Bracketer(Words):
         return end
 
     def _part_subject(self) -> None:
-        """Begin a unit behind what stands before the subject and is no part of it: "radio off, the baby is asleep"."""
+        """Begin a unit behind what precedes the subject without belonging to it: "radio off, the baby is asleep"."""
         named = self.out[self._subject :]
         comma = max((i for i, t in enumerate(named) if t.kind is K.COMMA), default=0)
         before, subject = named[:comma], {t.kind for t in named[comma + 1 :]}
@@ -161,11 +161,11 @@ class Bracketer(Words):
         return self.out[-1].kind if self.out else K.SEP
 
     def _named(self) -> bool:
-        """Tell whether something has been named that may be a subject."""
+        """Return whether something has been named that may be a subject."""
         return any(t.kind in HEADS for t in self.out[self._subject :])
 
     def _hosts_result(self) -> bool:
-        """Tell whether what stands behind an object may be the state that it shall be in."""
+        """Return whether what stands behind an object may be the state that it should be in."""
         if self._verb is None or self._verb.stem.partition("_")[0] in section("result_verbs"):
             return True
         # "bring the blind down and the curtain up"
@@ -198,7 +198,7 @@ class Bracketer(Words):
         return end
 
     def _statement_follows(self, at: int) -> bool:
-        """Tell whether a subject with its finite verb stands behind a comma or a conjunction."""
+        """Return whether a subject with its finite verb stands behind a comma or a conjunction."""
         return self.follows(at + 1, "(NP|OF|IDLE|CC|EXC)* (HEAD|NUM) (NP|OF|IDLE|CC|EXC)* (AUX|FINITE)")
 
     def _clause_end(self, at: int) -> int:
@@ -230,7 +230,7 @@ class Bracketer(Words):
         return self._clause_end(at)
 
     def _goes_on(self, at: int, place: int, *, verb: bool, said: bool) -> bool:
-        """Tell whether a preposition belongs to the main clause again."""
+        """Return whether a preposition belongs to the main clause again."""
         if not self.follows(place, "P|TO|EXC"):
             return False
         state = self.kind(place - 1) is K.ADJ  # "the bottles that are empty | in the bag"
@@ -349,12 +349,10 @@ class Bracketer(Words):
         end = self._negation_end(deed)
         if self._unneeded(at, deed):
             return self._skip(at, end, UNNEEDED)
-        if self.kind(deed) is K.ING:
-            self.tokens[deed].kind = K.V
         return self._bracket(token, K.NEG, deed, end)
 
     def _unneeded(self, at: int, deed: int) -> bool:
-        """Tell whether a negation says that a deed need not be done: "no need to wash it", "don't bother"."""
+        """Return whether a negation says that a deed need not be done: "no need to wash it", "don't bother"."""
         if self.stem_among(deed, "caring"):
             return True  # "I don't care if it is old"
         helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
@@ -364,7 +362,7 @@ class Bracketer(Words):
     # statements
 
     def _speaker(self, at: int) -> int:
-        """Bracket what speakers say of themselves or notice; other subjects are dropped."""
+        """Bracket what speakers report about themselves or notice; drop other subjects."""
         verb = self.past(at + 1, "(IDLE|AUX)*")
         if (wish := self._denied_wish(at)) is not None:
             opener = self.tokens[self.peek(at)]
@@ -385,7 +383,7 @@ class Bracketer(Words):
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
 
     def _begin_telling(self, at: int, *, own: bool) -> bool:
-        """Begin a unit where somebody is the subject; tell whether it is somebody who is not asked."""
+        """Begin a unit where somebody is the subject; return whether it is somebody other than the addressee."""
         tells = self.tokens[at].text.partition("'")[0] in section("tellers")
         if self._last() in LINKS and ((own and self._verb is not None) or (tells and self._named())):
             self.out[-1].kind = K.SEP
@@ -393,11 +391,11 @@ class Bracketer(Words):
         return tells and self.kind(at - 1) is not K.AUX
 
     def _is(self, at: int, verb: int) -> bool:
-        """Tell whether a form of *be* stands between a subject and what is said of it."""
+        """Return whether a form of *be* stands between a subject and its predicate."""
         return any(self.kind(i) is K.AUX and self.among(i, "be") for i in range(at + 1, verb))
 
     def _of_oneself(self, at: int, verb: int) -> bool:
-        """Tell whether a speaker says something of himself: "I'm thirsty", "I spilled it", "I'll get it later"."""
+        """Return whether speakers report about themselves: "I'm thirsty", "I spilled it", "I'll get it later"."""
         if self.among(at, "self_forms"):
             return True
         past = verb < len(self.tokens) and self.tokens[verb].form == "ed" and self.kind(verb) is not K.ADJ
@@ -407,13 +405,13 @@ class Bracketer(Words):
         return self.among(at, "speakers") and (self._is(at, verb) or past or liking)
 
     def _reports(self, at: int, verb: int, *, past: bool) -> bool:
-        """Tell whether a clause reports: "they left it open", "he never puts them away", "they are getting warm"."""
+        """Return whether a clause reports: "they left it open", "he never puts them away", "they are getting warm"."""
         denied = self.follows(at + 1, "IDLE* NEG IDLE* (V|N)")
         progressive = self.kind(verb) is K.ING and self._is(at, verb)
         return denied or progressive or (past and verb == self.peek(at))
 
     def _tells(self, at: int) -> bool:
-        """Tell whether a verb is no instruction, in English or here: "I promise", "we prefer"."""
+        """Return whether a verb never is an instruction, in English or in this domain: "I promise", "we prefer"."""
         if self.kind(at) is not K.V or self.stem_among(at, "verbs", "wishing", "ordering", "lead_verbs", "framing"):
             return False
         return self.tokens[at].stem not in self.lexicon.goal_verbs
@@ -425,7 +423,7 @@ class Bracketer(Words):
         return wish if denied and self.stem_among(wish, "wishing") and self._wishes_state(wish) else None
 
     def _wishes_state(self, at: int) -> bool:
-        """Tell whether a wish is for a state: "I want the fork put in the sink", "I'd like the window to be open"."""
+        """Return whether a wish is for a state: "I want the fork put in the sink", "I'd like the window to be open"."""
         to = self.first(at + 2, "INF|STOP|COMMA|V")
         if to < at + _NEAR and self.follows(to, "INF AUX") and self.kind(at + 1) is not K.PRON:
             return True
@@ -478,7 +476,7 @@ class Bracketer(Words):
     # what asks for nothing
 
     def _is_question(self, at: int) -> bool:
-        """Tell whether a question begins that asks for nothing: "Is the lamp on?"."""
+        """Return whether a question begins that asks for nothing: "Is the lamp on?"."""
         starts = (not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}) and self._last() in BREAKS
         return starts and self.among(at, "questions") and self.kind(at + 1) is not K.ING and self.asked(at)
 
@@ -496,7 +494,7 @@ class Bracketer(Words):
         return so + 1
 
     def _corrected(self, at: int) -> int:
-        """Take back what a speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
+        """Take back what the speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
         begin = self._behind(at)
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
         start = len(self.out) - (self._last() is K.SEP)
@@ -512,11 +510,11 @@ class Bracketer(Words):
         return begin
 
     def _behind(self, at: int) -> int:
-        """Return where what a speaker says better begins."""
+        """Return where a correction begins."""
         return self.past(at + 1, "(LINKS|IDLE)*")
 
     def _is_inverted(self, at: int) -> bool:
-        """Tell whether a condition begins that has its verb first: "should the door be open, shut it"."""
+        """Return whether a condition begins that has its verb first: "should the door be open, shut it"."""
         if self.kind(at) is not K.AUX or not self.among(at, "inverting") or self._last() not in BREAKS:
             return False
         apart = self.kind(self.first(at, "STOP|COMMA")) is K.COMMA
@@ -561,7 +559,7 @@ class Bracketer(Words):
         return at + 1
 
     def _is_told(self, at: int) -> bool:
-        """Tell whether a verb says what somebody does who is not asked: "they are starving", "my eyes get tired"."""
+        """Return whether the subject of a verb is not the addressee: "they are starving", "my eyes get tired"."""
         token = self.tokens[at]
         past = token.first is not None and token.first[1] == "ed"  # "I tripped over it, nearly fell"
         wish = token.stem in section("wishing") | section("ordering") and token.form != "ing"
@@ -571,7 +569,7 @@ class Bracketer(Words):
         return (self._told and not wish) or past or subject or token.stem in section("talking")
 
     def _causes(self, at: int) -> bool:
-        """Tell whether a verb only brings another one about: "make it play", "make close the door"."""
+        """Return whether a verb only brings another one about: "make it play", "make close the door"."""
         end = self.past(at + 1, "(NP|IDLE|OF)*")
         if self.kind(end) is not K.V or self.tokens[end].form != "base" or self.tokens[end].strength < 3:
             return False
@@ -607,7 +605,7 @@ class Bracketer(Words):
         return begin + 2 * does
 
     def _too(self, at: int) -> bool:
-        """Tell whether a noun phrase with "too" or "also" stands from a place on, and nothing else."""
+        """Return whether a noun phrase with "too" or "also" stands from a place on, and nothing else."""
         begin = self.past(at, "IDLE*")
         end = self.past(begin, "NP+")
         ahead = any(self.among(i, "also_words") for i in range(at, begin)) and self.kind(end) in BREAKS
@@ -640,7 +638,7 @@ class Bracketer(Words):
         return self._keep(at)
 
     def _leads(self, at: int) -> bool:
-        """Tell whether a noun that an adjective belongs to follows."""
+        """Return whether a noun that an adjective belongs to follows."""
         joint = "" if self._last() is K.AUX else "| LINKS (?=ADJ)"
         return self.follows(at + 1, f"(ADJ|IDLE|PARTICIPLE (?=N) {joint})* (N|NUM|ONE)")
 
@@ -653,7 +651,7 @@ class Bracketer(Words):
         return self._keep(at)
 
     def _is_reason(self, at: int) -> bool:
-        """Tell whether what stands before is the reason of what follows: "so", but not "so does the mug"."""
+        """Return whether what stands before is the reason of what follows: "so", but not "so does the mug"."""
         asks = self.among(at + 1, "frame_modals") and self.among(at + 2, "addressee", "tellers")
         return self.among(at, "reasoning") and (asks or not self.follows(at + 1, "AUX NP"))
 
@@ -674,7 +672,7 @@ class Bracketer(Words):
                 self._subject -= len(unit)
 
     def _is_state(self, at: int) -> bool:
-        """Tell whether a particle or adverb says in what state something is or shall be."""
+        """Return whether a particle or adverb names the state that something is in or should be in."""
         ends = self.follows(at + 1, "IDLE* (BREAK|SUB|V|EXC|MOD|PURP|REL)")
         if self._open:
             return ends and self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE}
@@ -770,11 +768,9 @@ class Bracketer(Words):
         return self._bracket(self.tokens[at], K.NEG, at + 1, end)
 
     def _absolute_end(self, at: int) -> int:
-        """Return where "with the door shut" ends, which says how something shall be besides; 0 for other phrases."""
+        """Return where "with the door shut" ends, which adds a demanded state; 0 for other phrases."""
         place = at + 1
         while self.kind(place) in NP and (self.kind(place) is not K.ADJ or self._leads(place)):
-            if self.among(place, "end_states") and self.kind(place - 1) is K.N:
-                break
             place += 1
         state = self.among(place, "end_states") or self.kind(place) is K.ADJ
         return place + 1 if state and self.kind(place - 1) in HEADS and self.follows(place + 1, "BREAK") else 0

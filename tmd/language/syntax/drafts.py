@@ -48,10 +48,10 @@ class ClauseDraft:
         conditions: What its conditions and purposes say.
         fronted: A condition stands in front of the verb.
         further: Noun phrases that stand in relative clauses.
-        result: The state that something shall be in.
+        result: The state that something should be in.
         mood: What is asked of it, if it says so itself.
         elliptic: Its verb was read off a state: "TV on".
-        host: The clause that it is said with, whose objects its pronouns may mean.
+        host: The clause that it belongs to, whose objects its pronouns may mean.
     """
 
     verb: Token
@@ -112,14 +112,14 @@ class ClauseDraft:
         self.spans += places
 
     def take_places(self, other: ClauseDraft) -> None:
-        """Put what it acts on where another clause puts its things."""
+        """Give what it acts on the places that another clause gives its things."""
         self.landmarks += other.landmarks
         moved, named = {p.name for p in other.direct}, {p.name for p in other.landmarks}
         places = {r.relation: r.target for r in other.relations if r.source in moved and r.target in named}
         self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
 
     def set_to(self) -> bool:
-        """Tell whether it says what a thing is set to."""
+        """Return whether it has a setting."""
         return any(token.form == SETTING for token in self.folds)
 
     def owning(self) -> str:
@@ -144,11 +144,11 @@ class ClauseDraft:
         ]
 
     def described(self) -> list[str]:
-        """Return what it speaks of, and its verb."""
+        """Return the names that it mentions, and its verb."""
         return [*(p.name for p in self.mentions()), self.verb.stem]
 
     def none(self) -> bool:
-        """Tell whether it speaks of none: *no cup*."""
+        """Return whether it is about none: *no cup*."""
         return any(p.said().quantifier is Quantifier.NONE for p in self.direct)
 
     def _mood(self) -> Mood:
@@ -162,7 +162,7 @@ class ClauseDraft:
         return Mood.KEEP if not placed or alone or (leaves_it and stays) else Mood.DO
 
     def _there(self, placed: list[Relation]) -> bool:
-        """Tell whether something is named, and its place is where it is: "leave the key in there"."""
+        """Return whether something is named, and its place is where it is: "leave the key in there"."""
         return all(r.target in section("pronouns") for r in placed) and not any(p.pronoun for p in self.direct)
 
     def _folded(self, text: str, form: str) -> str | None:
@@ -205,7 +205,7 @@ class Attachment:
                 self._argument(node, sum(is_a(n, "place") for n in rest))
 
     def apart(self, nodes: Sequence[Node]) -> None:
-        """Attach nodes that are said of what the verb acts on: what stands before the verb, or behind a copula."""
+        """Attach nodes that belong to what the verb acts on: what stands before the verb, or behind a copula."""
         self.host = []
         self.add(nodes)
 
@@ -222,7 +222,7 @@ class Attachment:
         elif node.data == "place" and groups:
             self._place(next(leaves(node)), groups[0], later)
         elif node.data == "place" and self.draft.verb.form == IMPLIED:
-            place = next(leaves(node))  # "both boxes in": in what was spoken of
+            place = next(leaves(node))  # "both boxes in": in what was mentioned
             self._relate(place.text, [], [Phrase(first_of("singular_pronouns"), place.span.start, False, True)])
         elif node.data == "exception" and groups:
             self._exception(phrases_of(groups[0]))
@@ -238,10 +238,8 @@ class Attachment:
             receiver = draft.direct.pop()
             draft.landmarks.append(receiver)
             draft.relations.extend(Relation(TO, p.name, receiver.name) for p in phrases)
-        lacking = [p for p in phrases if p.said().quantifier is Quantifier.NONE]
-        if lacking and len(lacking) < len(phrases):  # "a coffee, no sugar"
-            phrases = [p for p in phrases if p not in lacking]
-            self._relate(first_of("without_words"), phrases, [p.without_denial() for p in lacking])
+        wanted = [p for p in phrases if p.said().quantifier is not Quantifier.NONE]
+        phrases = self._without(wanted, phrases) if wanted else phrases  # "a coffee, no sugar"
         draft.direct.extend(phrases)
         self.host, self._behind = phrases, ""
         self._of(phrases)
@@ -252,7 +250,7 @@ class Attachment:
             self._of(phrase.of)
 
     def _exception(self, phrases: list[Phrase]) -> None:
-        """Take something out of what was said of all."""
+        """Take an exception out of a whole."""
         wholes = [p for p in self.draft.direct if p.said().quantifier is Quantifier.ALL]
         self._earlier = self.host, self._behind
         self._relate(EXCEPT, wholes or self.host or self.draft.direct, phrases)
@@ -288,7 +286,7 @@ class Attachment:
         return name, targets
 
     def _without(self, hosts: Sequence[Phrase], targets: list[Phrase]) -> list[Phrase]:
-        """Relate what shall not be there: "with sugar but no milk"; return the others."""
+        """Relate what must not be there: "with sugar but no milk"; return the others."""
         lacking = [p for p in targets if p.said().quantifier is Quantifier.NONE]
         if lacking:
             self._relate(first_of("without_words"), hosts, [p.without_denial() for p in lacking])
@@ -307,7 +305,7 @@ class Attachment:
         self._behind = name
 
     def _told_apart(self, phrase: Phrase) -> Phrase:
-        """Name "the other table" *one* where a table was spoken of in this clause."""
+        """Name "the other table" *one* where this clause has mentioned a table."""
         again = any(p.name == phrase.name for p in self.draft.mentions())
         if again and not section("other_words").isdisjoint(phrase.lead):
             return replace(phrase, name=first_of("one_words"), pronoun=True)
@@ -338,7 +336,7 @@ class Attachment:
         return True
 
     def _pairs(self, node: Tree[Leaf], rest: Sequence[Node], phrases: list[Phrase]) -> bool:
-        """Tell whether the last nouns behind a preposition are things that the next one places."""
+        """Return whether the last nouns behind a preposition are things that the next one places."""
         name, opening = next(leaves(node)).text, next(leaves(rest[0])).text
         origin = opening in section("origins") and len(rest) > 1 and is_a(rest[1], "place")
         goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
@@ -348,14 +346,14 @@ class Attachment:
         return alike and (name == opening or (placing and goes))
 
     def _is_thing_again(self, phrases: list[Phrase]) -> bool:
-        """Tell whether the last of some nouns behind a preposition has the determiner of a thing, and of no place."""
+        """Return whether the last of some nouns behind a preposition has the determiner of a thing, not of a place."""
         last, direct = phrases[-1], self.draft.direct[0]
         bare = phrases[0].determined and not direct.determined
         terse = not (direct.determined or any(p.determined for p in phrases))  # "cup in sink and pan in bin"
         return last.determined or last.name in section("one_words") or bare or terse
 
     def _hosted(self, name: str, targets: list[Phrase]) -> bool:
-        """Tell whether a preposition stands beside the noun before it rather than the direct object."""
+        """Return whether a preposition stands beside the noun before it rather than the direct object."""
         stem = self.draft.verb.stem
         if not self.host:
             return False
@@ -371,13 +369,13 @@ class Attachment:
     def _with_hosted(self, stem: str, targets: list[Phrase]) -> bool:
         if self._tells_one():
             return True
-        if any(_is_tool(t.name) for t in targets):
+        if any(not section("tools").isdisjoint((t.name, t.name.rpartition("_")[2])) for t in targets):
             held = section("moving") | section("placing") | section("dative_verbs")
             return self._instrument or (stem in held and not self._behind)
         return self._instrument or stem.partition("_")[0] not in section("with_verbs")
 
     def _tells_one(self) -> bool:
-        """Tell whether what comes now says which *one* is meant."""
+        """Return whether what comes now says which *one* is meant."""
         return bool(self._behind) and bool(self.host) and all(p.name in section("one_words") for p in self.host)
 
     def _flush(self, direct: list[Phrase]) -> None:
@@ -388,9 +386,5 @@ class Attachment:
 
 
 def _tells(phrases: list[Phrase]) -> bool:
-    """Tell whether a phrase is *the one*, of which more is to be said."""
+    """Return whether a phrase is *the one*, which a further phrase must describe."""
     return bool(phrases) and phrases[0].name in section("one_words") and bool(phrases[0].lead)
-
-
-def _is_tool(name: str) -> bool:
-    return name in section("tools") or name.rpartition("_")[2] in section("tools")

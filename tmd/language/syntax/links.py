@@ -100,8 +100,6 @@ class Linker(Words):
 
     def _between_things(self, before: Kind, after: Kind, end: int) -> Kind | None:
         """Classify a link between things or states: "a cup and a mug", "TV on, lamp off"."""
-        if before is K.STATE and after is K.STATE:
-            return K.CONJ
         if after not in NP:
             return None
         if before is K.END and not self._fronted and self.follows(end, "(NP|OF)+ P"):
@@ -116,7 +114,7 @@ class Linker(Words):
         return K.SEP if apart else K.CONJ
 
     def _state_of_its_own(self, at: int) -> bool:
-        """Tell whether a thing with its state follows: "… in the chest, and the lid closed"; not "leave both open"."""
+        """Return whether a thing with its state follows: "… in the chest, the lid closed"; not "leave both open"."""
         unit = self._unit()
         shared = any(t.kind is K.V and t.stem in section("result_verbs") for t in unit)
         shared = shared and not any(t.kind in (K.STATE, K.P) for t in unit)
@@ -141,12 +139,12 @@ class Linker(Words):
         return self.out[start:]
 
     def _place_in_front(self) -> bool:
-        """Tell whether only a prepositional phrase has come."""
+        """Return whether only a prepositional phrase has come."""
         unit = self._unit()
         return bool(unit) and unit[0].kind in (K.P, K.EXC)
 
     def _named(self, *, joined: bool) -> bool:
-        """Tell whether the open unit asks for something: "a glass of milk, and shut the fridge".
+        """Return whether the open unit asks for something: "a glass of milk, and shut the fridge".
 
         Where nothing joins it to what follows, it says where or how something shall be: "eggs in the pot, boil".
         """
@@ -159,7 +157,7 @@ class Linker(Words):
         return False
 
     def _condition_of_next(self, at: int) -> bool:
-        """Tell whether a condition belongs to the verb behind it: "take the cup and, if it is dirty, wash it"."""
+        """Return whether a condition belongs to the verb behind it: "take the cup and, if it is dirty, wash it"."""
         depth = 0
         for place in range(at, len(self.tokens)):
             depth += (self.kind(place) in OPENERS) - (self.kind(place) is K.END)
@@ -168,7 +166,7 @@ class Linker(Words):
         return False
 
     def _verbless(self, at: int) -> bool:
-        """Tell whether two parts without verbs are joined: "milk in the cup, sugar in the bowl"."""
+        """Return whether two parts without verbs are joined: "milk in the cup, sugar in the bowl"."""
         said = [t for t in self._unit() if t.kind in (K.P, K.STATE)] if self._fronted else []
         together = bool(said) and said[-1].text in section("with_words")  # "a tea with milk and sugar in a mug"
         return bool(said) and not together and self.follows(at, "(NP|OF|MOD|EXC|ADV)* (P|STATE)")

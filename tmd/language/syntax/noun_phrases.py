@@ -1,4 +1,4 @@
-"""Noun phrases: their names, their numbers, and what was said of them."""
+"""Noun phrases: their names, numbers, determiners and modifiers."""
 
 from __future__ import annotations
 
@@ -20,14 +20,12 @@ def number_of(word: str) -> int | None:
     """Return the number that a word or numeral names, up to twelve in words."""
     if word.isascii() and word.isdigit() and len(word) < 10:
         return int(word)
-    if word in section("pairs"):
-        return 2
     order = sections()["number_order"]
     return order.index(word) if word in order else None
 
 
 def is_number(word: str) -> bool:
-    """Tell whether a word is a number, in figures or in words."""
+    """Return whether a word is a number, in figures or in words."""
     return word[:1].isdigit() or word in section("numbers")
 
 
@@ -64,7 +62,7 @@ class Phrase:
 
     @property
     def whole(self) -> bool:
-        """Return whether it means all that there is."""
+        """Return whether it refers to all that there is."""
         return self.name in section("whole_words")
 
     def without_denial(self) -> Phrase:
@@ -72,7 +70,7 @@ class Phrase:
         return replace(self, lead=tuple(w for w in self.lead if w not in section("none_words")))
 
     def said(self) -> NounPhrase:
-        """Return how it was said."""
+        """Return it as the noun phrase of a clause."""
         words = (*self.lead, self.name) if self.pronoun or self.whole else self.lead
         if not (self.plural or self.pronoun or self.of):
             words = tuple(w for w in words if w not in section("both_words"))  # "both the cup and the mug": one of each
@@ -196,6 +194,6 @@ def named_in(nodes: Sequence[Node]) -> list[Phrase]:
 
 
 def about_things(nodes: Sequence[Node]) -> bool:
-    """Tell whether some of the nodes is a group that names more than a person."""
+    """Return whether some of the nodes is a group that names more than a person."""
     names = (phrase.name for phrase in named_in(nodes))
     return any(name not in PERSONS and name not in section("subjects") for name in names)

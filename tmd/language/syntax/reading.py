@@ -21,7 +21,7 @@ from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 _ASIDES = ("demand", "statement")
 _DENIALS = ("denial", "manner")
 _LATER = "later"
-"""The order of what is said behind "before"."""
+"""The order of a clause behind "before"."""
 _NOT = "not_"
 """Before an attribute or a relation: it must not hold."""
 
@@ -34,7 +34,7 @@ class TextReading:
         text: The text.
         drafts: What is to be done, in order.
         forbidden: What must not be done, each with the number of drafts before it.
-        statements: What statements speak of, each with the number of drafts before it.
+        statements: What statements mention, each with the number of drafts before it.
         skipped: What asks for nothing, as tokens that carry the reason.
         alone: The text has one unit.
         polite: The text asks politely.
@@ -146,7 +146,7 @@ class TextReading:
         *,
         front: Sequence[Node] = (),
     ) -> None:
-        """Attach arguments from left to right; what stands in front of a verb, or in a predicate, is said of them."""
+        """Attach arguments from left to right, then the predicate, then the arguments in front of the verb."""
         state = Attachment(draft)
         state.add(arguments)
         if predicate and draft.result is not None and state.host:
@@ -174,7 +174,7 @@ class TextReading:
                 draft.fronted = draft.fronted or (fronted and node.data == "condition")
 
     def _explained(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
-        """Set a reason aside; pronouns may mean what it speaks of."""
+        """Set a reason aside; pronouns may mean what it mentions."""
         before = self._number(draft, next(leaves(node)))
         for part in trees(node.children, "part"):
             self._stated(part, self._said(part), before, REASON)
@@ -212,7 +212,7 @@ class TextReading:
         return Condition(TO if aimed else opener.text, clauses, opener.negated, text)
 
     def _relative(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
-        """Add what a relative clause says to the noun that it is about."""
+        """Add the content of a relative clause to its noun."""
         opener = next(leaves(node))
         ahead = [p for p in draft.mentions() if p.place < opener.span.start]
         if not ahead:
@@ -256,7 +256,7 @@ class TextReading:
                 self.forbidden.append((before, item))
 
     def _excepted(self, draft: ClauseDraft, part: Tree[Leaf]) -> bool:
-        """Read "the cups, but not the one on the shelf" as an exception of what is said of several things."""
+        """Read "the cups, but not the one on the shelf" as an exception."""
         several = [p for p in draft.direct if p.plural or p.said().quantifier is Quantifier.ALL]
         denied = named_in(part.children)
         if not (several and denied and section("one_words").issuperset(p.name for p in denied)):
@@ -285,7 +285,7 @@ class TextReading:
             copy.take_places(draft)  # "…, but not the one on the shelf"
         return copy
 
-    # requests that are no imperatives
+    # requests other than imperatives
 
     def _verbless(self, nodes: list[Node]) -> None:
         """Read a unit without a verb: prohibitions, demands, statements, and what is only named."""
@@ -309,7 +309,7 @@ class TextReading:
             self._modify(last, rest)
 
     def _aside(self, node: Tree[Leaf], conditions: Sequence[Node] = ()) -> None:
-        """Read a statement; one that says what shall be is a demand."""
+        """Read a statement; one that requires a state is a demand."""
         opener = next(leaves(node))
         asked = node.data == "demand" or opener.form == DUTY
         for part in trees(node.children, "part"):
@@ -329,7 +329,7 @@ class TextReading:
                 self._demanded(draft, conditions)
 
     def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft], before: int, note: str) -> None:
-        """Set a statement aside; pronouns may mean what it speaks of."""
+        """Set a statement aside; pronouns may mean what it mentions."""
         self.statements += [(before, draft) for draft in drafts]
         places = spans([part])
         span = Span(min(places).start, max(s.end for s in places))
@@ -352,7 +352,7 @@ class TextReading:
             self.drafts.append(draft)
 
     def _named(self, nodes: list[Node]) -> None:
-        """Read "TV on", "lid on the pot", "two scoops of ice cream": the verb was not said."""
+        """Read "TV on", "lid on the pot", "two scoops of ice cream": the text leaves the verb out."""
         before = self.drafts[-1] if self.drafts else None
         if before is not None and before.elliptic and all(is_a(n, "group") for n in nodes):
             before.add(named_in(nodes), spans(nodes))
@@ -380,12 +380,12 @@ class TextReading:
         return True
 
     def _is_topic(self, nodes: Sequence[Node]) -> bool:
-        """Tell whether a unit only names what those behind it are about: "the bag! close it", "kettle: fill"."""
+        """Return whether a unit only names what those behind it are about: "the bag! close it", "kettle: fill"."""
         last = self.drafts[-1] if self.drafts else None
         return _is_named(nodes) and not (_is_counted(nodes) or (last is not None and last.elliptic))
 
     def _orders(self, nodes: Sequence[Node]) -> bool:
-        """Tell whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
+        """Return whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
         if any(is_a(n, "state", "place", "exception") or isinstance(n, Leaf) for n in nodes):
             return True
         return _is_counted(nodes) or self.polite or (self.alone and sum(1 for n in nodes for _ in leaves(n)) > 1)
@@ -402,7 +402,7 @@ class TextReading:
 
 
 def _is_heading(front: Sequence[Node], following: Node | None) -> bool:
-    """Tell whether a unit is the place of those behind its colon: "into the crate: rope, hose"."""
+    """Return whether a unit is the place of those behind its colon: "into the crate: rope, hose"."""
     return _is_leaf(following, ":") and all(is_a(n, "place") for n in front)
 
 
@@ -411,7 +411,7 @@ def _is_leaf(node: Node | None, text: str) -> bool:
 
 
 def _is_taken_up(nodes: Sequence[Node]) -> bool:
-    """Tell whether the next unit that does more than name something does not say what it is about."""
+    """Return whether the next unit that does more than name something does not say what it is about."""
     units = (unit for unit in trees(nodes, "unit") if not _is_named(unit.children))
     return any(map(_lacks, islice(units, 1)))
 
@@ -428,13 +428,13 @@ def _takes_up(draft: ClauseDraft, nodes: Sequence[Node]) -> bool:
 
 
 def _is_named(nodes: Sequence[Node]) -> bool:
-    """Tell whether things are named, and nothing else."""
+    """Return whether things are named, and nothing else."""
     groups = trees(nodes, "group")
     return 0 < len(groups) == len(nodes) and not any(map(_is_pronoun, groups))
 
 
 def _lacks(unit: Tree[Leaf]) -> bool:
-    """Tell whether a unit does not name what it is about: "close it", "fill", "lid on", "off the stove"."""
+    """Return whether a unit does not name what it is about: "close it", "fill", "lid on", "off the stove"."""
     actions = trees(unit.children, "clause", "letting")
     nodes = [*unit.children, *(actions[0].children if actions else ())]
     groups = trees(nodes, "group")
@@ -484,7 +484,7 @@ def _treat(draft: ClauseDraft) -> None:
 
 
 def _is_deed(part: Tree[Leaf]) -> bool:
-    """Tell whether a part says what the one who is asked does: "after taking it out", "before you take it out"."""
+    """Return whether the addressee is the subject of a part: "after taking it out", "before you take it out"."""
     verb = next((t for t in leaves(part) if t.kind in (Kind.V, Kind.ING, Kind.FINITE)), None)
     if verb is None or verb.form == "ing":
         return verb is not None
@@ -503,7 +503,7 @@ def _is_fold(node: Node) -> bool:
 
 
 def _only_when(node: Tree[Leaf]) -> bool:
-    """Tell whether a condition says of somebody that he goes or is done, which no state of things shows."""
+    """Return whether a condition says of somebody that he goes or is done, which no state of things shows."""
     sayings = [Saying(part) for part in trees(node.children, "part")]
     return bool(sayings) and all(
         saying.verbs

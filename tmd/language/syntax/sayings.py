@@ -55,18 +55,15 @@ class Saying:
         return bool(self.helpers) and not (self.verbs or self.complement)
 
     def asks(self) -> bool:
-        """Tell whether it says what shall be: a duty, "belongs", "would like"."""
+        """Return whether it demands a state: a duty, "belongs", "would like"."""
         words = [*self.verbs, *self.helpers]
         modal = any(t.text in section("modals") for t in words)
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
         settled = section("belonging") | section("staying")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
-        return wished or placed or (any(t.text in section("duties") for t in words) and not self._about_somebody())
-
-    def _about_somebody(self) -> bool:
-        """Tell whether its subject is somebody who is not asked: "we have guests"."""
-        subject = [t.text.partition("'")[0] for node in self.subject for t in leaves(node)]
-        return bool(subject) and section("tellers").issuperset(subject)
+        subject = {t.text.partition("'")[0] for node in self.subject for t in leaves(node)}
+        somebody = bool(subject) and subject <= section("tellers")  # "we have guests"
+        return wished or placed or (any(t.text in section("duties") for t in words) and not somebody)
 
     def clauses(self, attach: Attach) -> list[ClauseDraft]:
         """Return what it says."""
@@ -82,12 +79,12 @@ class Saying:
         return [self._owned(attach) if owned else self._state(attach)]
 
     def _owns(self, verbs: Sequence[Token]) -> bool:
-        """Tell whether a thing has, or shall have, something: "the cup gets some milk"."""
+        """Return whether a thing has, or should have, something: "the cup gets some milk"."""
         received = bool(verbs) and verbs[-1].stem in section("receiving") and about_things(self.subject)
         return bool(trees(self.rest, "group")) and (received or (self._helped("having") and not verbs))
 
     def _only_states(self) -> bool:
-        """Tell whether its verb adds nothing to a state: "stays open", "you see a cup"."""
+        """Return whether its verb adds nothing to a state: "stays open", "you see a cup"."""
         last = self.verbs[-1].stem if self.verbs else ""
         if last in section("noticed") and trees(self.rest, "group"):
             self.subject = []  # what you see is there
@@ -95,11 +92,11 @@ class Saying:
         return last in section("becoming") | section("staying") and bool(trees(self.rest, "state"))
 
     def _helped(self, name: str) -> bool:
-        """Tell whether its last auxiliary is in a section of ``words.txt``."""
+        """Return whether its last auxiliary is in a section of ``words.txt``."""
         return bool(self.helpers) and self.helpers[-1].text in section(name)
 
     def _passive(self) -> bool:
-        """Tell whether a participle says in what state its subject is, not what it has done."""
+        """Return whether a participle says in what state its subject is, not what it has done."""
         return self._helped("be") or (not self._helped("having") and about_things(self.subject))
 
     def _state(self, attach: Attach) -> ClauseDraft:
@@ -121,7 +118,7 @@ class Saying:
         """*The kettle is filled with water*: a state that a participle names."""
         draft = empty_draft(BE, [self.part])
         attach(draft, self.subject, self.rest)
-        draft.result, draft.verb.lead = verb.text, [verb.stem]
+        draft.result, draft.verb.participle = verb.text, verb.stem
         return draft
 
     def _event(self, verb: Token, attach: Attach) -> ClauseDraft:
@@ -155,7 +152,7 @@ def empty_draft(stem: str, nodes: Sequence[Node]) -> ClauseDraft:
 
 
 def demand(draft: ClauseDraft, *, denied: bool) -> None:
-    """Turn a clause that says what shall be into one that brings it about."""
+    """Turn a clause that demands a state into one that brings it about."""
     verb, none = draft.verb, draft.none()
     verb.stem = pairs("demand_verbs").get(verb.stem, verb.stem)
     if verb.stem in section("wishing") or draft.result in section("welcome"):
@@ -173,8 +170,8 @@ def demand(draft: ClauseDraft, *, denied: bool) -> None:
 
 def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
     verb, result = draft.verb, draft.result or ""
-    if verb.lead:
-        verb.stem, draft.result = verb.lead[0], None  # "should be washed"
+    if verb.participle:
+        verb.stem, draft.result = verb.participle, None  # "should be washed"
         draft.mood = Mood.AVOID if denied or none else None
     elif denied and not none:
         for phrase in draft.direct:
@@ -186,7 +183,7 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
 
 
 def _demand_plainly(draft: ClauseDraft, result: str) -> None:
-    """Give a verb to a state that shall be: "the floor should be clean", "the cup should be on the shelf"."""
+    """Give a verb to a demanded state: "the floor should be clean", "the cup should be on the shelf"."""
     verb, said = draft.verb, {r.relation for r in draft.relations}
     if result in pairs("state_verbs") or result in section("verbs"):
         verb.stem, draft.result = pairs("state_verbs").get(result, result), None
@@ -227,7 +224,7 @@ def described(draft: ClauseDraft, ahead: Sequence[Phrase], node: Tree[Leaf]) -> 
 
 
 def _is_whole(head: Phrase, last: Phrase, draft: ClauseDraft, static: Sequence[Relation]) -> bool:
-    """Tell whether all of a kind are meant, and their place is not where they are to be put."""
+    """Return whether all of a kind are meant, and their place is not where they are to be put."""
     elsewhere = any(r.source in (head.name, last.name) and r.target != last.name for r in static)
     placing = draft.verb.stem in section("placing") and not elsewhere
     return head.said().quantifier is Quantifier.ALL and not head.plural and not placing

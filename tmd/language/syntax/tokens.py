@@ -47,7 +47,7 @@ class Kind(StrEnum):
     ING = "ING"
     PARTICIPLE = "PARTICIPLE"
     FINITE = "FINITE"
-    """A verb with a subject of its own, inside a folded span or a statement."""
+    """A verb with its own subject, inside a folded span or a statement."""
     SUBJECT = "SUBJECT"
     NEG = "NEG"
     SUB = "SUB"
@@ -60,11 +60,11 @@ class Kind(StrEnum):
     FILLER = "FILLER"
 
     STATE = "STATE"
-    """A state that something is in or shall be in: "leave it open"."""
+    """A state that something is in or should be in: "leave it open"."""
     EXC = "EXC"
     """Opens an exception."""
     WITHOUT = "WITHOUT"
-    """Opens what shall be avoided on the way: "without spilling it"."""
+    """Opens what must be avoided on the way: "without spilling it"."""
     SAY = "SAY"
     """Opens a statement."""
     END = "END"
@@ -74,7 +74,7 @@ class Kind(StrEnum):
 
 
 IMPLIED = "implied"
-"""The form of a verb that was not said: "A glass of milk, please."."""
+"""The form of a verb that the text leaves out: "A glass of milk, please."."""
 NAME = "name"
 """The form of a word of no list that is written with a capital."""
 
@@ -93,12 +93,11 @@ class Token:
         parts: Further places that belong to it (the particle of a split verb).
         note: Why it is skipped.
         capital: Written with a capital where other words are not: a name.
-        inner: The tokens a fold was made of.
-        lead: The determiners, numerals and adjectives before a noun; for a verb, the word for the state it asks for.
+        participle: For a verb *be*: the stem of the participle behind it.
         sentence: The number of the sentence that a verb stands in.
         otherwise: For a verb: "otherwise" stands before it.
         heading: For a verb: what follows a colon says how it is done.
-        told: For a verb: its subject is not the one who is asked.
+        told: For a verb: its subject is not the addressee.
         negated: For the opener of a subordinate clause: a negation stands in it.
         first: Its class and form by lists, before its neighbours decided.
         arrow: Written as an arrow.
@@ -113,8 +112,7 @@ class Token:
     parts: list[Span] = field(default_factory=list)
     note: str = ""
     capital: bool = False
-    inner: list[Token] = field(default_factory=list)
-    lead: list[str] = field(default_factory=list)
+    participle: str = ""
     sentence: int = 0
     otherwise: bool = False
     heading: bool = False
@@ -146,7 +144,7 @@ _RUN = 3
 _LONGEST_RUN = 120
 
 _UNSEEN = {0x2019: "'"} | dict.fromkeys((0xAD, 0x200B, 0x200C, 0x200D, 0x2060, 0xFEFF))
-"""Signs that only a printer sees, such as a soft hyphen, are no part of a word."""
+"""Invisible signs, such as a soft hyphen, do not belong to a word."""
 _UNITS = frozenset("%°")
 _LONG_WORD = 60
 _LABEL = 4
@@ -328,7 +326,7 @@ def noted(tokens: list[Token], note: str) -> list[Token]:
 
 
 def _doubled(tokens: list[Token], at: int) -> bool:
-    """Tell whether two words come twice: "in the in the"."""
+    """Return whether two words come twice: "in the in the"."""
     pair, after = tokens[at : at + 2], [token.text for token in tokens[at + 2 : at + 4]]
     texts = [token.text for token in pair]
     return texts == after and len(set(texts)) == 2 and all(token.kind is Kind.WORD for token in pair)
@@ -337,7 +335,7 @@ def _doubled(tokens: list[Token], at: int) -> bool:
 def fold(tokens: list[Token], kind: Kind, joint: str = "_", form: str = "") -> Token:
     """Make one token of a run."""
     span = Span(min(t.span.start for t in tokens), max(t.span.end for t in tokens))
-    return Token(kind, joint.join(t.text for t in tokens), span, form=form, inner=tokens)
+    return Token(kind, joint.join(t.text for t in tokens), span, form=form)
 
 
 # -- patterns over the classes of words --------------------------------------------------------------------------------
@@ -389,15 +387,15 @@ class Words:
         return self.tokens[at].kind if 0 <= at < len(self.tokens) else K.STOP
 
     def among(self, at: int, *names: str) -> bool:
-        """Tell whether the word at a place is in one of these sections of ``words.txt``."""
+        """Return whether the word at a place is in one of these sections of ``words.txt``."""
         return 0 <= at < len(self.tokens) and not sections_of(self.tokens[at].text).isdisjoint(names)
 
     def stem_among(self, at: int, *names: str) -> bool:
-        """Tell whether the stem of the word at a place is in one of these sections of ``words.txt``."""
+        """Return whether the stem of the word at a place is in one of these sections of ``words.txt``."""
         return 0 <= at < len(self.tokens) and not sections_of(self.tokens[at].stem).isdisjoint(names)
 
     def follows(self, at: int, pattern: str) -> bool:
-        """Tell whether a pattern of classes matches from a place."""
+        """Return whether a pattern of classes matches from a place."""
         return _compiled(pattern).match(self._codes, at) is not None
 
     def past(self, at: int, pattern: str) -> int:
@@ -427,5 +425,5 @@ def _name(token: Token) -> str:
 
 
 def mark(kind: Kind, at: int) -> Token:
-    """Return a token of a class that no word stands for, at a place of the text."""
+    """Return a token without a word, of a class, at a place of the text."""
     return Token(kind, "", Span(at, at))

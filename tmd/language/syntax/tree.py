@@ -74,7 +74,7 @@ def leaves(node: Node) -> Iterator[Token]:
 
 
 def is_a(node: Node, *names: str) -> TypeGuard[Tree[Leaf]]:
-    """Tell whether a node is a rule of one of these names."""
+    """Return whether a node is a rule of one of these names."""
     return isinstance(node, Tree) and node.data in names
 
 
