@@ -29,6 +29,8 @@ ASIDE = "an aside in brackets"
 QUESTION = "a question, not an instruction"
 REASON = "says what the rest is for"
 CORRECTED = "taken back by what was said next"
+_GAP = "(LINKS|IDLE)*"
+"""The pattern of words between a sign of a correction and the correction."""
 _DEPTH = 3
 """Maximum nesting depth of subordinate clauses."""
 _NEAR = 15
@@ -78,7 +80,7 @@ class Bracketer(Words):
         }  # fmt: skip
         self._inner: dict[Kind, Handler] = shared | {
             K.STOP: self._drop, K.TO: self._inner_to, K.NEG: self._inner_negation, K.ENSURE: self._drop,
-            K.LET: self._inner_let, K.SUBJECT: self._inner_subject, K.AUX: self._inner_negation,
+            K.LET: self._inner_other, K.SUBJECT: self._inner_other, K.AUX: self._inner_negation,
             K.DET: self._inner_negation, K.N: self._inner_noun, K.V: self._inner_verb,
             K.COMMA: self._inner_joint, K.CC: self._inner_joint,
         }  # fmt: skip
@@ -87,7 +89,7 @@ class Bracketer(Words):
         """Return the words with brackets."""
         at = 0
         while at < len(self.tokens):
-            if self.among(at, "corrections") and self.out and self.kind(self._behind(at)) is not K.NEG:
+            if self.among(at, "corrections") and self.out and self.kind(self.peek(at, _GAP)) is not K.NEG:
                 at = self._corrected(at)
             elif self._is_inverted(at):
                 self.tokens[at].text = first_of("guards")
@@ -495,7 +497,7 @@ class Bracketer(Words):
 
     def _corrected(self, at: int) -> int:
         """Take back what the speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
-        begin = self._behind(at)
+        begin = self.peek(at, _GAP)
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
         start = len(self.out) - (self._last() is K.SEP)
         while start and (self.out[start - 1].kind in LINKS or self.out[start - 1].text in section("none_words")):
@@ -508,10 +510,6 @@ class Bracketer(Words):
         self.dropped += noted([self.tokens[at]], CORRECTED)
         self._take_back(max(start - place, 0), CORRECTED)
         return begin
-
-    def _behind(self, at: int) -> int:
-        """Return where a correction begins."""
-        return self.past(at + 1, "(LINKS|IDLE)*")
 
     def _is_inverted(self, at: int) -> bool:
         """Return whether a condition begins that has its verb first: "should the door be open, shut it"."""
@@ -586,7 +584,7 @@ class Bracketer(Words):
 
     def _joint(self, at: int) -> int:
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
-        if (also := self._also(at)) != at:
+        if also := self._also(at):
             return also
         if self.among(at, "dashes") and self._verb is None and self._named():
             return self._stop(at)  # "the radio - off"
@@ -595,11 +593,11 @@ class Bracketer(Words):
         return self._stop(at) if (self._verb is not None or apart) and self._statement_follows(at) else self._keep(at)
 
     def _also(self, at: int) -> int:
-        """Mark "and so does the mug", "and the mug too"; return where reading goes on, ``at`` for any other joint."""
+        """Mark "and so does the mug", "and the mug too"; return where reading goes on, 0 for any other joint."""
         begin = at + 1 + (self.kind(at + 1) is K.CC)
         does = self.follows(begin, "(ADV|PURP) AUX NP")
         if not (does or self._too(begin)):
-            return at
+            return 0
         self.tokens[at].form = ALSO
         self.out.append(self.tokens[at])
         return begin + 2 * does
@@ -799,16 +797,12 @@ class Bracketer(Words):
             opener.negated = True
         return at + 1 if kind is K.NEG else self._keep(at)
 
-    def _inner_subject(self, at: int) -> int:
-        self.tokens[at].kind = K.PRON
-        return self._keep(at)
-
     def _inner_joint(self, at: int) -> int:
-        also = self._also(at)
-        return also if also != at else self._keep(at)
+        return self._also(at) or self._keep(at)
 
-    def _inner_let(self, at: int) -> int:
-        self.tokens[at].kind = K.V
+    def _inner_other(self, at: int) -> int:
+        """Keep the subject as a pronoun, and "let" as a verb."""
+        self.tokens[at].kind = K.PRON if self.kind(at) is K.SUBJECT else K.V
         return self._keep(at)
 
     def _inner_noun(self, at: int) -> int:

@@ -204,15 +204,6 @@ class Attachment:
             if not self._gapped(node, rest):
                 self._argument(node, sum(is_a(n, "place") for n in rest))
 
-    def apart(self, nodes: Sequence[Node]) -> None:
-        """Attach nodes that belong to what the verb acts on: what stands before the verb, or behind a copula."""
-        self.host = []
-        self.add(nodes)
-
-    def finish(self) -> None:
-        """Relate what stands behind prepositions to the direct objects."""
-        self._flush(self.draft.direct)
-
     def _argument(self, node: Node, later: int) -> None:
         if not isinstance(node, Tree):
             return
@@ -331,7 +322,7 @@ class Attachment:
         self._relate(next(leaves(node)).text, sources, phrases[:1])
         self.draft.direct += phrases[1:]
         self._of(phrases[1:])
-        self._flush(sources)
+        self.flush(sources)
         self.host, self._behind, self._paired = phrases[1:], "", True
         return True
 
@@ -378,7 +369,8 @@ class Attachment:
         """Return whether what comes now says which *one* is meant."""
         return bool(self._behind) and bool(self.host) and all(p.name in section("one_words") for p in self.host)
 
-    def _flush(self, direct: list[Phrase]) -> None:
+    def flush(self, direct: list[Phrase]) -> None:
+        """Relate what stands behind prepositions to the direct objects."""
         sources: list[str | None] = [p.name for p in direct] or [None]
         for name, targets in self._pending:
             self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)

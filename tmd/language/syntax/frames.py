@@ -87,7 +87,7 @@ class Frames(Words):
         return at if self.stem_among(self._before(at), "mind") and self._made_deed(at, "ing") else 0
 
     def _offers(self, start: int, at: int) -> bool:
-        """Return whether speakers report an action or a feeling: "I'd be ashamed to serve it"; not "glad to have some"."""
+        """Return whether speakers report what they do or feel: "I'd be ashamed to serve it", not "glad to"."""
         frame = range(start, at)
         speaks = self.tokens[start].text.partition("'")[0] in section("speakers")
         feels = speaks and any(self.among(i, "be") for i in frame)

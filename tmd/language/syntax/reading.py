@@ -152,11 +152,10 @@ class TextReading:
         if predicate and draft.result is not None and state.host:
             state.host[-1].attributes.append(draft.result)  # "nothing wet may stay there"
             draft.result = None
-        if predicate:
-            state.apart(predicate)
-        for node in front:
-            state.apart([node])
-        state.finish()
+        for nodes in (predicate, *([node] for node in front)):
+            state.host = []  # they belong to what the verb acts on
+            state.add(nodes)
+        state.flush(draft.direct)
         self._modify(draft, [*arguments, *predicate])
 
     def _modify(self, draft: ClauseDraft, nodes: Sequence[Node], *, fronted: bool = False) -> None:

@@ -10,7 +10,6 @@ from typing import TypeGuard
 from lark import Lark, Tree
 from lark import Token as LarkToken
 from lark.exceptions import UnexpectedInput
-from lark.lexer import Lexer
 
 from tmd.language.clause import Span
 from tmd.language.syntax.tokens import Token
@@ -18,21 +17,11 @@ from tmd.language.syntax.tokens import Token
 UNEXPECTED = "does not fit into a clause here"
 
 
-class _NoLexer(Lexer):
-    """The parser is fed token by token; nothing is left to lex."""
-
-    def __init__(self, lexer_conf: object) -> None:
-        """Take lark's configuration, which is not needed."""
-
-    def lex(self, data: object) -> Iterator[LarkToken]:  # type: ignore[override]
-        """Yield nothing."""
-        return iter(())
-
-
 @cache
 def _parser() -> Lark:
+    """Return the parser, which is fed token by token."""
     grammar = (files("tmd.language.syntax") / "clauses.lark").read_text(encoding="utf-8")
-    return Lark(grammar, start="text", parser="lalr", lexer=_NoLexer)
+    return Lark(grammar, start="text", parser="lalr")
 
 
 class Leaf(LarkToken):
