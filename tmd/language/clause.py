@@ -6,7 +6,7 @@ Their notation is the paper's, ``(take, [cup, water], with: cup -> water)``, and
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from enum import StrEnum
 from typing import Any, NamedTuple
@@ -20,6 +20,12 @@ class Span(NamedTuple):
 
     start: int
     end: int
+
+
+def hull(spans: Iterable[Span]) -> Span:
+    """Return the smallest span that covers some spans."""
+    starts, ends = zip(*spans, strict=True)
+    return Span(min(starts), max(ends))
 
 
 NOWHERE = Span(0, 0)

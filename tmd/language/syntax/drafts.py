@@ -21,6 +21,7 @@ from tmd.language.clause import (
     Quantifier,
     Relation,
     Span,
+    hull,
 )
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, RELATIVE
@@ -77,15 +78,14 @@ class ClauseDraft:
 
     def clause(self, text: str) -> Clause:
         """Return the clause without antecedents."""
-        span = Span(min(s.start for s in self.spans), max(s.end for s in self.spans))
-        mentions = self.mentions()
+        span, mentions = hull(self.spans), self.mentions()
         return Clause(
             verb=self.verb.stem,
             objects=tuple(dict.fromkeys([*(p.name for p in mentions), *self.further])),
             relations=tuple(dict.fromkeys(self.relations)),
             stated=tuple(r for r in dict.fromkeys(self.stated) if r.relation in section("static")),
             span=span,
-            text=text[span.start : span.end],
+            text=text[slice(*span)],
             quantities={p.name: p.quantity for p in mentions if p.quantity},
             direct=tuple(dict.fromkeys(p.name for p in self.direct)),
             phrases=self.further | {p.name: p.said() for p in mentions},

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice, pairwise
+from itertools import islice, zip_longest
 
 from lark import Tree
 
-from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mood, Quantifier, Relation, Span
+from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mood, Quantifier, Relation, Span, hull
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
@@ -55,9 +55,9 @@ class TextReading:
         goes_on = False
         places: list[Node] = []
         topic: list[Tree[Leaf]] = []
-        for number, (unit, following) in enumerate(pairwise([*tree.children, None])):
-            if unit is None or isinstance(unit, Leaf):
-                goes_on = unit is not None and unit.source.form == ALSO
+        for number, (unit, following) in enumerate(zip_longest(tree.children, tree.children[1:])):
+            if isinstance(unit, Leaf):
+                goes_on = unit.source.form == ALSO
                 continue
             actions = trees(unit.children, "clause", "letting")
             front = places + [n for n in unit.children if n not in actions]
@@ -176,10 +176,11 @@ class TextReading:
         """Set a reason aside; pronouns may mean what it mentions."""
         before = self._number(draft, next(leaves(node)))
         for part in trees(node.children, "part"):
-            self._stated(part, self._said(part), before, REASON)
+            self._stated(part, Saying(part).clauses(self._attach), before, REASON)
 
-    def _said(self, part: Tree[Leaf]) -> list[ClauseDraft]:
-        return Saying(part).clauses(self._attach)
+    def _said(self, node: Tree[Leaf]) -> list[ClauseDraft]:
+        """Return the clauses of the parts of a subordinate clause."""
+        return [draft for part in trees(node.children, "part") for draft in Saying(part).clauses(self._attach)]
 
     # what is subordinate
 
@@ -189,7 +190,7 @@ class TextReading:
         places = [i for i, d in enumerate(self.drafts) if d is draft]  # a clause of a condition is no step
         if opener not in pairs("order_words") or not parts or not places or not all(map(_is_deed, parts)):
             return False
-        events = [d for part in parts for d in self._said(part)]
+        events = self._said(node)
         if not section("no_steps").isdisjoint(event.verb.stem for event in events):
             return False
         at = places[0] + (pairs("order_words")[opener] == _LATER)
@@ -200,9 +201,9 @@ class TextReading:
 
     def _condition(self, node: Tree[Leaf]) -> Condition:
         """Read a condition or a purpose."""
-        opener, places, purpose = next(leaves(node)), spans([node]), node.data == "purpose"
-        text = " ".join(self.text[min(places).start : max(s.end for s in places)].split()).lower()
-        drafts = [d for part in trees(node.children, "part") for d in self._said(part)]
+        opener, purpose = next(leaves(node)), node.data == "purpose"
+        text = " ".join(self.text[slice(*hull(spans([node])))].split()).lower()
+        drafts = self._said(node)
         for draft in drafts:
             if purpose and not draft.direct and draft.verb.stem in section("happening"):
                 draft.direct.append(Phrase(first_of("singular_pronouns"), draft.verb.span.start, False, True))
@@ -217,9 +218,8 @@ class TextReading:
         if not ahead:
             return
         noun = described(draft, ahead, node)
-        for part in trees(node.children, "part"):
-            for said in self._said(part):
-                self._describe(draft, noun, opener, said)
+        for said in self._said(node):
+            self._describe(draft, noun, opener, said)
 
     @staticmethod
     def _describe(draft: ClauseDraft, noun: Phrase, opener: Token, said: ClauseDraft) -> None:
@@ -330,9 +330,8 @@ class TextReading:
     def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft], before: int, note: str) -> None:
         """Set a statement aside; pronouns may mean what it mentions."""
         self.statements += [(before, draft) for draft in drafts]
-        places = spans([part])
-        span = Span(min(places).start, max(s.end for s in places))
-        self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=note))
+        span = hull(spans([part]))
+        self.skipped.append(Token(Kind.SKIP, self.text[slice(*span)], span, note=note))
 
     def _demanded(self, draft: ClauseDraft, conditions: Sequence[Node]) -> None:
         if draft.none() and len(draft.direct) > 1:

@@ -13,7 +13,7 @@ from enum import StrEnum
 from functools import cache
 from itertools import pairwise, takewhile
 
-from tmd.language.clause import Span
+from tmd.language.clause import Span, hull
 from tmd.language.lexicon.lexicon import first_of, pairs, section, sections, sections_of
 
 
@@ -334,8 +334,7 @@ def _doubled(tokens: list[Token], at: int) -> bool:
 
 def fold(tokens: list[Token], kind: Kind, joint: str = "_", form: str = "") -> Token:
     """Make one token of a run."""
-    span = Span(min(t.span.start for t in tokens), max(t.span.end for t in tokens))
-    return Token(kind, joint.join(t.text for t in tokens), span, form=form)
+    return Token(kind, joint.join(t.text for t in tokens), hull(t.span for t in tokens), form=form)
 
 
 # -- patterns over the classes of words --------------------------------------------------------------------------------
