@@ -17,13 +17,12 @@ from tmd.language.lexicon.lexicon import Lexicon, builtin, pairs, section, secti
 from tmd.language.syntax.antecedents import resolve
 from tmd.language.syntax.brackets import Bracketer
 from tmd.language.syntax.frames import Frames
+from tmd.language.syntax.grammar import Linker, parse_tokens
 from tmd.language.syntax.joins import join
-from tmd.language.syntax.links import Linker
 from tmd.language.syntax.phrases import rewrite
 from tmd.language.syntax.reading import TextReading
 from tmd.language.syntax.tagger import ADVERB, decide, tag
 from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_endearments, drop_repeats, tokenise
-from tmd.language.syntax.tree import parse_tokens
 
 NO_VERB = "no verb that this could belong to"
 FOREIGN = "most words are not English"

@@ -25,11 +25,10 @@ from tmd.language.clause import (
 )
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, RELATIVE
+from tmd.language.syntax.grammar import CHOICE, Leaf, Node, is_a, leaves, trees
 from tmd.language.syntax.joins import SETTING
-from tmd.language.syntax.links import CHOICE
 from tmd.language.syntax.noun_phrases import Phrase, also_of, named_in, phrases_of
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
-from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, trees
 
 _MULTIPLE = "; "
 

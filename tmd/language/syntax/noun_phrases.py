@@ -11,9 +11,8 @@ from lark import Tree
 from tmd.language.clause import PERSONS, NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import first_of, section, sections, singular
 from tmd.language.syntax.brackets import ALSO
-from tmd.language.syntax.links import CHOICE
+from tmd.language.syntax.grammar import CHOICE, Leaf, Node, leaves, trees
 from tmd.language.syntax.tokens import NAME, Kind, Token
-from tmd.language.syntax.tree import Leaf, Node, leaves, trees
 
 
 def number_of(word: str) -> int | None:

@@ -13,10 +13,10 @@ from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mo
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
+from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
 from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, name_verb
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
-from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
 _ASIDES = ("demand", "statement")
 _DENIALS = ("denial", "manner")

@@ -12,10 +12,10 @@ from lark import Tree
 from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WITH, Mood, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
+from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.joins import SETTING
 from tmd.language.syntax.noun_phrases import Phrase, about_things, named_in
 from tmd.language.syntax.tokens import IMPLIED, VERBAL, Kind, Token
-from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
 EXISTS = "exists"
 """The form of *be* in "there is"."""
