@@ -264,7 +264,10 @@ _UNSAID = ("span", "name", "undetermined", "told")
 def _plain(value: Any) -> Any:  # noqa: ANN401 - any value of JSON
     """Return a value as JSON."""
     if isinstance(value, Condition):
-        return _condition_json(value)
+        # the clauses of a condition have no text of their own
+        clauses = [{k: v for k, v in clause_json(c).items() if k != "text"} for c in value.clauses]
+        said: dict[str, Any] = {"word": value.word, "text": value.text, "clauses": clauses}
+        return said | ({"negated": True} if value.negated else {})
     if isinstance(value, Clause | NounPhrase):
         return _said(value)
     if isinstance(value, tuple):
@@ -276,13 +279,6 @@ def _said(value: Clause | NounPhrase) -> dict[str, Any]:
     """Return those fields of a record that are not as they mostly are."""
     usual = {f.name: {} if f.default is MISSING else f.default for f in fields(value) if f.name not in _UNSAID}
     return {name: _plain(getattr(value, name)) for name, least in usual.items() if getattr(value, name) != least}
-
-
-def _condition_json(value: Condition) -> dict[str, Any]:
-    """Return a condition as JSON; the clauses of what it says have no text of their own."""
-    clauses = [{k: v for k, v in clause_json(c).items() if k != "text"} for c in value.clauses]
-    said: dict[str, Any] = {"word": value.word, "text": value.text, "clauses": clauses}
-    return said | ({"negated": True} if value.negated else {})
 
 
 def print_clause(clause: Clause) -> str:

@@ -365,39 +365,38 @@ def pairs(name: str) -> Mapping[str, str]:
 
 
 _VOWELS = "aeiou"
+# Endings of word forms, each with the ending of the word that they are made of; of plurals and superlatives the first
+# row that fits counts.
+_PLURALS = (
+    (r"(.*(?:kn|w)i)ves", r"\1fe"), (r"(.*(?:shel|scar|loa|wol|thie))ves", r"\1f"), (r"(.{2,})ies", r"\1y"),
+    (r"(.*(?:ss|sh|ch|x|zz))es", r"\1"), (r"(.*)s", r"\1"),
+)  # fmt: skip
+_SUPERLATIVES = ((r"(.{2,})iest", r"\1y"), (r"(.+([^ls]))\2est", r"\1"), (r"(.{3,})est", r"\1"))
+_VERB_FORMS = (
+    (r"(.{2,})ie(s)", r"\1y"), (r"(.*)e(s)", r"\1"), (r"(.*[^s])(s)", r"\1"), (r"(.+)i(ed)", r"\1y"),
+    (r"(.*([^aeiouls]))\2(ing|ed)", r"\1"), (r"(.{2,})(ing|ed)", r"\1e"), (r"(.{2,})(ing|ed)", r"\1"),
+    (r"(.*(.))\2(ing|ed)", r"\1"),
+)  # fmt: skip
+
+
+def _respelled(word: str, rows: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str]]:
+    """Yield a word with another ending for each row that fits, and the last part of the old ending."""
+    matches = ((re.fullmatch(form, word), ending) for form, ending in rows)
+    return ((match.expand(ending), match[match.re.groups]) for match, ending in matches if match)
 
 
 @lru_cache(maxsize=1 << 14)
 def singular(noun: str) -> str:
     """Return the singular of the last part of a noun: ``raspberry_syrups`` gives ``raspberry_syrup``."""
     front, joint, head = noun.rpartition("_")
-    return front + joint + _singular(head)
-
-
-def _singular(word: str) -> str:
-    if word in pairs("irregular_plurals"):
-        return pairs("irregular_plurals")[word]
-    if word.endswith(("shelves", "knives", "wives", "scarves", "loaves", "wolves", "thieves")):
-        return word[:-4] + "ife" if word.endswith("ives") else word[:-3] + "f"
-    if word in section("invariant") or len(word) < 3 or not word.endswith("s") or word.endswith(("ss", "us", "is")):
-        return word
-    if word.endswith("ies") and len(word) > 4:
-        return word[:-3] + "y"
-    if word.endswith(("sses", "shes", "ches", "xes", "zzes")):
-        return word[:-2]
-    return word[:-1]
+    unchanged = head in section("invariant") or len(head) < 3 or head.endswith(("ss", "us", "is"))
+    regular = head if unchanged else next(_respelled(head, _PLURALS), (head,))[0]
+    return front + joint + pairs("irregular_plurals").get(head, regular)
 
 
 def positive(word: str) -> str:
     """Return the adjective of a superlative: ``biggest`` gives ``big``; other words stay."""
-    if not word.endswith("est") or len(word) < 6:
-        return word
-    root = word[:-3]
-    if root.endswith("i"):
-        return root[:-1] + "y"
-    if root[-1] == root[-2]:
-        return root[:-1] if root[-1] not in "ls" else root
-    return root
+    return next(_respelled(word, _SUPERLATIVES), (word,))[0]
 
 
 def comparative_root(word: str) -> tuple[str, ...]:
@@ -412,23 +411,7 @@ def comparative_root(word: str) -> tuple[str, ...]:
 def verb_candidates(word: str) -> Iterator[tuple[str, str]]:
     """Yield (stem, form) guesses for a regular verb form, best first."""
     yield word, "base"
-    if word.endswith("ies") and len(word) > 4:
-        yield word[:-3] + "y", "s"
-    if word.endswith("es"):
-        yield word[:-2], "s"
-    if word.endswith("s") and not word.endswith("ss"):
-        yield word[:-1], "s"
-    for ending, form in (("ing", "ing"), ("ed", "ed")):
-        if word.endswith(ending) and len(word) > len(ending) + 1:
-            root = word[: -len(ending)]
-            if form == "ed" and root.endswith("i"):
-                yield root[:-1] + "y", form
-            if root[-1] == root[-2] and root[-1] not in _VOWELS + "ls":
-                yield root[:-1], form
-            yield root + "e", form
-            yield root, form
-            if root[-1] == root[-2]:
-                yield root[:-1], form
+    yield from _respelled(word, _VERB_FORMS)
 
 
 def verb_stem(word: str, known: Callable[[str], bool], irregular: dict[str, str]) -> tuple[str, str] | None:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-from tmd.language.clause import BE, PERSONS, TO, Clause, Condition, Relation
+from tmd.language.clause import BE, PERSONS, TO, Clause, Condition, Mood, Relation
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
@@ -76,7 +76,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
             said = statements.pop(0)[1]
             fact = said.clause(reading.text)
             scenes.append(_scene(said, fact))
-            facts |= _new(said, fact, clauses, reading)
+            facts |= _new(fact, clauses)
         clause = draft.clause(reading.text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
@@ -109,12 +109,11 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
     return replace(clause, antecedents=antecedents, together=together)
 
 
-def _new(said: ClauseDraft, fact: Clause, before: Sequence[Clause], reading: TextReading) -> dict[str, Clause]:
+def _new(fact: Clause, before: Sequence[Clause]) -> dict[str, Clause]:
     """Return a statement by the nouns that it mentions first; a prohibition states nothing."""
     known = {name for clause in before for name in _named(clause)}
-    if fact.verb != BE or any(said is draft for _, draft in reading.forbidden):
-        return {}
-    return {name: fact for name in fact.direct if name not in known}
+    stated = fact.verb == BE and fact.mood is not Mood.AVOID
+    return {name: fact for name in fact.direct if stated and name not in known}
 
 
 def _stated(clause: Clause, facts: dict[str, Clause]) -> tuple[Relation, ...]:

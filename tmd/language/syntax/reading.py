@@ -61,7 +61,8 @@ class TextReading:
                 continue
             actions = trees(unit.children, "clause", "letting")
             front = places + [n for n in unit.children if n not in actions]
-            places = front if not actions and _is_heading(front, following) else []
+            heading = _is_leaf(following, ":") and all(is_a(n, "place") for n in front)
+            places = front if heading and not actions else []  # "into the crate: rope, hose"
             if not actions and self._is_topic(front) and _is_taken_up(tree.children[number + 1 :]):
                 topic += trees(front, "group")
             elif not places:
@@ -397,11 +398,6 @@ class TextReading:
                 draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in section("guards")]
                 draft.fronted = True
             before = draft
-
-
-def _is_heading(front: Sequence[Node], following: Node | None) -> bool:
-    """Return whether a unit is the place of those behind its colon: "into the crate: rope, hose"."""
-    return _is_leaf(following, ":") and all(is_a(n, "place") for n in front)
 
 
 def _is_leaf(node: Node | None, text: str) -> bool:
