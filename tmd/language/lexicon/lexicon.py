@@ -62,7 +62,7 @@ class Declared:
 
 @dataclass(frozen=True, slots=True)
 class SharedPredicate:
-    """A predicate that the rows of a base lexicon speak of, with the conditions that may say it in a domain.
+    """A predicate in the rows of a base lexicon, with the conditions that may express it in a domain.
 
     Attributes:
         name: Its name: ``held``.

@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.language.clause import BE, PERSONS, TO, Clause, Condition, Mood, Relation
-from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.lexicon.lexicon import pairs, section, sections_of
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
 from tmd.language.syntax.reading import TextReading
@@ -42,16 +42,6 @@ class _Scene:
     together: tuple[str, ...]
 
 
-def is_singular(name: str) -> bool:
-    """Return whether a pronoun refers to one thing."""
-    return name in section("singular_pronouns")
-
-
-def is_plural(name: str) -> bool:
-    """Return whether a pronoun refers to several things."""
-    return name in section("plural_pronouns")
-
-
 def is_one(name: str) -> bool:
     """Return whether a language-object is *one*, or *red_one*: one of the things mentioned."""
     return name.rpartition("_")[2] in section("one_words")
@@ -59,7 +49,8 @@ def is_one(name: str) -> bool:
 
 def is_pronoun(name: str) -> bool:
     """Return whether a language-object refers to something mentioned before."""
-    return is_singular(name) or is_plural(name) or name in section("open_pronouns") or is_one(name)
+    pronouns = ("singular_pronouns", "plural_pronouns", "open_pronouns")
+    return not sections_of(name).isdisjoint(pronouns) or is_one(name)
 
 
 def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...]]:
@@ -102,7 +93,7 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
         if is_one(pronoun):
             ranked, count = _one(pronoun, ranked, clause, draft, before), 1
             ranked = _in_order(pronoun, scenes) or ranked
-        elif is_singular(pronoun) and not before.isdisjoint(section("insides")):
+        elif pronoun in section("singular_pronouns") and not before.isdisjoint(section("insides")):
             ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
         if ranked:
             antecedents[pronoun], together[pronoun] = ranked, count
@@ -218,9 +209,10 @@ def _condition(condition: Condition, draft: ClauseDraft, scenes: list[_Scene]) -
 
 def _agreeing(pronoun: str, names: tuple[str, ...], many: Collection[str]) -> tuple[str, ...]:
     """Return the names with those first that agree with a pronoun in number."""
-    if not (is_singular(pronoun) or is_plural(pronoun)):
+    plural = pronoun in section("plural_pronouns")
+    if not (plural or pronoun in section("singular_pronouns")):
         return names
-    return tuple(sorted(names, key=lambda name: (name in many) != is_plural(pronoun)))
+    return tuple(sorted(names, key=lambda name: (name in many) != plural))
 
 
 def _alone(clause: Clause) -> _Scene:
@@ -242,7 +234,7 @@ def _rank(
     own = {p.name for p in draft.mentions()}
     scored = _scored(recent, own, draft)
     group: tuple[str, ...] = ()
-    if is_plural(pronoun):
+    if pronoun in section("plural_pronouns"):
         group = _group(recent, own)
     elif pronoun == "" and recent:
         group = tuple(name for name in recent[0].together if name not in own)
@@ -262,7 +254,7 @@ def _fitting(
         alike = {m.name for m in mentions if m.behind and m.behind in before}
         return sorted(scored, key=lambda pair: (pair[0] not in alike, pair[0] not in telling))
     single = [pair for pair in scored if pair[0] not in plural]
-    return single if is_singular(pronoun) and single else scored
+    return single if pronoun in section("singular_pronouns") and single else scored
 
 
 def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:
@@ -307,7 +299,7 @@ def _is_name(name: str) -> bool:
 
 def _acted_on(phrase: Phrase, clause: Clause, spread: int) -> list[_Mention]:
     """Return what a direct object mentions, farther where it is one of several."""
-    many = phrase.plural or is_plural(phrase.name)
+    many = phrase.plural or phrase.name in section("plural_pronouns")
     own = [_Mention(name, many, spread, _told(phrase)) for name in _meant(phrase, clause)]
     return own + [_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase]
 

@@ -117,9 +117,9 @@ class ClauseDraft:
         places = {r.relation: r.target for r in other.relations if r.source in moved and r.target in named}
         self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
 
-    def set_to(self) -> bool:
-        """Return whether it has a setting."""
-        return any(token.form == SETTING for token in self.folds)
+    def settings(self) -> list[str]:
+        """Return its settings."""
+        return [token.text for token in self.folds if token.form == SETTING]
 
     def owning(self) -> str:
         """Return the relation of a noun to what it has or acts on, by what a relative clause says; empty for others."""

@@ -160,7 +160,7 @@ class Linker(Words):
     def _named(self, *, joined: bool) -> bool:
         """Return whether the open unit asks for something: "a glass of milk, and shut the fridge".
 
-        Where nothing joins it to what follows, it says where or how something shall be: "eggs in the pot, boil".
+        Where nothing joins it to what follows, it adds a place or a state: "eggs in the pot, boil".
         """
         behind = named = False
         for token in self._unit():

@@ -167,7 +167,7 @@ def phrase_of(node: Tree[Leaf]) -> Phrase:
 
 
 def _head(words: list[Token], lead: list[Token]) -> Phrase:
-    """Return the phrase of a head; "the white one" and "the other" tell which of what was spoken of."""
+    """Return the phrase of a head; "the white one" and "the other" pick one of the things mentioned."""
     start, said = words[0].span.start, tuple(t.text for t in lead)
     texts, last = [t.text for t in words], words[-1]
     one = first_of("one_words")

@@ -188,7 +188,7 @@ class TextReading:
     def _ordered(self, draft: ClauseDraft, node: Tree[Leaf]) -> bool:
         """Read "after labelling it" and "before putting it away" as instructions, in their order."""
         opener, parts = next(leaves(node)).text, trees(node.children, "part")
-        places = [i for i, d in enumerate(self.drafts) if d is draft]  # a clause of a condition is no step
+        places = [i for i, d in enumerate(self.drafts) if d is draft]  # a clause of a condition is not a step
         if opener not in pairs("order_words") or not parts or not places or not all(map(_is_deed, parts)):
             return False
         events = self._said(node)
@@ -241,7 +241,7 @@ class TextReading:
             draft.further[phrase.name] = phrase.said()
 
     def _forbid(self, draft: ClauseDraft | None, node: Tree[Leaf]) -> None:
-        """Record what a denial forbids: a clause of its own, or the verb before it with other arguments."""
+        """Record what a denial forbids: its own clause, or the verb before it with other arguments."""
         before = self._number(draft, next(leaves(node)))
         for part in trees(node.children, "part"):
             saying = Saying(part)

@@ -136,7 +136,7 @@ class Conditions:
         """Compile a condition; an empty one always holds.
 
         Raises:
-            ValueError: It is not well-formed, or speaks of something unknown; in one line.
+            ValueError: It is not well-formed, or names something unknown; in one line.
         """
         # the text can hold nothing but signs and the expressions made here, so eval is safe
         test: Test = eval(f"lambda w: {self.expression(text) if text else True}", self._known)

@@ -13,7 +13,6 @@ from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WITH, Mood, Quant
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
-from tmd.language.syntax.joins import SETTING
 from tmd.language.syntax.noun_phrases import Phrase, about_things, named_in
 from tmd.language.syntax.tokens import IMPLIED, VERBAL, Kind, Token
 
@@ -109,9 +108,8 @@ class Saying:
             draft.verb.form = EXISTS
             self.subject = [n for n in self.subject if not is_a(n, "group")]
         attach(draft, self.subject, self.rest)
-        settings = [t.text for t in draft.folds if t.form == SETTING]
-        if draft.result is None and settings and not draft.landmarks:
-            draft.result = settings[-1]  # "until it is two thirds full"
+        if draft.result is None and draft.settings() and not draft.landmarks:
+            draft.result = draft.settings()[-1]  # "until it is two thirds full"
         return draft
 
     def _done(self, verb: Token, attach: Attach) -> ClauseDraft:
@@ -187,7 +185,7 @@ def _demand_plainly(draft: ClauseDraft, result: str) -> None:
     verb, said = draft.verb, {r.relation for r in draft.relations}
     if result in pairs("state_verbs") or result in section("verbs"):
         verb.stem, draft.result = pairs("state_verbs").get(result, result), None
-    elif draft.set_to():
+    elif draft.settings():
         verb.stem, draft.result = SET, None
     elif not result and WITH not in said and not said.isdisjoint(section("static") | section("arrivals")):
         verb.stem = PUT
@@ -203,7 +201,7 @@ def name_verb(draft: ClauseDraft) -> None:
         verb.stem = BRING
     elif draft.result is not None:
         verb.stem = BE
-    elif draft.set_to():
+    elif draft.settings():
         verb.stem = SET
 
 
