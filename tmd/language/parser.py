@@ -48,7 +48,8 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
         The clauses in order, what must not be done, and what was skipped with the reason. Never raises for any text.
     """
     words = lexicon or builtin()
-    cut = _of_bearable_length(tokenise(text))
+    cut = tokenise(text)
+    _note_overlong(cut)
     markup = [t for t in cut if t.note]
     kept, repeated = drop_repeats([t for t in cut if not t.note])
     kept, called = drop_endearments(kept)
@@ -66,14 +67,13 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints)
 
 
-def _of_bearable_length(tokens: list[Token]) -> list[Token]:
-    """The same; words beyond the limit of a sentence are noted, for rules look back and ahead over all of one."""
+def _note_overlong(tokens: list[Token]) -> None:
+    """Set words beyond the limit of a sentence aside, because rules look back and ahead over all of it."""
     count = 0
     for token in tokens:
         count = 0 if token.kind is Kind.STOP else count + 1
         if count > MAX_WORDS:
             token.note = token.note or f"the sentence has more than {MAX_WORDS:,} words"
-    return tokens
 
 
 def short_enough(text: str) -> str:

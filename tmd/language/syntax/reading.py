@@ -61,13 +61,14 @@ class TextReading:
                 continue
             actions = trees(unit.children, "clause", "letting")
             front = places + [n for n in unit.children if n not in actions]
-            heading = _is_leaf(following, ":") and all(is_a(n, "place") for n in front)
+            sign = following.source.text if isinstance(following, Leaf) else ""
+            heading = sign == ":" and all(is_a(n, "place") for n in front)
             places = front if heading and not actions else []  # "into the crate: rope, hose"
             if not actions and self._is_topic(front) and _is_taken_up(tree.children[number + 1 :]):
                 topic += trees(front, "group")
             elif not places:
                 self._unit(actions, _supplied(unit, front, topic), goes_on=goes_on)
-                topic = topic if _is_leaf(following, ",") else []
+                topic = topic if sign == "," else []
         self._carry()
         return self
 
@@ -398,10 +399,6 @@ class TextReading:
                 draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in section("guards")]
                 draft.fronted = True
             before = draft
-
-
-def _is_leaf(node: Node | None, text: str) -> bool:
-    return isinstance(node, Leaf) and node.source.text == text
 
 
 def _is_taken_up(nodes: Sequence[Node]) -> bool:
