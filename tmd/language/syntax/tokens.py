@@ -301,21 +301,16 @@ def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
     Returns:
         The tokens that stay and the tokens removed.
     """
-    kept: list[Token] = []
+    gone: set[int] = set()
     dropped: list[Token] = []
-    position = 0
-    while position < len(tokens):
-        words = [t.text for t in tokens[position : position + 4]]
-        end = 1 + (words[1:2] == [first_of("address")]) if tokens[position].kind is Kind.COMMA else len(words)
-        ended = end + 1 < len(words) and tokens[position + end + 1].kind in (Kind.COMMA, Kind.STOP)
-        last = position + end + 1 == len(tokens)
-        if end < len(words) and words[end] in section("endearments") and (ended or last):
-            dropped += tokens[position + 1 : position + end + 1]
-            position += end + 1 + (ended and tokens[position + end + 1].kind is Kind.COMMA)
-        else:
-            kept.append(tokens[position])
-            position += 1
-    return kept, noted(dropped, ADDRESS)
+    for at, token in enumerate(tokens):
+        begin = at - (at > 0 and tokens[at - 1].text == first_of("address"))
+        opened = begin > 0 and tokens[begin - 1].kind is Kind.COMMA and id(tokens[begin - 1]) not in gone
+        after = tokens[at + 1].kind if at + 1 < len(tokens) else Kind.STOP
+        if token.text in section("endearments") and opened and after in (Kind.COMMA, Kind.STOP):
+            dropped += tokens[begin : at + 1]
+            gone.update(map(id, tokens[begin - 1 : at + 1 + (after is Kind.COMMA)]))  # without the commas
+    return [token for token in tokens if id(token) not in gone], noted(dropped, ADDRESS)
 
 
 def noted(tokens: list[Token], note: str) -> list[Token]:
