@@ -1,6 +1,7 @@
 """Bracket subordinate clauses, statements, demands and prohibitions: from their opener to the mark of their end.
 
-The grammar (``clauses.lark``) cannot look ahead; where a clause ends is decided here, from the classes of the words.
+The grammar (``clauses.lark``) cannot look ahead. The classes of the words decide where a clause begins, and where it
+ends (:mod:`~tmd.language.syntax.ends`).
 What asks for nothing (questions, what is taken back, what need not be done) is set aside with its reason.
 """
 
