@@ -8,7 +8,8 @@ clauses. The reader that knows the environment picks from the list.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from tmd.language.clause import BE, PERSONS, TO, Clause, Condition, Mood, Relation
 from tmd.language.lexicon.lexicon import pairs, section, sections_of
@@ -22,8 +23,7 @@ _AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
 """Penalties of a mention: per clause of age, under "of", behind a preposition, in a coordination."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Mention:
+class _Mention(NamedTuple):
     """A thing that was mentioned, its distance from the verb, and its distinguishing words."""
 
     name: str
@@ -34,8 +34,7 @@ class _Mention:
     """The preposition before it."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Scene:
+class _Scene(NamedTuple):
     """The mentions of one clause, for later ones; ``together`` are its direct objects."""
 
     mentions: tuple[_Mention, ...]

@@ -142,10 +142,6 @@ class ClauseDraft:
             for p, said in zip(self.direct, own, strict=True)
         ]
 
-    def described(self) -> list[str]:
-        """Return the names that it mentions, and its verb."""
-        return [*(p.name for p in self.mentions()), self.verb.stem]
-
     def none(self) -> bool:
         """Return whether it is about none: *no cup*."""
         return any(p.said().quantifier is Quantifier.NONE for p in self.direct)

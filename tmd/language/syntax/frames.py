@@ -55,8 +55,7 @@ class Frames(Words):
         return begin
 
     def _is_thing(self, at: int) -> bool:
-        token = self.tokens[at]
-        return token.kind is K.N and (self._lexicon.is_noun(token.text) or self._lexicon.names_thing(token.text))
+        return self.kind(at) is K.N and self._lexicon.is_noun(self.tokens[at].text)
 
     def _is_deed(self, at: int) -> bool:
         """Return whether a verb stands at a place that is itself what is asked for, or tells what has been done."""

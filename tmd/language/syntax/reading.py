@@ -225,7 +225,7 @@ class TextReading:
 
     @staticmethod
     def _describe(draft: ClauseDraft, noun: Phrase, opener: Token, said: ClauseDraft) -> None:
-        draft.relative = draft.relative or said.verb.stem == BE
+        draft.relative |= said.verb.stem == BE
         named = [p for p in said.direct if not p.pronoun]
         relation = WHERE if opener.text in section("where_words") else said.owning()
         if named and relation:
@@ -235,7 +235,7 @@ class TextReading:
             if said.verb.stem == BE and said.result is not None and not named:
                 noun.attributes.append(_NOT * opener.negated + said.result)
             elif relation != WHERE and (named or not targets):  # it tells which one is meant, and must not be lost
-                noun.attributes.append("_".join([opener.text, *said.described()]))
+                noun.attributes.append("_".join([opener.text, *(p.name for p in said.mentions()), said.verb.stem]))
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
             draft.stated.append(draft.relations[-1])
