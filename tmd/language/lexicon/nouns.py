@@ -1,10 +1,9 @@
 """Things of an environment that a noun may name, with the kind of evidence for each.
 
 The order of evidence is fixed: the thing's own name, an alias of the domain, a synonym in WordNet, similarity in
-WordNet, nothing. A weaker kind
-is only asked where all stronger ones are silent; but where a name agrees only in part, an alias of the whole noun goes
-before it. Similarity is that of Wu and Palmer (1994) among WordNet's artifacts, food and substances, loaded when a noun
-has to be compared (``experiments.language.rebuild`` writes the file).
+WordNet, nothing. A weaker kind is only asked where all stronger ones are silent; but where a name agrees only in part,
+an alias of the whole noun goes before it. Similarity is that of Wu and Palmer (1994) among WordNet's artifacts, food
+and substances, loaded when a noun has to be compared (``experiments.language.rebuild`` writes the file).
 """
 
 from __future__ import annotations
