@@ -1,6 +1,6 @@
 """Text to verb clauses, and nouns to the things of an environment (section III-A of the paper).
 
-The parser is imported when it is first used: who reads only a lexicon does not wait for the grammar.
+The parser is imported when it is first used, because loading the grammar is slow.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever stands in the module
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - any member of the module
     """The parser, imported now."""
     if name == "parse":
         from tmd.language.parser import parse

@@ -6,7 +6,7 @@ Their notation is the paper's, ``(take, [cup, water], with: cup -> water)``, and
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from enum import StrEnum
 from typing import Any, NamedTuple
@@ -22,6 +22,12 @@ class Span(NamedTuple):
     end: int
 
 
+def hull(spans: Iterable[Span]) -> Span:
+    """Return the smallest span that covers some spans."""
+    starts, ends = zip(*spans, strict=True)
+    return Span(min(starts), max(ends))
+
+
 NOWHERE = Span(0, 0)
 """The span of a clause that comes from no text."""
 
@@ -34,7 +40,7 @@ HAVE = "have"
 PUT = "put"
 SET = "set"
 BRING = "bring"
-"""Verbs of requests without one: what a thing shall be had, put, set or brought to."""
+"""Verbs of requests without one: to have, put, set or bring something."""
 EXCEPT = "except"
 OF = "of"
 TO = "to"
@@ -58,7 +64,7 @@ class Quantifier(StrEnum):
     """The number of things that a noun phrase means, of all that its noun may name."""
 
     PLAIN = "plain"
-    """Nothing was said of it: *a cup*, *the cups*, *milk*."""
+    """No number is given: *a cup*, *the cups*, *milk*."""
     SOME = "some"
     """One or some of them: *some cups*, *any cup*."""
     ALL = "all"
@@ -66,7 +72,7 @@ class Quantifier(StrEnum):
     NUMBER = "number"
     """So many of them as :attr:`NounPhrase.number` says."""
     OTHER = "other"
-    """One that was not spoken of before: *another cup*, *the other cup*."""
+    """One that was not mentioned before: *another cup*, *the other cup*."""
     NONE = "none"
     """None of them: *no sugar*."""
 
@@ -78,13 +84,13 @@ class NounPhrase:
     Attributes:
         name: The language-object.
         quantifier: How many are meant.
-        number: The number, where one was said.
-        definite: Said with *the*, *this* or a possessive.
-        plural: Said in the plural.
+        number: The number, where one is given.
+        definite: It has *the*, *this* or a possessive.
+        plural: It is in the plural.
         attributes: Adjectives, in order: ``empty``, ``dirty``.
         either: The language-objects of which any one will do: *the cup or the mug*.
-        each: Said of every one by itself: *each cup*.
-        undetermined: Said in the singular without any determiner: *cup*.
+        each: Every one by itself is meant: *each cup*.
+        undetermined: It is in the singular without any determiner: *cup*.
     """
 
     name: str
@@ -105,7 +111,7 @@ class Mood(StrEnum):
     AVOID = "avoid"
     """It must not be done: *don't open the window*."""
     KEEP = "keep"
-    """Things shall stay as they are: *leave the cup where it is*."""
+    """Things should stay as they are: *leave the cup where it is*."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,7 +123,7 @@ class Condition:
         clauses: What it says; a state is a clause with the verb ``be``.
         negated: It says that the state does not hold.
         text: As written.
-        carried: It was said with the clause before: *if it is on, turn it off and bring it*.
+        carried: It comes from the clause before: *if it is on, turn it off and bring it*.
     """
 
     word: str
@@ -141,23 +147,23 @@ class Clause:
         antecedents: For each pronoun in ``objects`` (and ``""`` for an elided object) what it may mean,
             likeliest first.
         together: For each entry of ``antecedents``, how many of its first names are meant together ("them").
-        quantities: For objects said with a number, the number as written (``two``, ``3``).
+        quantities: For objects with a number, the number as written (``two``, ``3``).
         condition: A condition ("until it boils"), as written.
         duration: A duration ("for 3 minutes"), as written.
         purpose: A purpose ("to make tea"), as written.
         direct: Those of ``objects`` that the verb acts on.
-        phrases: How each of ``objects`` was said.
-        result: The state that something shall be in: ``open``, ``hot``, ``louder``.
-        conditions: What was said about when, whether and what for.
+        phrases: The noun phrase of each of ``objects``.
+        result: The state that something should be in: ``open``, ``hot``, ``louder``.
+        conditions: Conditions and purposes.
         otherwise: It is done where the condition before it does not hold.
         mood: Whether it is to be done, or avoided, or things are to be kept.
-        implied: The verb was not said: *A glass of milk, please.*
+        implied: The text leaves the verb out: *A glass of milk, please.*
         alternative: It need not be done where the clause before it was: *or throw it away*.
         setting: A setting, as written: *to low*.
         stated: Where its things are now, by relative clauses and by statements before it: *There is a mug on the
             shelf. Wash it.*
         heading: What follows says how: *make ramen: fill the pot, …*.
-        told: Its subject is not the one who is asked: *they are starving*.
+        told: Its subject is not the addressee: *they are starving*.
     """
 
     verb: str
@@ -258,7 +264,10 @@ _UNSAID = ("span", "name", "undetermined", "told")
 def _plain(value: Any) -> Any:  # noqa: ANN401 - any value of JSON
     """Return a value as JSON."""
     if isinstance(value, Condition):
-        return _condition_json(value)
+        # the clauses of a condition have no text of their own
+        clauses = [{k: v for k, v in clause_json(c).items() if k != "text"} for c in value.clauses]
+        said: dict[str, Any] = {"word": value.word, "text": value.text, "clauses": clauses}
+        return said | ({"negated": True} if value.negated else {})
     if isinstance(value, Clause | NounPhrase):
         return _said(value)
     if isinstance(value, tuple):
@@ -270,13 +279,6 @@ def _said(value: Clause | NounPhrase) -> dict[str, Any]:
     """Return those fields of a record that are not as they mostly are."""
     usual = {f.name: {} if f.default is MISSING else f.default for f in fields(value) if f.name not in _UNSAID}
     return {name: _plain(getattr(value, name)) for name, least in usual.items() if getattr(value, name) != least}
-
-
-def _condition_json(value: Condition) -> dict[str, Any]:
-    """Return a condition as JSON; the clauses of what it says have no text of their own."""
-    clauses = [{k: v for k, v in clause_json(c).items() if k != "text"} for c in value.clauses]
-    said: dict[str, Any] = {"word": value.word, "text": value.text, "clauses": clauses}
-    return said | ({"negated": True} if value.negated else {})
 
 
 def print_clause(clause: Clause) -> str:

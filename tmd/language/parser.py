@@ -8,22 +8,21 @@ length of the text.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cache
 
 from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
-from tmd.language.lexicon.lexicon import Lexicon, builtin, section, sections, slips
+from tmd.language.lexicon.lexicon import Lexicon, builtin, pairs, section, sections, sections_of
 from tmd.language.syntax.antecedents import resolve
-from tmd.language.syntax.brackets import ADDRESS, Bracketer
+from tmd.language.syntax.brackets import Bracketer
 from tmd.language.syntax.frames import Frames
+from tmd.language.syntax.grammar import Linker, parse_tokens
 from tmd.language.syntax.joins import join
-from tmd.language.syntax.links import Linker
 from tmd.language.syntax.phrases import rewrite
 from tmd.language.syntax.reading import TextReading
-from tmd.language.syntax.tagger import decide, tag
+from tmd.language.syntax.tagger import ADVERB, decide, tag
 from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_endearments, drop_repeats, tokenise
-from tmd.language.syntax.tree import parse_tokens
 
 NO_VERB = "no verb that this could belong to"
 FOREIGN = "most words are not English"
@@ -35,8 +34,6 @@ _ENGLISH_SHARE = 0.5
 """A text of which fewer words than this are known is not English ..."""
 _FEWEST_WORDS = 3
 """... if it has as many different words."""
-_ADVERB = 5
-"""Longer words that end in *ly* are adverbs."""
 
 
 def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = None) -> Parsed:
@@ -44,24 +41,21 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
 
     Args:
         text: Any text: run-ons, typos, missing full stops, upper case, segment marks.
-        lexicon: Words of the domain besides the built-in ones.
+        lexicon: Words of the domain, in addition to the built-in ones.
         trace: Takes the ids of the rows of ``data/pos.yaml`` and ``data/phrases.yaml`` that fire.
 
     Returns:
         The clauses in order, what must not be done, and what was skipped with the reason. Never raises for any text.
     """
     words = lexicon or builtin()
-    cut = _of_bearable_length(tokenise(text))
+    cut = tokenise(text)
+    _note_overlong(cut)
     markup = [t for t in cut if t.note]
     kept, repeated = drop_repeats([t for t in cut if not t.note])
-    for token in repeated:
-        token.note = "repeats what was just said"
     kept, called = drop_endearments(kept)
-    for token in called:
-        token.note = ADDRESS
     strange = _foreign(kept, words)
-    if strange is not None:
-        return Parsed(text, (), strange(text))
+    if strange:
+        return Parsed(text, (), (Skipped(text.strip(), Span(0, len(text)), strange),))
     tokens = tag(kept, words, trace)
     decide(tokens, words, trace)
     tokens = Frames(tokens, words).run()
@@ -73,14 +67,13 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints)
 
 
-def _of_bearable_length(tokens: list[Token]) -> list[Token]:
-    """The same; words beyond the limit of a sentence are noted, for rules look back and ahead over all of one."""
+def _note_overlong(tokens: list[Token]) -> None:
+    """Set words beyond the limit of a sentence aside, because rules look back and ahead over all of it."""
     count = 0
     for token in tokens:
         count = 0 if token.kind is Kind.STOP else count + 1
         if count > MAX_WORDS:
             token.note = token.note or f"the sentence has more than {MAX_WORDS:,} words"
-    return tokens
 
 
 def short_enough(text: str) -> str:
@@ -98,7 +91,7 @@ def short_enough(text: str) -> str:
 
 
 def is_filler(word: str) -> bool:
-    """Tell whether a word may stand outside of all clauses without being reported.
+    """Return whether a word may stand outside of all clauses without being reported.
 
     Fillers carry nothing of a clause: conjunctions, adverbs, articles, politeness, auxiliaries, addressing
     words and verbs that only introduce another ("need to").
@@ -107,38 +100,26 @@ def is_filler(word: str) -> bool:
 
 
 def _is_filler(word: str) -> bool:
-    word = slips().get(word, word)
+    word = pairs("slips").get(word, word)
     word = word.removesuffix("'s") if word not in section("be") else word
-    if (
-        word in section("joints")
-        or (word.endswith("ly") and len(word) > _ADVERB)
-        or word.endswith(sections()["contracted"])
-    ):
-        return True
-    return any(word in section(name) for name in sections()["fillers"]) or word in _inside_phrases()
+    adverb = word.endswith("ly") and len(word) > ADVERB
+    listed = not sections_of(word).isdisjoint(("joints", *sections()["fillers"]))
+    return adverb or listed or word.endswith(sections()["contracted"]) or word in _inside_phrases()
 
 
 @cache
 def _inside_phrases() -> frozenset[str]:
-    words: set[str] = set()
-    for name in ("multiword_adverbs", "ensure"):
-        for entry in section(name):
-            words.update(entry.split("_"))
-    return frozenset(words)
+    entries = section("multiword_adverbs") | section("ensure")
+    return frozenset(word for entry in entries for word in entry.split("_"))
 
 
-def _foreign(tokens: Sequence[Token], lexicon: Lexicon) -> Callable[[str], tuple[Skipped, ...]] | None:
-    """Return how to report a text without English words, or ``None`` for all other texts."""
-    words = [t.text for t in tokens if t.kind is Kind.WORD]
+def _foreign(tokens: Sequence[Token], lexicon: Lexicon) -> str:
+    """Return why a text without English words is skipped; empty for all other texts."""
+    words = {t.text for t in tokens if t.kind is Kind.WORD}
     if not words and not any(t.kind is Kind.NUM for t in tokens):
-        return lambda text: (Skipped(text.strip(), Span(0, len(text)), NO_WORDS),)
-    distinct = sorted(set(words))
-    if len(distinct) < _FEWEST_WORDS:
-        return None
-    known = sum(lexicon.knows(w) or lexicon.correct(w) is not None for w in distinct)
-    if known >= _ENGLISH_SHARE * len(distinct):
-        return None
-    return lambda text: (Skipped(text.strip(), Span(0, len(text)), FOREIGN),)
+        return NO_WORDS
+    known = sum(lexicon.knows(w) or lexicon.correct(w) is not None for w in words)
+    return FOREIGN if len(words) >= _FEWEST_WORDS and known < _ENGLISH_SHARE * len(words) else ""
 
 
 def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> tuple[Skipped, ...]:
@@ -149,14 +130,11 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         clauses: Its clauses.
         tokens: Every token, folded or not; those with a ``note`` know why they are skipped.
     """
-    covered = _merge([*(c.span for c in clauses), *(t.span for t in tokens if t.kind is Kind.SKIP)])
+    spans = [*(c.span for c in clauses), *(t.span for t in tokens if t.kind is Kind.SKIP)]
+    covered = {place for span in spans for place in range(*span)}
     pieces: list[tuple[Span, str]] = []
-    place = 0
     for token in sorted(tokens, key=lambda t: t.span):
-        while place < len(covered) and covered[place].end <= token.span.start:
-            place += 1
-        inside = place < len(covered) and covered[place].start <= token.span.start
-        if _is_idle(token, inside=inside):
+        if _is_idle(token, inside=token.span.start in covered):
             continue
         reason = token.note or NO_VERB
         if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span, reason):
@@ -167,29 +145,16 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
 
 
 def _is_idle(token: Token, *, inside: bool) -> bool:
-    """Tell whether nothing is to be said of a token: a clause covers it, or it carries nothing."""
+    """Return whether a token needs no report: a clause covers it, or it carries nothing."""
     if token.kind is Kind.SKIP or token.note:
         return False
-    return inside or token.span.start == token.span.end or token.kind in _SIGNS or _all_filler(token)
+    filler = token.kind is not Kind.MOD and all(map(is_filler, token.text.split()))
+    return inside or token.span.start == token.span.end or token.kind in _SIGNS or filler
 
 
 _SIGNS = frozenset({Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC, Kind.LINK, Kind.END})
 
 
-def _all_filler(token: Token) -> bool:
-    return token.kind is not Kind.MOD and all(is_filler(word) for word in token.text.split())
-
-
 def _adjacent(text: str, before: Span, after: Span, reason: str) -> bool:
     between = text[before.end : after.start]
     return not between.strip() if reason == MARKUP else not any(sign in between for sign in ".!?;")
-
-
-def _merge(spans: list[Span]) -> list[Span]:
-    merged: list[Span] = []
-    for span in sorted(spans):
-        if merged and span.start <= merged[-1].end:
-            merged[-1] = Span(merged[-1].start, max(merged[-1].end, span.end))
-        else:
-            merged.append(span)
-    return merged

@@ -94,8 +94,8 @@ class _Source:
         """Return a scalar that is a PDDL condition, and where it begins."""
         if not isinstance(node, yaml.ScalarNode) or not node.value.strip():
             self.fail(node.start_mark, "expected a PDDL condition here", "write (opened ?x)")
-        quoted = node.style in ("'", '"')
-        return node.value, Location(str(self.path), node.start_mark.line + 1, node.start_mark.column + 1 + quoted)
+        place = self.place(node.start_mark)
+        return node.value, replace(place, column=place.column + (node.style in ("'", '"')))
 
     def aliases(self, node: yaml.Node) -> dict[str, tuple[str, ...]]:
         result = {}
@@ -136,7 +136,7 @@ def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
 
 
 def _declared(source: _Source, parts: Mapping[str, yaml.Node]) -> Lexicon:
-    """Return what a file says itself."""
+    """Return the entries of a file itself, without its includes."""
 
     def part(name: str, read: Callable[[_Source, yaml.Node], _Part]) -> _Part | None:
         return read(source, parts[name]) if name in parts else None
@@ -147,7 +147,7 @@ def _declared(source: _Source, parts: Mapping[str, yaml.Node]) -> Lexicon:
     return Lexicon(
         verbs=frozenset(part("verbs", lambda _, verbs: source.sequence(verbs, source.name)) or ()),
         phrasal=part("phrasal", _phrasal) or {},
-        nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
+        nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" names one as well
         verb_synonyms=part("verb_synonyms", _synonyms) or {},
         goals=goals,
         attributes=part("attributes", _attributes) or (),
@@ -218,7 +218,7 @@ def _phrases(source: _Source, node: yaml.Node) -> tuple[PhraseRow, ...]:
 
 
 def _merged(own: Mapping[str, str], other: Mapping[str, str]) -> dict[str, str]:
-    """Join synonyms: what stands for a verb that itself stands for another one by ``own`` stands for that one."""
+    """Join synonyms: a synonym of a verb that ``own`` replaces by another one is a synonym of that one."""
     served = set(own.values())
     found = dict(own)
     for verb, target in other.items():
@@ -231,16 +231,10 @@ def _merged(own: Mapping[str, str], other: Mapping[str, str]) -> dict[str, str]:
 def _places(source: _Source, parts: Mapping[str, yaml.Node]) -> dict[tuple[str, str], Location]:
     """Return where each word of a file was declared."""
     found = {}
-    for name in _WORDS:
-        node = parts.get(name)
-        keys = (
-            [key for key, _ in node.value]
-            if isinstance(node, yaml.MappingNode)
-            else node.value
-            if isinstance(node, yaml.SequenceNode)
-            else []
-        )
-        found.update({(name, str(key.value)): source.place(key.start_mark) for key in keys})
+    for name in (name for name in _WORDS if isinstance(parts.get(name), yaml.CollectionNode)):
+        for entry in parts[name].value:
+            key = entry[0] if isinstance(entry, tuple) else entry
+            found[name, str(key.value)] = source.place(key.start_mark)
     return found
 
 

@@ -62,7 +62,7 @@ class Declared:
 
 @dataclass(frozen=True, slots=True)
 class SharedPredicate:
-    """A predicate that the rows of a base lexicon speak of, with the conditions that may say it in a domain.
+    """A predicate in the rows of a base lexicon, with the conditions that may express it in a domain.
 
     Attributes:
         name: Its name: ``held``.
@@ -125,7 +125,7 @@ class Lexicon:
 
     Attributes:
         verbs: Further verbs.
-        phrasal: Further verbs with a particle, each with the verb it stands for (``turn_on`` itself, or
+        phrasal: Further verbs with a particle, each with the verb it means (``turn_on`` itself, or
             another): ``{"fire_up": "turn_on"}``.
         nouns: What a noun may mean here: names of classes, objects or substances, likeliest first.
         verb_synonyms: Verb to the verb whose templates serve it as well.
@@ -137,7 +137,7 @@ class Lexicon:
         included: The files of these base lexicons, in order.
         places: Where a word of a section was declared: ``("verb_synonyms", "get")``.
         names: The words in names of types and constants of the domain that are long enough for slips.
-        kinds: Last words of names of types and constants of the domain: nouns, be they verbs as well.
+        kinds: Last words of names of types and constants of the domain: nouns, even if they are verbs as well.
         compounds: Such names with a particle inside: their words together are one noun ("the volume down button").
         phrases: Turns of phrase of the domain.
     """
@@ -212,7 +212,8 @@ class Lexicon:
         """
         if word in pairs("spellings"):
             return pairs("spellings")[word], "base", 3
-        found = verb_stem(word, self._known_verb, _wordnet_verbs()[1])
+        listed = _wordnet_verbs()[0]
+        found = verb_stem(word, lambda verb: verb in self._own_verbs or verb in listed, _wordnet_verbs()[1])
         if found is None:
             return None
         stem, form = found
@@ -223,43 +224,35 @@ class Lexicon:
             return stem, form, 1
         if stem in section("verbs"):
             return stem, form, 2 if noun else 3
-        flag = _wordnet_verbs()[0].get(stem, "v")
-        strength = {"v": 2, "vn": 2, "nv": 1}[flag]
-        return stem, form, min(strength, 1) if noun else strength
-
-    def _known_verb(self, word: str) -> bool:
-        return word in self._own_verbs or word in _wordnet_verbs()[0]
+        return stem, form, 1 if noun or listed.get(stem) == "nv" else 2
 
     def particle(self, stem: str, particle: str) -> bool | None:
-        """Tell whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
+        """Return whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
         return self._phrasal.get(f"{stem}_{particle}")
 
     @lru_cache(maxsize=1 << 14)  # noqa: B019 - there are few lexicons, and they stay
     def is_noun(self, word: str) -> bool:
-        """Tell whether the own lists or the domain know a noun, in any number."""
+        """Return whether the own lists or the domain know a noun, in any number."""
         return word in self._own_nouns or singular(word) in self._own_nouns
 
     def knows(self, word: str) -> bool:
-        """Tell whether a word is in any list, WordNet's included."""
+        """Return whether a word is in any list, WordNet's included."""
         return (
-            word in _closed_words()
-            or singular(word) in _closed_words()
+            not _closed_words().isdisjoint((word, singular(word), positive(word)))
+            or not _english().isdisjoint((word, singular(word)))
             or self.is_noun(word)
             or self.verb(word) is not None
-            or word in _english()
-            or positive(word) in _closed_words()
             or not section("drop_adjectives").isdisjoint(comparative_root(word))
             or self._is_doer(word)
-            or singular(word) in _english()
         )
 
     def _is_doer(self, word: str) -> bool:
-        """Tell whether a word is made of a known one with -er."""
+        """Return whether a word is made of a known one with -er."""
         return word.endswith("er") and word[:-2] in self._own_nouns | self._own_verbs
 
     @lru_cache(maxsize=1 << 14)  # noqa: B019 - there are few lexicons, and they stay
     def correct(self, word: str) -> str | None:
-        """Return the known word a typo stands for, or ``None``.
+        """Return the known word that a typo was meant to be, or ``None``.
 
         Only words that are in no list are corrected, and only to a word with the same first letter that is
         alike enough (:data:`_TYPO_RATIO`).
@@ -269,7 +262,8 @@ class Lexicon:
         group = self._by_initial.get(word[0], ())
         if self.knows(word):
             return self._doer_slip(word, group)
-        swaps = _swaps(word)
+        # each pair of neighbouring letters changed, but for the first
+        swaps = {word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(1, len(word) - 1)}
         if swapped := swaps.intersection(group):
             return min(swapped)
         if word.endswith("s") and not word.endswith("ss") and (stem := self.correct(word[:-1])):
@@ -292,7 +286,7 @@ class Lexicon:
         return begun[0] if len(begun) == 1 else next(iter(near), None)
 
     def _doer_slip(self, word: str, group: tuple[str, ...]) -> str | None:
-        """Return the noun that a word stands for which is known only since it ends in -er: "wraper" is a wrapper."""
+        """Return the noun meant by a word that is known only by its ending -er: "wraper" is a wrapper."""
         if not self._is_doer(word) or self.is_noun(word) or word in _english():
             return None
         nouns = sorted(self._own_nouns.intersection(group))
@@ -307,11 +301,6 @@ class Lexicon:
             if "_" not in word and len(word) >= TYPO_LENGTH:
                 table.setdefault(word[0], []).append(word)
         return {initial: tuple(group) for initial, group in table.items()}
-
-
-def _swaps(word: str) -> set[str]:
-    """Return a word with each pair of neighbouring letters changed, but for the first."""
-    return {word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(1, len(word) - 1)}
 
 
 @cache
@@ -350,6 +339,11 @@ def section(name: str) -> frozenset[str]:
     return frozenset(sections()[name])
 
 
+def first_of(name: str) -> str:
+    """Return the first word of a section of ``data/words.txt``, which represents the others."""
+    return sections()[name][0]
+
+
 def sections_of(word: str) -> frozenset[str]:
     """Return the names of the sections of ``data/words.txt`` that have a word."""
     return _by_word().get(word, frozenset())
@@ -370,45 +364,39 @@ def pairs(name: str) -> Mapping[str, str]:
     return dict(entry.split("=") for entry in sections()[name])
 
 
-def slips() -> Mapping[str, str]:
-    """Return the slips that no likeness finds, with the words they stand for."""
-    return pairs("slips")
-
-
 _VOWELS = "aeiou"
+# Endings of word forms, each with the ending of the word that they are made of; of plurals and superlatives the first
+# row that fits counts.
+_PLURALS = (
+    (r"(.*(?:kn|w)i)ves", r"\1fe"), (r"(.*(?:shel|scar|loa|wol|thie))ves", r"\1f"), (r"(.{2,})ies", r"\1y"),
+    (r"(.*(?:ss|sh|ch|x|zz))es", r"\1"), (r"(.*)s", r"\1"),
+)  # fmt: skip
+_SUPERLATIVES = ((r"(.{2,})iest", r"\1y"), (r"(.+([^ls]))\2est", r"\1"), (r"(.{3,})est", r"\1"))
+_VERB_FORMS = (
+    (r"(.{2,})ie(s)", r"\1y"), (r"(.*)e(s)", r"\1"), (r"(.*[^s])(s)", r"\1"), (r"(.+)i(ed)", r"\1y"),
+    (r"(.*([^aeiouls]))\2(ing|ed)", r"\1"), (r"(.{2,})(ing|ed)", r"\1e"), (r"(.{2,})(ing|ed)", r"\1"),
+    (r"(.*(.))\2(ing|ed)", r"\1"),
+)  # fmt: skip
+
+
+def _respelled(word: str, rows: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str]]:
+    """Yield a word with another ending for each row that fits, and the last part of the old ending."""
+    matches = ((re.fullmatch(form, word), ending) for form, ending in rows)
+    return ((match.expand(ending), match[match.re.groups]) for match, ending in matches if match)
 
 
 @lru_cache(maxsize=1 << 14)
 def singular(noun: str) -> str:
     """Return the singular of the last part of a noun: ``raspberry_syrups`` gives ``raspberry_syrup``."""
     front, joint, head = noun.rpartition("_")
-    return front + joint + _singular(head)
-
-
-def _singular(word: str) -> str:
-    if word in pairs("irregular_plurals"):
-        return pairs("irregular_plurals")[word]
-    if word.endswith(("shelves", "knives", "wives", "scarves", "loaves", "wolves", "thieves")):
-        return word[:-4] + "ife" if word.endswith("ives") else word[:-3] + "f"
-    if word in section("invariant") or len(word) < 3 or not word.endswith("s") or word.endswith(("ss", "us", "is")):
-        return word
-    if word.endswith("ies") and len(word) > 4:
-        return word[:-3] + "y"
-    if word.endswith(("sses", "shes", "ches", "xes", "zzes")):
-        return word[:-2]
-    return word[:-1]
+    unchanged = head in section("invariant") or len(head) < 3 or head.endswith(("ss", "us", "is"))
+    regular = head if unchanged else next(_respelled(head, _PLURALS), (head,))[0]
+    return front + joint + pairs("irregular_plurals").get(head, regular)
 
 
 def positive(word: str) -> str:
     """Return the adjective of a superlative: ``biggest`` gives ``big``; other words stay."""
-    if not word.endswith("est") or len(word) < 6:
-        return word
-    root = word[:-3]
-    if root.endswith("i"):
-        return root[:-1] + "y"
-    if root[-1] == root[-2]:
-        return root[:-1] if root[-1] not in "ls" else root
-    return root
+    return next(_respelled(word, _SUPERLATIVES), (word,))[0]
 
 
 def comparative_root(word: str) -> tuple[str, ...]:
@@ -423,23 +411,7 @@ def comparative_root(word: str) -> tuple[str, ...]:
 def verb_candidates(word: str) -> Iterator[tuple[str, str]]:
     """Yield (stem, form) guesses for a regular verb form, best first."""
     yield word, "base"
-    if word.endswith("ies") and len(word) > 4:
-        yield word[:-3] + "y", "s"
-    if word.endswith("es"):
-        yield word[:-2], "s"
-    if word.endswith("s") and not word.endswith("ss"):
-        yield word[:-1], "s"
-    for ending, form in (("ing", "ing"), ("ed", "ed")):
-        if word.endswith(ending) and len(word) > len(ending) + 1:
-            root = word[: -len(ending)]
-            if form == "ed" and root.endswith("i"):
-                yield root[:-1] + "y", form
-            if root[-1] == root[-2] and root[-1] not in _VOWELS + "ls":
-                yield root[:-1], form
-            yield root + "e", form
-            yield root, form
-            if root[-1] == root[-2]:
-                yield root[:-1], form
+    yield from _respelled(word, _VERB_FORMS)
 
 
 def verb_stem(word: str, known: Callable[[str], bool], irregular: dict[str, str]) -> tuple[str, str] | None:
@@ -449,14 +421,11 @@ def verb_stem(word: str, known: Callable[[str], bool], irregular: dict[str, str]
     if word in irregular:
         return irregular[word], "ing" if word.endswith("ing") else "ed"
     for stem, form in verb_candidates(word):
-        # "bathing" is of "bathe", "heating" of "heat": the bare root wins where both are verbs
-        if form in ("ed", "ing") and stem.endswith("e") and known(stem[:-1]) and not _wants_e(stem[:-1]):
-            return stem[:-1], form
+        # "bathing" is of "bathe", "heating" of "heat": the bare root wins where both are verbs, unless it is short and
+        # ends in a consonant ("us")
+        root = stem[:-1]
+        if form in ("ed", "ing") and stem.endswith("e") and known(root) and (len(root) > 3 or root[-1] in _VOWELS):
+            return root, form
         if known(stem):
             return stem, form
     return None
-
-
-def _wants_e(root: str) -> bool:
-    """Tell whether a root with one vowel and one consonant at the end needs its e ("plac", "us")."""
-    return len(root) < 4 and root[-1] not in _VOWELS

@@ -1,10 +1,9 @@
 """Things of an environment that a noun may name, with the kind of evidence for each.
 
 The order of evidence is fixed: the thing's own name, an alias of the domain, a synonym in WordNet, similarity in
-WordNet, nothing. A weaker kind
-is only asked where all stronger ones are silent; but where a name agrees only in part, an alias of the whole noun goes
-before it. Similarity is that of Wu and Palmer (1994) among WordNet's artifacts, food and substances, loaded when a noun
-has to be compared (``experiments.language.rebuild`` writes the file).
+WordNet, nothing. A weaker kind is only asked where all stronger ones are silent; but where a name agrees only in part,
+an alias of the whole noun goes before it. Similarity is that of Wu and Palmer (1994) among WordNet's artifacts, food
+and substances, loaded when a noun has to be compared (``experiments.language.rebuild`` writes the file).
 """
 
 from __future__ import annotations
@@ -234,18 +233,14 @@ def _by_synonym(noun: _Noun, candidates: Sequence[NounMatch]) -> list[Match]:
 
 def _by_wordnet(noun: _Noun, candidates: Sequence[NounMatch], threshold: float) -> list[Match]:
     whole = "_".join(noun.words)
-    word = whole if _in_wordnet(whole) else noun.head
+    word = whole if _senses(whole) else noun.head
     found = []
     for candidate in candidates:
-        score = max((_similar(word, words) for words in _vocabulary(candidate)), default=0.0)
+        names = (("_".join(words), words[-1]) for words in _vocabulary(candidate))
+        score = max((similarity(word, name if _senses(name) else head) for name, head in names), default=0.0)
         if score >= threshold:
             found.append(Match(candidate.name, round(score, 4), WORDNET))
     return found
-
-
-def _similar(word: str, words: tuple[str, ...]) -> float:
-    whole = "_".join(words)
-    return similarity(word, whole if _in_wordnet(whole) else words[-1])
 
 
 _SENSES = 4
@@ -275,11 +270,6 @@ def _taxonomy() -> _Taxonomy:
     return found
 
 
-def _in_wordnet(noun: str) -> bool:
-    """Tell whether WordNet's subset has a noun."""
-    return bool(_senses(noun))
-
-
 @cache
 def _senses(noun: str) -> list[int]:
     """Return the synsets of a noun, rare senses left out."""
@@ -292,11 +282,7 @@ def _senses(noun: str) -> list[int]:
 def same(first: str, second: str) -> bool:
     """Return whether two nouns are synonyms: in a usual sense of both in WordNet, or by ``same_things``."""
     joined = pairs("same_things").get(first) == second
-    return joined or not _usual_senses(first).isdisjoint(_usual_senses(second))
-
-
-def _usual_senses(noun: str) -> frozenset[int]:
-    return frozenset(_senses(noun)[:_USUAL])
+    return joined or not {*_senses(first)[:_USUAL]}.isdisjoint(_senses(second)[:_USUAL])
 
 
 @cache
@@ -306,11 +292,8 @@ def similarity(first: str, second: str) -> float:
     ``2 d(lcs) / (d(lcs) + l1 + d(lcs) + l2)`` with the depth ``d`` of the lowest common hypernym and the
     lengths ``l`` of the paths up to it.
     """
-    depth, pairs = (
-        _taxonomy().depth,
-        [(_above(one), _above(other)) for one in _senses(first) for other in _senses(second)],
-    )
-    ways = ((depth[node], up + other[node]) for one, other in pairs for node, up in one.items() if node in other)
+    depth, above = _taxonomy().depth, [(_above(a), _above(b)) for a in _senses(first) for b in _senses(second)]
+    ways = ((depth[node], up + other[node]) for one, other in above for node, up in one.items() if node in other)
     return max((2 * deep / (2 * deep + steps) for deep, steps in ways), default=0.0)
 
 

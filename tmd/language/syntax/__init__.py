@@ -2,6 +2,6 @@
 
 Words and their classes: :mod:`~tmd.language.syntax.tokens`, :mod:`~tmd.language.syntax.tagger` with
 :mod:`~tmd.language.syntax.rows`. Turns of phrase: :mod:`~tmd.language.syntax.phrases`. Terminals of the grammar:
-:mod:`~tmd.language.syntax.joins`, :mod:`~tmd.language.syntax.brackets`, :mod:`~tmd.language.syntax.links`. Clauses:
+:mod:`~tmd.language.syntax.joins`, :mod:`~tmd.language.syntax.brackets`, :mod:`~tmd.language.syntax.grammar`. Clauses:
 :mod:`~tmd.language.syntax.reading`, :mod:`~tmd.language.syntax.antecedents`.
 """

@@ -8,10 +8,11 @@ clauses. The reader that knows the environment picks from the list.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
-from tmd.language.clause import BE, PERSONS, TO, Clause, Condition, Relation
-from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.clause import BE, PERSONS, TO, Clause, Condition, Mood, Relation
+from tmd.language.lexicon.lexicon import pairs, section, sections_of
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
 from tmd.language.syntax.reading import TextReading
@@ -22,9 +23,8 @@ _AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
 """Penalties of a mention: per clause of age, under "of", behind a preposition, in a coordination."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Mention:
-    """A thing that was spoken of, how far it stands from the verb, and how it was told apart."""
+class _Mention(NamedTuple):
+    """A thing that was mentioned, its distance from the verb, and its distinguishing words."""
 
     name: str
     plural: bool
@@ -34,32 +34,22 @@ class _Mention:
     """The preposition before it."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Scene:
+class _Scene(NamedTuple):
     """The mentions of one clause, for later ones; ``together`` are its direct objects."""
 
     mentions: tuple[_Mention, ...]
     together: tuple[str, ...]
 
 
-def is_singular(name: str) -> bool:
-    """Tell whether a pronoun stands for one thing."""
-    return name in section("singular_pronouns")
-
-
-def is_plural(name: str) -> bool:
-    """Tell whether a pronoun stands for several things."""
-    return name in section("plural_pronouns")
-
-
 def is_one(name: str) -> bool:
-    """Tell whether a language-object is *one*, or *red_one*: one of what was spoken of."""
+    """Return whether a language-object is *one*, or *red_one*: one of the things mentioned."""
     return name.rpartition("_")[2] in section("one_words")
 
 
 def is_pronoun(name: str) -> bool:
-    """Tell whether a language-object stands for something said before."""
-    return is_singular(name) or is_plural(name) or name in section("open_pronouns") or is_one(name)
+    """Return whether a language-object refers to something mentioned before."""
+    pronouns = ("singular_pronouns", "plural_pronouns", "open_pronouns")
+    return not sections_of(name).isdisjoint(pronouns) or is_one(name)
 
 
 def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...]]:
@@ -76,7 +66,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
             said = statements.pop(0)[1]
             fact = said.clause(reading.text)
             scenes.append(_scene(said, fact))
-            facts |= _new(said, fact, clauses, reading)
+            facts |= _new(fact, clauses)
         clause = draft.clause(reading.text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
@@ -102,25 +92,24 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
         if is_one(pronoun):
             ranked, count = _one(pronoun, ranked, clause, draft, before), 1
             ranked = _in_order(pronoun, scenes) or ranked
-        elif is_singular(pronoun) and not before.isdisjoint(section("insides")):
+        elif pronoun in section("singular_pronouns") and not before.isdisjoint(section("insides")):
             ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
         if ranked:
             antecedents[pronoun], together[pronoun] = ranked, count
     return replace(clause, antecedents=antecedents, together=together)
 
 
-def _new(said: ClauseDraft, fact: Clause, before: Sequence[Clause], reading: TextReading) -> dict[str, Clause]:
-    """Return a statement by the nouns that it speaks of first; a prohibition states nothing."""
+def _new(fact: Clause, before: Sequence[Clause]) -> dict[str, Clause]:
+    """Return a statement by the nouns that it mentions first; a prohibition states nothing."""
     known = {name for clause in before for name in _named(clause)}
-    if fact.verb != BE or any(said is draft for _, draft in reading.forbidden):
-        return {}
-    return {name: fact for name in fact.direct if name not in known}
+    stated = fact.verb == BE and fact.mood is not Mood.AVOID
+    return {name: fact for name in fact.direct if stated and name not in known}
 
 
 def _stated(clause: Clause, facts: dict[str, Clause]) -> tuple[Relation, ...]:
     """Return where statements say that the things of a clause are.
 
-    A statement tells which thing is meant when it is first spoken of again; the text binds it from then on.
+    A statement says which thing is meant when it is next mentioned; from then on, the text binds it.
     """
     found: list[Relation] = []
     for name in (*clause.objects, ""):
@@ -137,7 +126,7 @@ def _place(pronoun: str, draft: ClauseDraft) -> int:
 
 
 def _vessels(pronoun: str, clause: Clause, draft: ClauseDraft) -> list[str]:
-    """Return what the clause itself spoke of as a vessel: "coffee in a mug, and some ice cream in it"."""
+    """Return what the clause itself mentions as a vessel: "coffee in a mug, and some ice cream in it"."""
     vessels = {r.target for r in clause.relations if r.relation in section("insides")}
     place = _place(pronoun, draft)
     return [p.name for p in draft.mentions() if p.place < place and p.name in vessels and not p.pronoun]
@@ -150,10 +139,10 @@ def _told(phrase: Phrase) -> bool:
 def _one(
     pronoun: str, ranked: tuple[str, ...], clause: Clause, draft: ClauseDraft, before: Collection[str]
 ) -> tuple[str, ...]:
-    """Rank what *one* may be one of: what the clause itself spoke of before comes first.
+    """Rank what *one* may be one of: what the clause itself mentions before comes first.
 
-    Of that, what stands behind the same preposition ("the chips in one bowl and the nuts in the other"), then what was
-    told apart; before all, the place that a thing is moved from where *one* is the place that it goes to.
+    Of that, what stands behind the same preposition ("the chips in one bowl and the nuts in the other"), then what
+    is distinguished; before all, the place that a thing is moved from where *one* is the place that it goes to.
     """
     own = _own(pronoun, clause, draft, before, apart=bool(before and ranked))
     goes = not section("arrivals").isdisjoint(before)
@@ -164,14 +153,14 @@ def _one(
 
 
 def _in_order(pronoun: str, scenes: Sequence[_Scene]) -> tuple[str, ...]:
-    """Return what *the former* or *the second* means of several things that were spoken of together."""
+    """Return what *the former* or *the second* means of several things mentioned together."""
     place = pairs("places_in_order").get(pronoun.partition("_")[0])
     group = _group(list(scenes[-_REACH:][::-1]), set()) if place is not None else ()
     return (group[int(place)],) if place is not None and 1 < len(group) > int(place) else ()
 
 
 def _own(pronoun: str, clause: Clause, draft: ClauseDraft, before: Collection[str], *, apart: bool) -> list[str]:
-    """Return what a clause spoke of before *one*, likeliest first; where ``apart``, only what was told apart."""
+    """Return what a clause mentions before *one*, likeliest first; where ``apart``, only what is distinguished."""
     alike = {r.target for r in clause.relations if r.relation in before}
     own = [p for p in draft.mentions() if p.place < _place(pronoun, draft) and not p.pronoun]
     own = [p for p in own if not apart or p.name in alike or _told(p)]
@@ -179,7 +168,7 @@ def _own(pronoun: str, clause: Clause, draft: ClauseDraft, before: Collection[st
 
 
 def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
-    """Return a clause that stands by itself with its pronouns' antecedents among the clauses before it."""
+    """Return a separate clause with its pronouns' antecedents among the clauses before it."""
     names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
     places = [name for name in clause.objects if is_pronoun(name)]
     telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
@@ -191,7 +180,7 @@ def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
 
 
 def _named(clause: Clause) -> list[str]:
-    """Return what a clause speaks of by name, what it acts on first."""
+    """Return the names in a clause, first those that it acts on."""
     names = [n for name in (*clause.direct, *clause.objects) for n in clause.meant(name)]
     return [name for name in dict.fromkeys(names) if name and not is_pronoun(name) and name not in section("pronouns")]
 
@@ -219,9 +208,10 @@ def _condition(condition: Condition, draft: ClauseDraft, scenes: list[_Scene]) -
 
 def _agreeing(pronoun: str, names: tuple[str, ...], many: Collection[str]) -> tuple[str, ...]:
     """Return the names with those first that agree with a pronoun in number."""
-    if not (is_singular(pronoun) or is_plural(pronoun)):
+    plural = pronoun in section("plural_pronouns")
+    if not (plural or pronoun in section("singular_pronouns")):
         return names
-    return tuple(sorted(names, key=lambda name: (name in many) != is_plural(pronoun)))
+    return tuple(sorted(names, key=lambda name: (name in many) != plural))
 
 
 def _alone(clause: Clause) -> _Scene:
@@ -243,7 +233,7 @@ def _rank(
     own = {p.name for p in draft.mentions()}
     scored = _scored(recent, own, draft)
     group: tuple[str, ...] = ()
-    if is_plural(pronoun):
+    if pronoun in section("plural_pronouns"):
         group = _group(recent, own)
     elif pronoun == "" and recent:
         group = tuple(name for name in recent[0].together if name not in own)
@@ -258,12 +248,12 @@ def _fitting(
     """Return the candidates with those first, or those only, that fit the pronoun."""
     mentions = [m for scene in recent for m in scene.mentions]
     plural = {m.name for m in mentions if m.plural}
-    if is_one(pronoun):  # "the book and the empty can … the full one": what was told apart, or one of many
+    if is_one(pronoun):  # "the book and the empty can … the full one": a distinguished thing, or one of many
         telling = plural | {m.name for m in mentions if m.described}
         alike = {m.name for m in mentions if m.behind and m.behind in before}
         return sorted(scored, key=lambda pair: (pair[0] not in alike, pair[0] not in telling))
     single = [pair for pair in scored if pair[0] not in plural]
-    return single if is_singular(pronoun) and single else scored
+    return single if pronoun in section("singular_pronouns") and single else scored
 
 
 def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:
@@ -308,7 +298,7 @@ def _is_name(name: str) -> bool:
 
 def _acted_on(phrase: Phrase, clause: Clause, spread: int) -> list[_Mention]:
     """Return what a direct object mentions, farther where it is one of several."""
-    many = phrase.plural or is_plural(phrase.name)
+    many = phrase.plural or phrase.name in section("plural_pronouns")
     own = [_Mention(name, many, spread, _told(phrase)) for name in _meant(phrase, clause)]
     return own + [_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase]
 

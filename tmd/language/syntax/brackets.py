@@ -1,6 +1,7 @@
 """Bracket subordinate clauses, statements, demands and prohibitions: from their opener to the mark of their end.
 
-The grammar (``clauses.lark``) cannot look ahead; where a clause ends is decided here, from the classes of the words.
+The grammar (``clauses.lark``) cannot look ahead. The classes of the words decide where a clause begins, and where it
+ends (:mod:`~tmd.language.syntax.ends`).
 What asks for nothing (questions, what is taken back, what need not be done) is set aside with its reason.
 """
 
@@ -10,9 +11,9 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon, pairs, section
-from tmd.language.syntax.joins import first_of
-from tmd.language.syntax.tokens import BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, Words, mark
+from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
+from tmd.language.syntax.ends import ClauseEnds
+from tmd.language.syntax.tokens import ADDRESS, BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, mark, noted
 
 K = Kind
 ALSO = "also"
@@ -22,15 +23,16 @@ RELATIVE = "relative"
 ALONE = "alone"
 """The form of a verb that shares no object with the next one."""
 DUTY = "duty"
-"""The form of the opener of a statement that says what shall be."""
+"""The form of the opener of a statement that demands a state."""
 STATEMENT = "a statement, not an instruction"
 UNNEEDED = "says what need not be done"
 REMINDER = "names a thing, and not what to do with it"
-ADDRESS = "addresses somebody"
 ASIDE = "an aside in brackets"
 QUESTION = "a question, not an instruction"
 REASON = "says what the rest is for"
 CORRECTED = "taken back by what was said next"
+_GAP = "(LINKS|IDLE)*"
+"""The pattern of words between a sign of a correction and the correction."""
 _DEPTH = 3
 """Maximum nesting depth of subordinate clauses."""
 _NEAR = 15
@@ -40,7 +42,7 @@ Handler = Callable[[int], int]
 """Reads what begins at a place; returns where reading goes on."""
 
 
-class Bracketer(Words):
+class Bracketer(ClauseEnds):
     """One pass over the joined words of a text.
 
     Attributes:
@@ -59,9 +61,9 @@ class Bracketer(Words):
         self._subject = 0
         """Where in ``out`` the arguments begin that may be the subject of a statement."""
         self._told = False
-        """The clause that is open has somebody as its subject who is not asked."""
+        """The subject of the open clause is a person other than the addressee."""
         self._somebody = False
-        """The clause that is open has a person as its subject."""
+        """The subject of the open clause is a person."""
         self._units: list[tuple[int, bool]] = [(0, False)]
         """Where in ``out`` the clauses of the sentence begin, and whether somebody is the subject of the one before."""
         self._asked = False
@@ -80,8 +82,8 @@ class Bracketer(Words):
         }  # fmt: skip
         self._inner: dict[Kind, Handler] = shared | {
             K.STOP: self._drop, K.TO: self._inner_to, K.NEG: self._inner_negation, K.ENSURE: self._drop,
-            K.LET: self._inner_let, K.SUBJECT: self._inner_subject, K.AUX: self._inner_auxiliary,
-            K.DET: self._inner_determiner, K.N: self._inner_noun, K.V: self._inner_verb,
+            K.LET: self._inner_other, K.SUBJECT: self._inner_other, K.AUX: self._inner_negation,
+            K.DET: self._inner_negation, K.N: self._inner_noun, K.V: self._inner_verb,
             K.COMMA: self._inner_joint, K.CC: self._inner_joint,
         }  # fmt: skip
 
@@ -89,7 +91,7 @@ class Bracketer(Words):
         """Return the words with brackets."""
         at = 0
         while at < len(self.tokens):
-            if self.among(at, "corrections") and self.out and self.kind(self._behind(at)) is not K.NEG:
+            if self.among(at, "corrections") and self.out and self.kind(self.peek(at, _GAP)) is not K.NEG:
                 at = self._corrected(at)
             elif self._is_inverted(at):
                 self.tokens[at].text = first_of("guards")
@@ -134,7 +136,7 @@ class Bracketer(Words):
         return end
 
     def _part_subject(self) -> None:
-        """Begin a unit behind what stands before the subject and is no part of it: "radio off, the baby is asleep"."""
+        """Begin a unit behind what precedes the subject without belonging to it: "radio off, the baby is asleep"."""
         named = self.out[self._subject :]
         comma = max((i for i, t in enumerate(named) if t.kind is K.COMMA), default=0)
         before, subject = named[:comma], {t.kind for t in named[comma + 1 :]}
@@ -163,11 +165,11 @@ class Bracketer(Words):
         return self.out[-1].kind if self.out else K.SEP
 
     def _named(self) -> bool:
-        """Tell whether something has been named that may be a subject."""
+        """Return whether something has been named that may be a subject."""
         return any(t.kind in HEADS for t in self.out[self._subject :])
 
     def _hosts_result(self) -> bool:
-        """Tell whether what stands behind an object may be the state that it shall be in."""
+        """Return whether what stands behind an object may be the state that it should be in."""
         if self._verb is None or self._verb.stem.partition("_")[0] in section("result_verbs"):
             return True
         # "bring the blind down and the curtain up"
@@ -179,81 +181,6 @@ class Bracketer(Words):
 
     def _drop(self, at: int) -> int:
         return at + 1
-
-    # where clauses end
-
-    def _statement_end(self, at: int) -> int:
-        """Return where a statement ends whose finite verb stands at ``at``."""
-        end = self.peek(at, "(IDLE|AUX|SUBJECT|NEG|TO|INF)*")
-        end += self.kind(end) is K.V
-        while self.kind(end) is not K.STOP:
-            deed = self.kind(end) is K.V and self.kind(end - 1) not in (K.TO, K.AUX, K.NEG)
-            # "such a draught that I'll catch a cold", "they are getting warm"
-            deed = deed and not (self.among(end - 1, "self_forms") or self.stem_among(end - 1, "becoming"))
-            joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
-            also = self.kind(end) is K.COMMA and self._statement_follows(end)
-            also = also or (self.kind(end) in LINKS and self._is_reason(end + 1))
-            then = self.among(end, "then_words") and self.kind(end) in LINKS
-            if deed or joint or also or then or self.follows(end, "SUB|ENSURE|PURP"):
-                break
-            end += 1
-        return end
-
-    def _statement_follows(self, at: int) -> bool:
-        """Tell whether a subject with its finite verb stands behind a comma or a conjunction."""
-        return self.follows(at + 1, "(NP|OF|IDLE|CC|EXC)* (HEAD|NUM) (NP|OF|IDLE|CC|EXC)* (AUX|FINITE)")
-
-    def _clause_end(self, at: int) -> int:
-        """Return where the subordinate clause that opens at ``at`` ends."""
-        finite, end = False, at + 1
-        while not (self.follows(end, "STOP|COMMA|ENSURE|LET") or self.among(end, "then_words")):
-            deed = self.kind(end) is K.V and end > at + 1
-            free = self.kind(end - 1) not in (K.AUX, K.TO, K.NEG) and (finite or self.kind(end - 1) is not K.SUBJECT)
-            if (deed and free) or self.follows(end, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)"):
-                break
-            if finite and self.follows(end, "SUB|PURP|SUBJECT IDLE* AUX"):
-                break
-            if self.among(end, "by_words") and self.kind(end + 1) is K.ING:
-                break
-            finite = finite or deed or self.follows(end, "FINITE|AUX|ING|PARTICIPLE|ADJ")
-            end += 1
-        return end
-
-    def _relative_end(self, at: int) -> int:
-        """End a relative clause where the main clause goes on: "the chair that stands there to the desk"."""
-        verb = said = False
-        for place in range(at + 1, self._clause_end(at)):
-            if verb and (self.kind(place) is K.CC or (said and self.follows(place, "FINITE|AUX"))):
-                return place  # "everything that is empty | goes in the bin"
-            if self.follows(place, "INF AUX") or self._goes_on(at, place, verb=verb, said=said):
-                return place
-            said = said or (verb and (self.follows(place, "HEAD|ADJ") or self.among(place, "there_words")))
-            verb = verb or self.follows(place, "FINITE|AUX|PARTICIPLE")
-        return self._clause_end(at)
-
-    def _goes_on(self, at: int, place: int, *, verb: bool, said: bool) -> bool:
-        """Tell whether a preposition belongs to the main clause again."""
-        if not self.follows(place, "P|TO|EXC"):
-            return False
-        state = self.kind(place - 1) is K.ADJ  # "the bottles that are empty | in the bag"
-        inner = self.follows(place - 2, "P PRON")  # "the cup that has water in it | in the sink"
-        owns = said and self.among(at + 1, "having") and self.kind(place + 1) is not K.PRON
-        away = said and self.among(place, "arrivals", "origins") and not self.among(place, "static")
-        return self.kind(place) is K.EXC or owns or (verb and (state or inner or away))
-
-    def _negation_end(self, at: int) -> int:
-        """Return where a prohibition ends of which the deed, or the thing, stands at ``at``."""
-        deed, end = self.kind(at) in (K.V, K.LET, K.ING), at
-        while self.kind(end) is not K.STOP:
-            contrast = self.among(end, "contrasts") or self.kind(end) is K.COMMA
-            if contrast and self.follows(end + 1, "IDLE* (V|SUBJECT|SUB|NP|P|TO|INF)"):
-                break
-            tells = self.kind(end) is K.SUBJECT and self.among(end, "tellers") and end > at
-            run_on = tells or (self.follows(end - 1, "(HEAD|STATE) V") and self.tokens[end].strength == 3)
-            if run_on or (not deed and self.follows(end, "INF|SUB|PURP|V")):
-                break  # "the saw, not the axe, to cut it"
-            end += 1
-        return end
 
     # subordinate clauses
 
@@ -351,22 +278,12 @@ class Bracketer(Words):
         end = self._negation_end(deed)
         if self._unneeded(at, deed):
             return self._skip(at, end, UNNEEDED)
-        if self.kind(deed) is K.ING:
-            self.tokens[deed].kind = K.V
         return self._bracket(token, K.NEG, deed, end)
-
-    def _unneeded(self, at: int, deed: int) -> bool:
-        """Tell whether a negation says that a deed need not be done: "no need to wash it", "don't bother"."""
-        if self.stem_among(deed, "caring"):
-            return True  # "I don't care if it is old"
-        helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
-        idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
-        return self.among(at, "needless") or helped or idle
 
     # statements
 
     def _speaker(self, at: int) -> int:
-        """Bracket what speakers say of themselves or notice; other subjects are dropped."""
+        """Bracket what speakers report about themselves or notice; drop other subjects."""
         verb = self.past(at + 1, "(IDLE|AUX)*")
         if (wish := self._denied_wish(at)) is not None:
             opener = self.tokens[self.peek(at)]
@@ -387,19 +304,15 @@ class Bracketer(Words):
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
 
     def _begin_telling(self, at: int, *, own: bool) -> bool:
-        """Begin a unit where somebody is the subject; tell whether it is somebody who is not asked."""
+        """Begin a unit where somebody is the subject; return whether it is somebody other than the addressee."""
         tells = self.tokens[at].text.partition("'")[0] in section("tellers")
         if self._last() in LINKS and ((own and self._verb is not None) or (tells and self._named())):
             self.out[-1].kind = K.SEP
             self._begin()
         return tells and self.kind(at - 1) is not K.AUX
 
-    def _is(self, at: int, verb: int) -> bool:
-        """Tell whether a form of *be* stands between a subject and what is said of it."""
-        return any(self.kind(i) is K.AUX and self.among(i, "be") for i in range(at + 1, verb))
-
     def _of_oneself(self, at: int, verb: int) -> bool:
-        """Tell whether a speaker says something of himself: "I'm thirsty", "I spilled it", "I'll get it later"."""
+        """Return whether speakers report about themselves: "I'm thirsty", "I spilled it", "I'll get it later"."""
         if self.among(at, "self_forms"):
             return True
         past = verb < len(self.tokens) and self.tokens[verb].form == "ed" and self.kind(verb) is not K.ADJ
@@ -408,14 +321,8 @@ class Bracketer(Words):
         liking = (self.stem_among(verb, "liking") or self._tells(verb)) and verb == self.peek(at)
         return self.among(at, "speakers") and (self._is(at, verb) or past or liking)
 
-    def _reports(self, at: int, verb: int, *, past: bool) -> bool:
-        """Tell whether a clause reports: "they left it open", "he never puts them away", "they are getting warm"."""
-        denied = self.follows(at + 1, "IDLE* NEG IDLE* (V|N)")
-        progressive = self.kind(verb) is K.ING and self._is(at, verb)
-        return denied or progressive or (past and verb == self.peek(at))
-
     def _tells(self, at: int) -> bool:
-        """Tell whether a verb is no instruction, in English or here: "I promise", "we prefer"."""
+        """Return whether a verb never is an instruction, in English or in this domain: "I promise", "we prefer"."""
         if self.kind(at) is not K.V or self.stem_among(at, "verbs", "wishing", "ordering", "lead_verbs", "framing"):
             return False
         return self.tokens[at].stem not in self.lexicon.goal_verbs
@@ -427,7 +334,7 @@ class Bracketer(Words):
         return wish if denied and self.stem_among(wish, "wishing") and self._wishes_state(wish) else None
 
     def _wishes_state(self, at: int) -> bool:
-        """Tell whether a wish is for a state: "I want the fork put in the sink", "I'd like the window to be open"."""
+        """Return whether a wish is for a state: "I want the fork put in the sink", "I'd like the window to be open"."""
         to = self.first(at + 2, "INF|STOP|COMMA|V")
         if to < at + _NEAR and self.follows(to, "INF AUX") and self.kind(at + 1) is not K.PRON:
             return True
@@ -480,12 +387,9 @@ class Bracketer(Words):
     # what asks for nothing
 
     def _is_question(self, at: int) -> bool:
-        """Tell whether a question begins that asks for nothing: "Is the lamp on?"."""
+        """Return whether a question begins that asks for nothing: "Is the lamp on?"."""
         starts = (not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}) and self._last() in BREAKS
-        if not (starts and self.among(at, "questions")) or self.kind(at + 1) is K.ING:
-            return False
-        end = self.first(at, "STOP")
-        return end < len(self.tokens) and "?" in self.tokens[end].text
+        return starts and self.among(at, "questions") and self.kind(at + 1) is not K.ING and self.asked(at)
 
     def _question(self, at: int) -> int:
         """Set a question aside; one that "if so" or "if not" follows is a condition of what is asked then."""
@@ -501,8 +405,8 @@ class Bracketer(Words):
         return so + 1
 
     def _corrected(self, at: int) -> int:
-        """Take back what a speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
-        begin = self._behind(at)
+        """Take back what the speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
+        begin = self.peek(at, _GAP)
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
         start = len(self.out) - (self._last() is K.SEP)
         while start and (self.out[start - 1].kind in LINKS or self.out[start - 1].text in section("none_words")):
@@ -512,29 +416,20 @@ class Bracketer(Words):
             start -= 1
         while start and thing and self.out[start - 1].kind in NP:
             start -= 1
-        self.tokens[at].note = CORRECTED
-        self.dropped.append(self.tokens[at])
+        self.dropped += noted([self.tokens[at]], CORRECTED)
         self._take_back(max(start - place, 0), CORRECTED)
         return begin
 
-    def _behind(self, at: int) -> int:
-        """Return where what a speaker says better begins."""
-        return self.past(at + 1, "(LINKS|IDLE)*")
-
     def _is_inverted(self, at: int) -> bool:
-        """Tell whether a condition begins that has its verb first: "should the door be open, shut it"."""
+        """Return whether a condition begins that has its verb first: "should the door be open, shut it"."""
         if self.kind(at) is not K.AUX or not self.among(at, "inverting") or self._last() not in BREAKS:
             return False
-        stop = self.first(at, "STOP")
-        asked = stop < len(self.tokens) and "?" in self.tokens[stop].text
-        apart = any(self.kind(i) is K.COMMA for i in range(at, stop))
-        return apart and not asked and self.kind(at + 1) in NP
+        apart = self.kind(self.first(at, "STOP|COMMA")) is K.COMMA
+        return apart and not self.asked(at) and self.kind(at + 1) in NP
 
     def _take_back(self, start: int, note: str) -> None:
         """Set aside what has been emitted from a place on."""
-        for token in self.out[start:]:
-            token.note = note
-        self.dropped += self.out[start:]
+        self.dropped += noted(self.out[start:], note)
         del self.out[start:]
         if self._verb is not None and self._verb.note:
             self._begin()
@@ -571,7 +466,7 @@ class Bracketer(Words):
         return at + 1
 
     def _is_told(self, at: int) -> bool:
-        """Tell whether a verb says what somebody does who is not asked: "they are starving", "my eyes get tired"."""
+        """Return whether the subject of a verb is not the addressee: "they are starving", "my eyes get tired"."""
         token = self.tokens[at]
         past = token.first is not None and token.first[1] == "ed"  # "I tripped over it, nearly fell"
         wish = token.stem in section("wishing") | section("ordering") and token.form != "ing"
@@ -579,13 +474,6 @@ class Bracketer(Words):
         # but not "the boxes from the shelf put them in the bin"
         subject = named and not (self.lexicon.names_thing(self.out[-1].text) or self.follows(at + 1, "IDLE* PRON"))
         return (self._told and not wish) or past or subject or token.stem in section("talking")
-
-    def _causes(self, at: int) -> bool:
-        """Tell whether a verb only brings another one about: "make it play", "make close the door"."""
-        end = self.past(at + 1, "(NP|IDLE|OF)*")
-        if self.kind(end) is not K.V or self.tokens[end].form != "base" or self.tokens[end].strength < 3:
-            return False
-        return end == at + 1 or self.follows(end + 1, "IDLE* (BREAK|P|SUB)")
 
     def _comma(self, at: int) -> int:
         if self.follows(at, "COMMA IDLE+ COMMA (AUX|FINITE)"):
@@ -598,7 +486,7 @@ class Bracketer(Words):
 
     def _joint(self, at: int) -> int:
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
-        if (also := self._also(at)) != at:
+        if also := self._also(at):
             return also
         if self.among(at, "dashes") and self._verb is None and self._named():
             return self._stop(at)  # "the radio - off"
@@ -607,21 +495,14 @@ class Bracketer(Words):
         return self._stop(at) if (self._verb is not None or apart) and self._statement_follows(at) else self._keep(at)
 
     def _also(self, at: int) -> int:
-        """Mark "and so does the mug", "and the mug too"; return where reading goes on, ``at`` for any other joint."""
+        """Mark "and so does the mug", "and the mug too"; return where reading goes on, 0 for any other joint."""
         begin = at + 1 + (self.kind(at + 1) is K.CC)
         does = self.follows(begin, "(ADV|PURP) AUX NP")
         if not (does or self._too(begin)):
-            return at
+            return 0
         self.tokens[at].form = ALSO
         self.out.append(self.tokens[at])
         return begin + 2 * does
-
-    def _too(self, at: int) -> bool:
-        """Tell whether a noun phrase with "too" or "also" stands from a place on, and nothing else."""
-        begin = self.past(at, "IDLE*")
-        end = self.past(begin, "NP+")
-        ahead = any(self.among(i, "also_words") for i in range(at, begin)) and self.kind(end) in BREAKS
-        return end > begin and (ahead or (self.among(end, "also_words") and self.follows(end + 1, "IDLE* BREAK")))
 
     def _noun(self, at: int) -> int:
         """Keep a noun, but for a name that is called: "Dave, take"."""
@@ -650,7 +531,7 @@ class Bracketer(Words):
         return self._keep(at)
 
     def _leads(self, at: int) -> bool:
-        """Tell whether a noun that an adjective belongs to follows."""
+        """Return whether a noun that an adjective belongs to follows."""
         joint = "" if self._last() is K.AUX else "| LINKS (?=ADJ)"
         return self.follows(at + 1, f"(ADJ|IDLE|PARTICIPLE (?=N) {joint})* (N|NUM|ONE)")
 
@@ -661,11 +542,6 @@ class Bracketer(Words):
             return at + 1
         self.tokens[at].kind = K.STATE
         return self._keep(at)
-
-    def _is_reason(self, at: int) -> bool:
-        """Tell whether what stands before is the reason of what follows: "so", but not "so does the mug"."""
-        asks = self.among(at + 1, "frame_modals") and self.among(at + 2, "addressee", "tellers")
-        return self.among(at, "reasoning") and (asks or not self.follows(at + 1, "AUX NP"))
 
     def _reasoned(self) -> None:
         """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""
@@ -679,14 +555,12 @@ class Bracketer(Words):
             if not (told or stated):
                 break
             if not stated:
-                for token in unit:
-                    token.note = REASON
-                self.dropped += unit
+                self.dropped += noted(unit, REASON)
                 del self.out[start : end - 1]
                 self._subject -= len(unit)
 
     def _is_state(self, at: int) -> bool:
-        """Tell whether a particle or adverb says in what state something is or shall be."""
+        """Return whether a particle or adverb names the state that something is in or should be in."""
         ends = self.follows(at + 1, "IDLE* (BREAK|SUB|V|EXC|MOD|PURP|REL)")
         if self._open:
             return ends and self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE}
@@ -782,11 +656,9 @@ class Bracketer(Words):
         return self._bracket(self.tokens[at], K.NEG, at + 1, end)
 
     def _absolute_end(self, at: int) -> int:
-        """Return where "with the door shut" ends, which says how something shall be besides; 0 for other phrases."""
+        """Return where "with the door shut" ends, which adds a demanded state; 0 for other phrases."""
         place = at + 1
         while self.kind(place) in NP and (self.kind(place) is not K.ADJ or self._leads(place)):
-            if self.among(place, "end_states") and self.kind(place - 1) is K.N:
-                break
             place += 1
         state = self.among(place, "end_states") or self.kind(place) is K.ADJ
         return place + 1 if state and self.kind(place - 1) in HEADS and self.follows(place + 1, "BREAK") else 0
@@ -808,24 +680,19 @@ class Bracketer(Words):
         return at + 1
 
     def _inner_negation(self, at: int) -> int:
-        self._open[-1].negated = True
-        return at + 1
-
-    def _inner_determiner(self, at: int) -> int:
-        if self.among(at, "none_words") and self._open[-1].kind is K.SUB:
-            self._open[-1].negated = True
-        return self._keep(at)
-
-    def _inner_subject(self, at: int) -> int:
-        self.tokens[at].kind = K.PRON
-        return self._keep(at)
+        """Note a negation in the opener: "not", "isn't", and "no" in a condition; keep all but the first."""
+        kind, opener = self.kind(at), self._open[-1]
+        none = kind is K.DET and opener.kind is K.SUB and self.among(at, "none_words")
+        if kind is K.NEG or none or (kind is K.AUX and self.among(at, "not_forms")):
+            opener.negated = True
+        return at + 1 if kind is K.NEG else self._keep(at)
 
     def _inner_joint(self, at: int) -> int:
-        also = self._also(at)
-        return also if also != at else self._keep(at)
+        return self._also(at) or self._keep(at)
 
-    def _inner_let(self, at: int) -> int:
-        self.tokens[at].kind = K.V
+    def _inner_other(self, at: int) -> int:
+        """Keep the subject as a pronoun, and "let" as a verb."""
+        self.tokens[at].kind = K.PRON if self.kind(at) is K.SUBJECT else K.V
         return self._keep(at)
 
     def _inner_noun(self, at: int) -> int:
@@ -844,9 +711,4 @@ class Bracketer(Words):
         """Keep a verb, but for what is a state behind a denied form of *be*: "it is not open"."""
         if self._last() is K.AUX and self.out[-1].text in section("be") and self.kind(at - 1) is K.NEG:
             self.tokens[at].kind = K.STATE
-        return self._keep(at)
-
-    def _inner_auxiliary(self, at: int) -> int:
-        if self.among(at, "not_forms"):
-            self._open[-1].negated = True
         return self._keep(at)

@@ -21,14 +21,14 @@ from tmd.language.clause import (
     Quantifier,
     Relation,
     Span,
+    hull,
 )
-from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, RELATIVE
-from tmd.language.syntax.joins import SETTING, first_of
-from tmd.language.syntax.links import CHOICE
+from tmd.language.syntax.grammar import CHOICE, Leaf, Node, is_a, leaves, trees
+from tmd.language.syntax.joins import SETTING
 from tmd.language.syntax.noun_phrases import Phrase, also_of, named_in, phrases_of
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
-from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, trees
 
 _MULTIPLE = "; "
 
@@ -48,11 +48,10 @@ class ClauseDraft:
         conditions: What its conditions and purposes say.
         fronted: A condition stands in front of the verb.
         further: Noun phrases that stand in relative clauses.
-        result: The state that something shall be in.
+        result: The state that something should be in.
         mood: What is asked of it, if it says so itself.
-        written: Conditions and purposes as written, by kind.
         elliptic: Its verb was read off a state: "TV on".
-        host: The clause that it is said with, whose objects its pronouns may mean.
+        host: The clause that it belongs to, whose objects its pronouns may mean.
     """
 
     verb: Token
@@ -68,7 +67,6 @@ class ClauseDraft:
     result: str | None = None
     mood: Mood | None = None
     relative: bool = False
-    written: list[tuple[str, str]] = field(default_factory=list)
     elliptic: bool = False
     host: ClauseDraft | None = None
 
@@ -79,15 +77,14 @@ class ClauseDraft:
 
     def clause(self, text: str) -> Clause:
         """Return the clause without antecedents."""
-        span = Span(min(s.start for s in self.spans), max(s.end for s in self.spans))
-        mentions = self.mentions()
+        span, mentions = hull(self.spans), self.mentions()
         return Clause(
             verb=self.verb.stem,
             objects=tuple(dict.fromkeys([*(p.name for p in mentions), *self.further])),
             relations=tuple(dict.fromkeys(self.relations)),
             stated=tuple(r for r in dict.fromkeys(self.stated) if r.relation in section("static")),
             span=span,
-            text=text[span.start : span.end],
+            text=text[slice(*span)],
             quantities={p.name: p.quantity for p in mentions if p.quantity},
             direct=tuple(dict.fromkeys(p.name for p in self.direct)),
             phrases=self.further | {p.name: p.said() for p in mentions},
@@ -100,14 +97,10 @@ class ClauseDraft:
             setting=self._folded(text, "setting"),
             heading=self.verb.heading,
             told=self.verb.told,
-            condition=self._written("condition"),
+            condition=self._written(purpose=False),
             duration=self._folded(text, "duration"),
-            purpose=self._written("purpose"),
+            purpose=self._written(purpose=True),
         )
-
-    def places(self) -> list[Relation]:
-        """Return the relations that say where something shall be."""
-        return [r for r in self.relations if r.relation in section("static") | section("arrivals")]
 
     def add(self, phrases: Sequence[Phrase], places: Sequence[Span]) -> None:
         """Add what was named behind a state: "TV on, channel two"; "lights off, both" says how many."""
@@ -117,20 +110,16 @@ class ClauseDraft:
         self.direct += [p for p in phrases if p.name not in both]
         self.spans += places
 
-    def owns(self) -> bool:
-        """Tell whether it says what something has."""
-        return any(r.relation == WITH for r in self.relations)
-
     def take_places(self, other: ClauseDraft) -> None:
-        """Put what it acts on where another clause puts its things."""
+        """Give what it acts on the places that another clause gives its things."""
         self.landmarks += other.landmarks
         moved, named = {p.name for p in other.direct}, {p.name for p in other.landmarks}
         places = {r.relation: r.target for r in other.relations if r.source in moved and r.target in named}
         self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
 
-    def set_to(self) -> bool:
-        """Tell whether it says what a thing is set to."""
-        return any(token.form == SETTING for token in self.folds)
+    def settings(self) -> list[str]:
+        """Return its settings."""
+        return [token.text for token in self.folds if token.form == SETTING]
 
     def owning(self) -> str:
         """Return the relation of a noun to what it has or acts on, by what a relative clause says; empty for others."""
@@ -153,12 +142,8 @@ class ClauseDraft:
             for p, said in zip(self.direct, own, strict=True)
         ]
 
-    def described(self) -> list[str]:
-        """Return what it speaks of, and its verb."""
-        return [*(p.name for p in self.mentions()), self.verb.stem]
-
     def none(self) -> bool:
-        """Tell whether it speaks of none: *no cup*."""
+        """Return whether it is about none: *no cup*."""
         return any(p.said().quantifier is Quantifier.NONE for p in self.direct)
 
     def _mood(self) -> Mood:
@@ -172,7 +157,7 @@ class ClauseDraft:
         return Mood.KEEP if not placed or alone or (leaves_it and stays) else Mood.DO
 
     def _there(self, placed: list[Relation]) -> bool:
-        """Tell whether something is named, and its place is where it is: "leave the key in there"."""
+        """Return whether something is named, and its place is where it is: "leave the key in there"."""
         return all(r.target in section("pronouns") for r in placed) and not any(p.pronoun for p in self.direct)
 
     def _folded(self, text: str, form: str) -> str | None:
@@ -180,8 +165,9 @@ class ClauseDraft:
         # a word of a phrase row stands nowhere in the text
         return _MULTIPLE.join(" ".join(text[t.span.start : t.span.end].split()) or t.text for t in folds) or None
 
-    def _written(self, form: str) -> str | None:
-        return _MULTIPLE.join(words for kind, words in self.written if kind == form) or None
+    def _written(self, *, purpose: bool) -> str | None:
+        said = ((c.text, c.word == TO or c.word in section("reasons")) for c in self.conditions if not c.carried)
+        return _MULTIPLE.join(words for words, aimed in said if aimed == purpose) or None
 
 
 class Attachment:
@@ -213,15 +199,6 @@ class Attachment:
             if not self._gapped(node, rest):
                 self._argument(node, sum(is_a(n, "place") for n in rest))
 
-    def apart(self, nodes: Sequence[Node]) -> None:
-        """Attach nodes that are said of what the verb acts on: what stands before the verb, or behind a copula."""
-        self.host = []
-        self.add(nodes)
-
-    def finish(self) -> None:
-        """Relate what stands behind prepositions to the direct objects."""
-        self._flush(self.draft.direct)
-
     def _argument(self, node: Node, later: int) -> None:
         if not isinstance(node, Tree):
             return
@@ -231,7 +208,7 @@ class Attachment:
         elif node.data == "place" and groups:
             self._place(next(leaves(node)), groups[0], later)
         elif node.data == "place" and self.draft.verb.form == IMPLIED:
-            place = next(leaves(node))  # "both boxes in": in what was spoken of
+            place = next(leaves(node))  # "both boxes in": in what was mentioned
             self._relate(place.text, [], [Phrase(first_of("singular_pronouns"), place.span.start, False, True)])
         elif node.data == "exception" and groups:
             self._exception(phrases_of(groups[0]))
@@ -247,10 +224,8 @@ class Attachment:
             receiver = draft.direct.pop()
             draft.landmarks.append(receiver)
             draft.relations.extend(Relation(TO, p.name, receiver.name) for p in phrases)
-        lacking = [p for p in phrases if p.said().quantifier is Quantifier.NONE]
-        if lacking and len(lacking) < len(phrases):  # "a coffee, no sugar"
-            phrases = [p for p in phrases if p not in lacking]
-            self._relate(first_of("without_words"), phrases, [p.without_denial() for p in lacking])
+        wanted = [p for p in phrases if p.said().quantifier is not Quantifier.NONE]
+        phrases = self._without(wanted, phrases) if wanted else phrases  # "a coffee, no sugar"
         draft.direct.extend(phrases)
         self.host, self._behind = phrases, ""
         self._of(phrases)
@@ -261,7 +236,7 @@ class Attachment:
             self._of(phrase.of)
 
     def _exception(self, phrases: list[Phrase]) -> None:
-        """Take something out of what was said of all."""
+        """Take an exception out of a whole."""
         wholes = [p for p in self.draft.direct if p.said().quantifier is Quantifier.ALL]
         self._earlier = self.host, self._behind
         self._relate(EXCEPT, wholes or self.host or self.draft.direct, phrases)
@@ -297,7 +272,7 @@ class Attachment:
         return name, targets
 
     def _without(self, hosts: Sequence[Phrase], targets: list[Phrase]) -> list[Phrase]:
-        """Relate what shall not be there: "with sugar but no milk"; return the others."""
+        """Relate what must not be there: "with sugar but no milk"; return the others."""
         lacking = [p for p in targets if p.said().quantifier is Quantifier.NONE]
         if lacking:
             self._relate(first_of("without_words"), hosts, [p.without_denial() for p in lacking])
@@ -316,7 +291,7 @@ class Attachment:
         self._behind = name
 
     def _told_apart(self, phrase: Phrase) -> Phrase:
-        """Name "the other table" *one* where a table was spoken of in this clause."""
+        """Name "the other table" *one* where this clause has mentioned a table."""
         again = any(p.name == phrase.name for p in self.draft.mentions())
         if again and not section("other_words").isdisjoint(phrase.lead):
             return replace(phrase, name=first_of("one_words"), pronoun=True)
@@ -335,36 +310,36 @@ class Attachment:
         """Read "the cups on the table and the books on the shelf": the second pair stands by itself."""
         if not (is_a(node, "place") and rest and is_a(rest[0], "place") and self.draft.direct):
             return False
-        phrases = _targets(node)
+        phrases = named_in(node.children)
         if len(phrases) < 2 or not self._pairs(node, rest, phrases):
             return False
         sources = list(self.host if self._paired else self.draft.direct)
         self._relate(next(leaves(node)).text, sources, phrases[:1])
         self.draft.direct += phrases[1:]
         self._of(phrases[1:])
-        self._flush(sources)
+        self.flush(sources)
         self.host, self._behind, self._paired = phrases[1:], "", True
         return True
 
-    def _pairs(self, node: Node, rest: Sequence[Node], phrases: list[Phrase]) -> bool:
-        """Tell whether the last nouns behind a preposition are things that the next one places."""
+    def _pairs(self, node: Tree[Leaf], rest: Sequence[Node], phrases: list[Phrase]) -> bool:
+        """Return whether the last nouns behind a preposition are things that the next one places."""
         name, opening = next(leaves(node)).text, next(leaves(rest[0])).text
         origin = opening in section("origins") and len(rest) > 1 and is_a(rest[1], "place")
         goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
         placing = self.draft.verb.stem in section("placing") | section("belonging")
-        opposite = any(w in section("other_words") for p in _targets(rest[0]) for w in p.lead)
+        opposite = any(w in section("other_words") for p in named_in(rest[0].children) for w in p.lead)
         alike = opposite or self._is_thing_again(phrases)
         return alike and (name == opening or (placing and goes))
 
     def _is_thing_again(self, phrases: list[Phrase]) -> bool:
-        """Tell whether the last of some nouns behind a preposition has the determiner of a thing, and of no place."""
+        """Return whether the last of some nouns behind a preposition has the determiner of a thing, not of a place."""
         last, direct = phrases[-1], self.draft.direct[0]
         bare = phrases[0].determined and not direct.determined
         terse = not (direct.determined or any(p.determined for p in phrases))  # "cup in sink and pan in bin"
         return last.determined or last.name in section("one_words") or bare or terse
 
     def _hosted(self, name: str, targets: list[Phrase]) -> bool:
-        """Tell whether a preposition stands beside the noun before it rather than the direct object."""
+        """Return whether a preposition stands beside the noun before it rather than the direct object."""
         stem = self.draft.verb.stem
         if not self.host:
             return False
@@ -380,30 +355,23 @@ class Attachment:
     def _with_hosted(self, stem: str, targets: list[Phrase]) -> bool:
         if self._tells_one():
             return True
-        if any(_is_tool(t.name) for t in targets):
+        if any(not section("tools").isdisjoint((t.name, t.name.rpartition("_")[2])) for t in targets):
             held = section("moving") | section("placing") | section("dative_verbs")
             return self._instrument or (stem in held and not self._behind)
         return self._instrument or stem.partition("_")[0] not in section("with_verbs")
 
     def _tells_one(self) -> bool:
-        """Tell whether what comes now says which *one* is meant."""
+        """Return whether what comes now says which *one* is meant."""
         return bool(self._behind) and bool(self.host) and all(p.name in section("one_words") for p in self.host)
 
-    def _flush(self, direct: list[Phrase]) -> None:
+    def flush(self, direct: list[Phrase]) -> None:
+        """Relate what stands behind prepositions to the direct objects."""
         sources: list[str | None] = [p.name for p in direct] or [None]
         for name, targets in self._pending:
             self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)
         self._pending.clear()
 
 
-def _targets(node: Node) -> list[Phrase]:
-    return named_in(node.children) if isinstance(node, Tree) else []
-
-
 def _tells(phrases: list[Phrase]) -> bool:
-    """Tell whether a phrase is *the one*, of which more is to be said."""
+    """Return whether a phrase is *the one*, which a further phrase must describe."""
     return bool(phrases) and phrases[0].name in section("one_words") and bool(phrases[0].lead)
-
-
-def _is_tool(name: str) -> bool:
-    return name in section("tools") or name.rpartition("_")[2] in section("tools")

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from tmd.language.lexicon.lexicon import Lexicon, section
-from tmd.language.syntax.joins import first_of
+from tmd.language.lexicon.lexicon import Lexicon, first_of, section
 from tmd.language.syntax.tokens import IDLE, NP, Kind, Token, Words
 
 K = Kind
@@ -56,11 +55,10 @@ class Frames(Words):
         return begin
 
     def _is_thing(self, at: int) -> bool:
-        token = self.tokens[at]
-        return token.kind is K.N and (self._lexicon.is_noun(token.text) or self._lexicon.names_thing(token.text))
+        return self.kind(at) is K.N and self._lexicon.is_noun(self.tokens[at].text)
 
     def _is_deed(self, at: int) -> bool:
-        """Tell whether a verb stands at a place that is itself what is asked for, or tells what has been done."""
+        """Return whether a verb stands at a place that is itself what is asked for, or tells what has been done."""
         token = self.tokens[at]
         if token.kind not in (K.V, K.FINITE, K.ING):
             return False
@@ -68,7 +66,7 @@ class Frames(Words):
         return token.form == "ed" or (known and token.stem not in section("framing"))
 
     def _is_done(self, at: int) -> bool:
-        """Tell whether a word is a form of a verb that is no part of a frame: "put", "heated", "boiling"."""
+        """Return whether a word is a form of a verb that does not belong to a frame: "put", "heated", "boiling"."""
         verb = self._lexicon.verb(self.tokens[at].text)
         return verb is not None and verb[0] in section("verbs") - section("framing") - section("courtesies")
 
@@ -88,7 +86,7 @@ class Frames(Words):
         return at if self.stem_among(self._before(at), "mind") and self._made_deed(at, "ing") else 0
 
     def _offers(self, start: int, at: int) -> bool:
-        """Tell whether speakers say what they do, or feel: "I'd be ashamed to serve it"; but "glad to have some"."""
+        """Return whether speakers report what they do or feel: "I'd be ashamed to serve it", not "glad to"."""
         frame = range(start, at)
         speaks = self.tokens[start].text.partition("'")[0] in section("speakers")
         feels = speaks and any(self.among(i, "be") for i in frame)
@@ -103,7 +101,7 @@ class Frames(Words):
         return verb if wish or self.kind(verb) in _DEEDS else 0
 
     def _joined(self, start: int, at: int, *, advised: bool) -> int:
-        """Return the place of the verb behind "if you could", or of "if" before what shall be; 0 for others."""
+        """Return the place of the verb behind "if you could", or of "if" before a wished state; 0 for others."""
         verb = self.past(at + 1, "(SUBJECT|PRON|AUX|IDLE|MOD)*")
         person = self.among(at + 1, "subjects", "persons")
         asked = advised or (person and not self.among(at + 1, "singular_pronouns"))
@@ -117,12 +115,12 @@ class Frames(Words):
         return at
 
     def _is_welcome(self, start: int, at: int) -> bool:
-        """Tell whether a state follows that would be welcome: "it would be nice if there were some tea"."""
+        """Return whether a state follows that would be welcome: "it would be nice if there were some tea"."""
         glad = any(self.among(i, "welcome", "glad") or self.stem_among(i, "wishing") for i in range(start, at))
         return glad and (self.among(at + 1, "there_words") or self.kind(at + 1) in NP)
 
     def _is_thought(self, at: int) -> bool:
-        """Tell whether a person with a modal verb stands behind what is hoped or supposed, without "that"."""
+        """Return whether a person with a modal verb stands behind what is hoped or supposed, without "that"."""
         return (
             self.stem_among(at - 1, "framing")
             and self.among(at, "subjects")
@@ -171,11 +169,9 @@ class Frames(Words):
         return end - 1
 
     def _asks(self, start: int, at: int, end: int) -> bool:
-        """Tell whether a frame asks for what follows, and does not state or deny it."""
+        """Return whether a frame asks for what follows, and does not state or deny it."""
         frame = range(start, end)
-        denied = [i for i in frame if self.kind(i) is K.NEG]
-        question = self.first(at, "STOP")
-        asked = question < len(self.tokens) and "?" in self.tokens[question].text
+        denied, asked = [i for i in frame if self.kind(i) is K.NEG], self.asked(at)
         if denied and not (asked and self._is_harmless(denied, frame)):
             return False
         modal = any(self.among(i, "frame_modals", "frame_negations") for i in frame)
@@ -184,11 +180,11 @@ class Frames(Words):
         return modal or wished or kindly or (asked and self.kind(start) is K.AUX)
 
     def _is_harmless(self, denied: Sequence[int], frame: Iterable[int]) -> bool:
-        """Tell whether negations of a question deny nothing: "wouldn't you", "I don't suppose"."""
+        """Return whether negations of a question deny nothing: "wouldn't you", "I don't suppose"."""
         return all(self.among(i, "frame_negations") for i in denied) or any(
             self.stem_among(i, "supposing") for i in frame
         )
 
     def _is_wish(self, at: int) -> bool:
-        """Tell whether a verb wishes for what follows: "I like to read" does not, without "would"."""
+        """Return whether a verb wishes for what follows: "I like to read" does not, without "would"."""
         return self.stem_among(at, "framing", "advising") and not self.stem_among(at, "liking")

@@ -7,7 +7,7 @@ of the text, up to a bounded look ahead.
 from __future__ import annotations
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon, pairs, section, sections, singular
+from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section, singular
 from tmd.language.syntax.tokens import HEADS, IDLE, NP, Kind, Token, Words, fold
 
 K = Kind
@@ -19,7 +19,7 @@ _NEAR = 7
 
 
 def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
-    """Return the words with everything joined that one word of the grammar stands for."""
+    """Join the words that are one word of the grammar."""
     tokens = _copulas(tokens)
     _finite(Words(tokens))
     _partitives(Words(tokens))
@@ -31,11 +31,6 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _Particles(tokens, lexicon).run()
     _sentences(tokens)
     return tokens
-
-
-def first_of(name: str) -> str:
-    """Return the first word of a section of ``words.txt``, which stands for the others."""
-    return sections()[name][0]
 
 
 def _copulas(tokens: list[Token]) -> list[Token]:
@@ -70,7 +65,7 @@ def _finite(words: Words) -> None:
 
 
 def _placing(words: Words, at: int) -> str:
-    """Return the stem of a verb that says where its subject is or shall be; empty for other words."""
+    """Return the stem of a verb that says where its subject is or should be; empty for other words."""
     place = words.follows(at + 1, "P|TO|STATE") or words.among(at + 1, "back_words", "where_words")
     if words.among(at, "belonging") and place:
         return first_of("belonging")
@@ -114,7 +109,7 @@ def _numbered(words: Words) -> list[Token]:
 
 
 def _counts(words: Words, at: int) -> bool:
-    """Tell whether a number counts a noun that follows: "two clean cups", "half a cup"."""
+    """Return whether a number counts a noun that follows: "two clean cups", "half a cup"."""
     fraction = words.among(at, "fractions") and words.follows(at + 1, "DET")
     return fraction or words.follows(at + 1, "(IDLE|ADJ)* (N|NUM)")
 
@@ -235,9 +230,6 @@ class _Particles(Words):
                 return True
             if keeps and place > at + 1 and self.among(place, "end_states"):
                 return False  # "leave the radio on": as it is, and no particle
-            if place == at + 1 and self.among(place, "opening") and self.follows(place + 1, "IDLE* NP"):
-                self._absorb(verb, [token], pairs("state_verbs")[token.text])  # "crack open the soda"
-                return True
             if self._joins(at, place, behind=behind):
                 self._absorb(verb, [token], f"{verb.stem}_{token.text}")
                 return True
@@ -245,7 +237,7 @@ class _Particles(Words):
         return False
 
     def _joins(self, at: int, place: int, *, behind: bool) -> bool:
-        """Tell whether the word at a place is the particle of the verb."""
+        """Return whether the word at a place is the particle of the verb."""
         if self.among(place + 1, "there_words") and self.among(place, "static"):
             return False  # "make it dark in here"
         match = self._match(self.tokens[at].stem, place)
@@ -267,7 +259,7 @@ class _Particles(Words):
         return True
 
     def _moves_object(self, at: int, place: int) -> bool:
-        """Tell whether "up" or "out" goes with a verb of no list: "fluff up the pillows", "fluff them up"."""
+        """Return whether "up" or "out" goes with a verb of no list: "fluff up the pillows", "fluff them up"."""
         beside = place == at + 1
         if self.stem_among(at, "intransitive", "chain_verbs", "lead_verbs"):
             return False

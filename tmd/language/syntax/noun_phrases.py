@@ -1,4 +1,4 @@
-"""Noun phrases: their names, their numbers, and what was said of them."""
+"""Noun phrases: their names, numbers, determiners and modifiers."""
 
 from __future__ import annotations
 
@@ -9,25 +9,22 @@ from functools import cache
 from lark import Tree
 
 from tmd.language.clause import PERSONS, NounPhrase, Quantifier
-from tmd.language.lexicon.lexicon import section, sections, singular
+from tmd.language.lexicon.lexicon import first_of, section, sections, singular
 from tmd.language.syntax.brackets import ALSO
-from tmd.language.syntax.links import CHOICE
+from tmd.language.syntax.grammar import CHOICE, Leaf, Node, leaves, trees
 from tmd.language.syntax.tokens import NAME, Kind, Token
-from tmd.language.syntax.tree import Leaf, Node, leaves, trees
 
 
 def number_of(word: str) -> int | None:
     """Return the number that a word or numeral names, up to twelve in words."""
     if word.isascii() and word.isdigit() and len(word) < 10:
         return int(word)
-    if word in section("pairs"):
-        return 2
     order = sections()["number_order"]
     return order.index(word) if word in order else None
 
 
 def is_number(word: str) -> bool:
-    """Tell whether a word is a number, in figures or in words."""
+    """Return whether a word is a number, in figures or in words."""
     return word[:1].isdigit() or word in section("numbers")
 
 
@@ -64,7 +61,7 @@ class Phrase:
 
     @property
     def whole(self) -> bool:
-        """Return whether it means all that there is."""
+        """Return whether it refers to all that there is."""
         return self.name in section("whole_words")
 
     def without_denial(self) -> Phrase:
@@ -72,22 +69,22 @@ class Phrase:
         return replace(self, lead=tuple(w for w in self.lead if w not in section("none_words")))
 
     def said(self) -> NounPhrase:
-        """Return how it was said."""
+        """Return it as the noun phrase of a clause."""
         words = (*self.lead, self.name) if self.pronoun or self.whole else self.lead
         if not (self.plural or self.pronoun or self.of):
             words = tuple(w for w in words if w not in section("both_words"))  # "both the cup and the mug": one of each
         quantity = self.quantity or next((w for w in self.lead if is_number(w) and number_of(w) != 1), "")
         both = not section("both_words").isdisjoint(words)
         return NounPhrase(
-            self.name,
-            self._quantifier(words, quantity),
-            number_of(quantity) if quantity else 2 if both else None,
-            self.determined and (section("indefinite") | section("none_words")).isdisjoint(self.lead),
-            self.plural,
-            tuple(dict.fromkeys([*self._adjectives(), *self.attributes])),
-            self.either,
-            not section("each_words").isdisjoint(words),
-            self._undetermined(),
+            name=self.name,
+            quantifier=self._quantifier(words, quantity),
+            number=number_of(quantity) if quantity else 2 if both else None,
+            definite=self.determined and (section("indefinite") | section("none_words")).isdisjoint(self.lead),
+            plural=self.plural,
+            attributes=tuple(dict.fromkeys([*self._adjectives(), *self.attributes])),
+            either=self.either,
+            each=not section("each_words").isdisjoint(words),
+            undetermined=self._undetermined(),
         )
 
     def _undetermined(self) -> bool:
@@ -170,16 +167,16 @@ def phrase_of(node: Tree[Leaf]) -> Phrase:
 
 
 def _head(words: list[Token], lead: list[Token]) -> Phrase:
-    """Return the phrase of a head; "the white one" and "the other" tell which of what was spoken of."""
+    """Return the phrase of a head; "the white one" and "the other" pick one of the things mentioned."""
     start, said = words[0].span.start, tuple(t.text for t in lead)
     texts, last = [t.text for t in words], words[-1]
-    one = sections()["one_words"][0]
+    one = first_of("one_words")
     if texts[0] in section("other_words") and len(texts) == 1:
         return Phrase(one, start, False, True, lead=(*said, *texts))
     if texts[0] in section("ordinals") and len(texts) == 1:
         return Phrase(f"{texts[0]}_{one}", start, False, True, lead=said)
     if texts[0] in section("rest_words") and len(texts) == 1 and said:
-        return Phrase(one, start, True, True, lead=(*said, sections()["other_words"][0]))
+        return Phrase(one, start, True, True, lead=(*said, first_of("other_words")))
     written = "_".join(texts)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     if last.text in section("one_words"):
@@ -196,6 +193,6 @@ def named_in(nodes: Sequence[Node]) -> list[Phrase]:
 
 
 def about_things(nodes: Sequence[Node]) -> bool:
-    """Tell whether some of the nodes is a group that names more than a person."""
+    """Return whether some of the nodes is a group that names more than a person."""
     names = (phrase.name for phrase in named_in(nodes))
     return any(name not in PERSONS and name not in section("subjects") for name in names)

@@ -11,7 +11,7 @@ A pattern is a sequence of elements, separated by blanks:
 
 The replacement has words, ``{x}`` for what was kept, ``{x.stem}`` for the verb of a kept word, and ``word/V`` for a
 word of a given class. Words of the pattern that are not kept disappear; with a ``note``, they are reported with it. A
-sentence in which a row has fired is tagged anew. The rows of a domain's lexicon are tried after those of the file.
+sentence in which a row has fired is tagged again. The rows of a domain's lexicon are tried after those of the file.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon, PhraseRow, data_text, section
 from tmd.language.syntax.rows import Entry, read_file, read_rows, section_names
 from tmd.language.syntax.tagger import decide, tag
-from tmd.language.syntax.tokens import Kind, Token, tokenise
+from tmd.language.syntax.tokens import Kind, Token, noted, tokenise
 
 _LEAD = rf"(?:[^\t ]+\t(?:{Kind.ADV}|{Kind.FILLER}) )*"
 _MARKS = {
@@ -90,7 +90,7 @@ def _row(entry: Entry, macros: Mapping[str, str]) -> PhraseRow:
 
 
 def _regex(text: str, macros: Mapping[str, str]) -> tuple[str, frozenset[str]]:
-    """Return a pattern as a regular expression, and words of which each match has one, if they can be told."""
+    """Return a pattern as a regular expression, and words of which each match has one, if there are such."""
     parts: list[str] = []
     groups: list[str] = []
     triggers: list[frozenset[str]] = []
@@ -141,10 +141,10 @@ def rewrite(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = Non
     Args:
         tokens: The decided tokens of a text.
         lexicon: The words and phrases of the domain.
-        trace: Takes the ids of the rows that fire, also of those that decide words anew.
+        trace: Takes the ids of the rows that fire, also of those that decide words again.
 
     Returns:
-        The tokens, decided anew where a row has fired, and the tokens that ask for nothing, with the reason.
+        The tokens, decided again where a row has fired, and the tokens that ask for nothing, with the reason.
     """
     result: list[Token] = []
     dropped: list[Token] = []
@@ -199,9 +199,8 @@ def _new(
     """Return what takes the place of a match; the first new word covers the words that are gone without a note."""
     spans = [span for token in gone for span in (token.span, *token.parts)]
     if row.note:
-        spans, dropped[len(dropped) :] = [], gone
-        for token in gone:
-            token.note = row.note
+        spans = []
+        dropped += noted(gone, row.note)
     new: list[Token] = []
     for element, name in row.replacement:
         if name and not element.endswith(".stem}"):
@@ -219,20 +218,19 @@ def _fresh(element: str, stem: str, span: Span) -> Token:
     """Return a new token: a verb of a kept word, a word of a given class, or a word still to be tagged."""
     word, _, kind = (stem, "", Kind.V) if stem else element.partition("/")
     if kind:
-        return Token(Kind(kind), word, span, stem=word if kind == Kind.V else "", form="base", strength=3)
+        stem, first = word if kind == Kind.V else "", (Kind(kind), "base")
+        return Token(first[0], word, span, stem=stem, form=first[1], strength=3, first=first)
     token = tokenise(word)[0]
     token.span = span
     return token
 
 
 def _decided(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None) -> list[Token]:
-    """Return tokens decided anew: each has its first class again, new words get one."""
+    """Decide tokens again: each has its first class again, new words get one."""
     result: list[Token] = []
     for token in tokens:
         if token.first:
             token.kind, token.form = token.first
-        result += tag([token], lexicon, trace) if token.kind is Kind.WORD and not token.first else [token]
-    for token in result:
-        token.first = token.first or (token.kind, token.form)
+        result += [token] if token.first else tag([token], lexicon, trace)
     decide(result, lexicon, trace)
     return result

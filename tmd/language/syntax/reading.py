@@ -5,24 +5,23 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice, pairwise
+from itertools import islice, zip_longest
 
 from lark import Tree
 
-from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mood, Quantifier, Relation, Span
-from tmd.language.lexicon.lexicon import pairs, section, sections
+from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mood, Quantifier, Relation, Span, hull
+from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
-from tmd.language.syntax.joins import first_of
+from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
-from tmd.language.syntax.sayings import Saying, demand, described, name_verb
+from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, name_verb
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
-from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
 _ASIDES = ("demand", "statement")
 _DENIALS = ("denial", "manner")
 _LATER = "later"
-"""The order of what is said behind "before"."""
+"""The order of a clause behind "before"."""
 _NOT = "not_"
 """Before an attribute or a relation: it must not hold."""
 
@@ -35,7 +34,7 @@ class TextReading:
         text: The text.
         drafts: What is to be done, in order.
         forbidden: What must not be done, each with the number of drafts before it.
-        statements: What statements speak of, each with the number of drafts before it.
+        statements: What statements mention, each with the number of drafts before it.
         skipped: What asks for nothing, as tokens that carry the reason.
         alone: The text has one unit.
         polite: The text asks politely.
@@ -56,18 +55,20 @@ class TextReading:
         goes_on = False
         places: list[Node] = []
         topic: list[Tree[Leaf]] = []
-        for number, (unit, following) in enumerate(pairwise([*tree.children, None])):
-            if unit is None or isinstance(unit, Leaf):
-                goes_on = unit is not None and unit.source.form == ALSO
+        for number, (unit, following) in enumerate(zip_longest(tree.children, tree.children[1:])):
+            if isinstance(unit, Leaf):
+                goes_on = unit.source.form == ALSO
                 continue
             actions = trees(unit.children, "clause", "letting")
             front = places + [n for n in unit.children if n not in actions]
-            places = front if not actions and _is_heading(front, following) else []
+            sign = following.source.text if isinstance(following, Leaf) else ""
+            heading = sign == ":" and all(is_a(n, "place") for n in front)
+            places = front if heading and not actions else []  # "into the crate: rope, hose"
             if not actions and self._is_topic(front) and _is_taken_up(tree.children[number + 1 :]):
                 topic += trees(front, "group")
             elif not places:
                 self._unit(actions, _supplied(unit, front, topic), goes_on=goes_on)
-                topic = topic if _is_leaf(following, ",") else []
+                topic = topic if sign == "," else []
         self._carry()
         return self
 
@@ -147,17 +148,16 @@ class TextReading:
         *,
         front: Sequence[Node] = (),
     ) -> None:
-        """Attach arguments from left to right; what stands in front of a verb, or in a predicate, is said of them."""
+        """Attach arguments from left to right, then the predicate, then the arguments in front of the verb."""
         state = Attachment(draft)
         state.add(arguments)
         if predicate and draft.result is not None and state.host:
             state.host[-1].attributes.append(draft.result)  # "nothing wet may stay there"
             draft.result = None
-        if predicate:
-            state.apart(predicate)
-        for node in front:
-            state.apart([node])
-        state.finish()
+        for nodes in (predicate, *([node] for node in front)):
+            state.host = []  # they belong to what the verb acts on
+            state.add(nodes)
+        state.flush(draft.direct)
         self._modify(draft, [*arguments, *predicate])
 
     def _modify(self, draft: ClauseDraft, nodes: Sequence[Node], *, fronted: bool = False) -> None:
@@ -173,26 +173,26 @@ class TextReading:
             elif node.data == "purpose" or not (self._ordered(draft, node) or _only_when(node)):
                 draft.conditions.append(self._condition(node))
                 draft.fronted = draft.fronted or (fronted and node.data == "condition")
-                draft.written.append((str(node.data), draft.conditions[-1].text))
 
     def _explained(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
-        """Set a reason aside; pronouns may mean what it speaks of."""
+        """Set a reason aside; pronouns may mean what it mentions."""
         before = self._number(draft, next(leaves(node)))
         for part in trees(node.children, "part"):
-            self._stated(part, self._said(part), before, REASON)
+            self._stated(part, Saying(part).clauses(self._attach), before, REASON)
 
-    def _said(self, part: Tree[Leaf]) -> list[ClauseDraft]:
-        return Saying.of(part).clauses(self._attach)
+    def _said(self, node: Tree[Leaf]) -> list[ClauseDraft]:
+        """Return the clauses of the parts of a subordinate clause."""
+        return [draft for part in trees(node.children, "part") for draft in Saying(part).clauses(self._attach)]
 
     # what is subordinate
 
     def _ordered(self, draft: ClauseDraft, node: Tree[Leaf]) -> bool:
         """Read "after labelling it" and "before putting it away" as instructions, in their order."""
         opener, parts = next(leaves(node)).text, trees(node.children, "part")
-        places = [i for i, d in enumerate(self.drafts) if d is draft]  # a clause of a condition is no step
+        places = [i for i, d in enumerate(self.drafts) if d is draft]  # a clause of a condition is not a step
         if opener not in pairs("order_words") or not parts or not places or not all(map(_is_deed, parts)):
             return False
-        events = [d for part in parts for d in self._said(part)]
+        events = self._said(node)
         if not section("no_steps").isdisjoint(event.verb.stem for event in events):
             return False
         at = places[0] + (pairs("order_words")[opener] == _LATER)
@@ -203,9 +203,9 @@ class TextReading:
 
     def _condition(self, node: Tree[Leaf]) -> Condition:
         """Read a condition or a purpose."""
-        opener, places, purpose = next(leaves(node)), spans([node]), node.data == "purpose"
-        text = " ".join(self.text[min(places).start : max(s.end for s in places)].split()).lower()
-        drafts = [d for part in trees(node.children, "part") for d in self._said(part)]
+        opener, purpose = next(leaves(node)), node.data == "purpose"
+        text = " ".join(self.text[slice(*hull(spans([node])))].split()).lower()
+        drafts = self._said(node)
         for draft in drafts:
             if purpose and not draft.direct and draft.verb.stem in section("happening"):
                 draft.direct.append(Phrase(first_of("singular_pronouns"), draft.verb.span.start, False, True))
@@ -214,19 +214,18 @@ class TextReading:
         return Condition(TO if aimed else opener.text, clauses, opener.negated, text)
 
     def _relative(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
-        """Add what a relative clause says to the noun that it is about."""
+        """Add the content of a relative clause to its noun."""
         opener = next(leaves(node))
         ahead = [p for p in draft.mentions() if p.place < opener.span.start]
         if not ahead:
             return
         noun = described(draft, ahead, node)
-        for part in trees(node.children, "part"):
-            for said in self._said(part):
-                self._describe(draft, noun, opener, said)
+        for said in self._said(node):
+            self._describe(draft, noun, opener, said)
 
     @staticmethod
     def _describe(draft: ClauseDraft, noun: Phrase, opener: Token, said: ClauseDraft) -> None:
-        draft.relative = draft.relative or said.verb.stem == BE
+        draft.relative |= said.verb.stem == BE
         named = [p for p in said.direct if not p.pronoun]
         relation = WHERE if opener.text in section("where_words") else said.owning()
         if named and relation:
@@ -236,29 +235,29 @@ class TextReading:
             if said.verb.stem == BE and said.result is not None and not named:
                 noun.attributes.append(_NOT * opener.negated + said.result)
             elif relation != WHERE and (named or not targets):  # it tells which one is meant, and must not be lost
-                noun.attributes.append("_".join([opener.text, *said.described()]))
+                noun.attributes.append("_".join([opener.text, *(p.name for p in said.mentions()), said.verb.stem]))
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
             draft.stated.append(draft.relations[-1])
             draft.further[phrase.name] = phrase.said()
 
     def _forbid(self, draft: ClauseDraft | None, node: Tree[Leaf]) -> None:
-        """Record what a denial forbids: a clause of its own, or the verb before it with other arguments."""
+        """Record what a denial forbids: its own clause, or the verb before it with other arguments."""
         before = self._number(draft, next(leaves(node)))
         for part in trees(node.children, "part"):
-            saying = Saying.of(part)
+            saying = Saying(part)
             deed = any(t.kind is Kind.V for t in leaves(part))
             own = trees(part.children, "predicate") and (deed or draft is None or saying.complement)
             if not own and draft is not None and self._excepted(draft, part):
                 continue
-            found = saying.clauses(self._attach) if own else [self._contrasted(draft, saying)] if draft else []
+            found = saying.clauses(self._attach) if own else [self._contrasted(draft, part.children)] if draft else []
             for item in found:
                 item.mood, item.spans = Mood.AVOID, spans([node])
                 item.verb.form = IMPLIED if not deed and draft is not None else item.verb.form
                 self.forbidden.append((before, item))
 
     def _excepted(self, draft: ClauseDraft, part: Tree[Leaf]) -> bool:
-        """Read "the cups, but not the one on the shelf" as an exception of what is said of several things."""
+        """Read "the cups, but not the one on the shelf" as an exception."""
         several = [p for p in draft.direct if p.plural or p.said().quantifier is Quantifier.ALL]
         denied = named_in(part.children)
         if not (several and denied and section("one_words").issuperset(p.name for p in denied)):
@@ -277,10 +276,9 @@ class TextReading:
         place = next((i for i, d in enumerate(self.drafts) if d is draft), len(self.drafts))
         return place if draft is None or opener.span < draft.verb.span else len(self.drafts)
 
-    def _contrasted(self, draft: ClauseDraft, saying: Saying) -> ClauseDraft:
+    def _contrasted(self, draft: ClauseDraft, nodes: Sequence[Node]) -> ClauseDraft:
         """Return a clause with what stands in place of its objects, or of its place: "…, not the mug"."""
-        copy = saying.draft(draft.verb.stem)
-        nodes = list(saying.part.children)
+        copy = empty_draft(draft.verb.stem, nodes)
         if not about_things(nodes):
             copy.direct = list(draft.direct)
         self._attach(copy, nodes)
@@ -288,7 +286,7 @@ class TextReading:
             copy.take_places(draft)  # "…, but not the one on the shelf"
         return copy
 
-    # requests that are no imperatives
+    # requests other than imperatives
 
     def _verbless(self, nodes: list[Node]) -> None:
         """Read a unit without a verb: prohibitions, demands, statements, and what is only named."""
@@ -303,7 +301,7 @@ class TextReading:
             return
         if trees(nodes, "denial") and self.forbidden and trees(rest, "group", "place"):
             denied = self.forbidden[-1][1]  # "don't put it on the stove but on the shelf"
-            draft = self._contrasted(denied, Saying(Tree("part", rest), [], [], [], []))
+            draft = self._contrasted(denied, rest)
             draft.mood = None
             self.drafts.append(draft)
         elif about_things(rest):
@@ -312,11 +310,11 @@ class TextReading:
             self._modify(last, rest)
 
     def _aside(self, node: Tree[Leaf], conditions: Sequence[Node] = ()) -> None:
-        """Read a statement; one that says what shall be is a demand."""
+        """Read a statement; one that requires a state is a demand."""
         opener = next(leaves(node))
         asked = node.data == "demand" or opener.form == DUTY
         for part in trees(node.children, "part"):
-            saying = Saying.of(part)
+            saying = Saying(part)
             asked = asked or saying.asks()
             if opener.negated and self.drafts and saying.bare:
                 self._forbid(self.drafts[-1], node)  # "the cup goes there, the mug does not"
@@ -332,11 +330,10 @@ class TextReading:
                 self._demanded(draft, conditions)
 
     def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft], before: int, note: str) -> None:
-        """Set a statement aside; pronouns may mean what it speaks of."""
+        """Set a statement aside; pronouns may mean what it mentions."""
         self.statements += [(before, draft) for draft in drafts]
-        places = spans([part])
-        span = Span(min(places).start, max(s.end for s in places))
-        self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=note))
+        span = hull(spans([part]))
+        self.skipped.append(Token(Kind.SKIP, self.text[slice(*span)], span, note=note))
 
     def _demanded(self, draft: ClauseDraft, conditions: Sequence[Node]) -> None:
         if draft.none() and len(draft.direct) > 1:
@@ -355,7 +352,7 @@ class TextReading:
             self.drafts.append(draft)
 
     def _named(self, nodes: list[Node]) -> None:
-        """Read "TV on", "lid on the pot", "two scoops of ice cream": the verb was not said."""
+        """Read "TV on", "lid on the pot", "two scoops of ice cream": the text leaves the verb out."""
         before = self.drafts[-1] if self.drafts else None
         if before is not None and before.elliptic and all(is_a(n, "group") for n in nodes):
             before.add(named_in(nodes), spans(nodes))
@@ -377,18 +374,18 @@ class TextReading:
         """Read "then the mug" and "the mug too" with the verb, and the place, of the clause before."""
         if not self.drafts or not about_things(nodes) or trees(nodes, *_ASIDES, *_DENIALS):
             return False
-        draft = self._contrasted(self.drafts[-1], Saying(Tree("part", nodes), [], [], [], []))
+        draft = self._contrasted(self.drafts[-1], nodes)
         draft.verb.sentence, draft.verb.form = self.drafts[-1].verb.sentence, self.drafts[-1].verb.form
         self.drafts.append(draft)
         return True
 
     def _is_topic(self, nodes: Sequence[Node]) -> bool:
-        """Tell whether a unit only names what those behind it are about: "the bag! close it", "kettle: fill"."""
+        """Return whether a unit only names what those behind it are about: "the bag! close it", "kettle: fill"."""
         last = self.drafts[-1] if self.drafts else None
         return _is_named(nodes) and not (_is_counted(nodes) or (last is not None and last.elliptic))
 
     def _orders(self, nodes: Sequence[Node]) -> bool:
-        """Tell whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
+        """Return whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
         if any(is_a(n, "state", "place", "exception") or isinstance(n, Leaf) for n in nodes):
             return True
         return _is_counted(nodes) or self.polite or (self.alone and sum(1 for n in nodes for _ in leaves(n)) > 1)
@@ -404,17 +401,8 @@ class TextReading:
             before = draft
 
 
-def _is_heading(front: Sequence[Node], following: Node | None) -> bool:
-    """Tell whether a unit is the place of those behind its colon: "into the crate: rope, hose"."""
-    return _is_leaf(following, ":") and all(is_a(n, "place") for n in front)
-
-
-def _is_leaf(node: Node | None, text: str) -> bool:
-    return isinstance(node, Leaf) and node.source.text == text
-
-
 def _is_taken_up(nodes: Sequence[Node]) -> bool:
-    """Tell whether the next unit that does more than name something does not say what it is about."""
+    """Return whether the next unit that does more than name something does not say what it is about."""
     units = (unit for unit in trees(nodes, "unit") if not _is_named(unit.children))
     return any(map(_lacks, islice(units, 1)))
 
@@ -431,13 +419,13 @@ def _takes_up(draft: ClauseDraft, nodes: Sequence[Node]) -> bool:
 
 
 def _is_named(nodes: Sequence[Node]) -> bool:
-    """Tell whether things are named, and nothing else."""
+    """Return whether things are named, and nothing else."""
     groups = trees(nodes, "group")
     return 0 < len(groups) == len(nodes) and not any(map(_is_pronoun, groups))
 
 
 def _lacks(unit: Tree[Leaf]) -> bool:
-    """Tell whether a unit does not name what it is about: "close it", "fill", "lid on", "off the stove"."""
+    """Return whether a unit does not name what it is about: "close it", "fill", "lid on", "off the stove"."""
     actions = trees(unit.children, "clause", "letting")
     nodes = [*unit.children, *(actions[0].children if actions else ())]
     groups = trees(nodes, "group")
@@ -487,13 +475,13 @@ def _treat(draft: ClauseDraft) -> None:
 
 
 def _is_deed(part: Tree[Leaf]) -> bool:
-    """Tell whether a part says what the one who is asked does: "after taking it out", "before you take it out"."""
+    """Return whether the addressee is the subject of a part: "after taking it out", "before you take it out"."""
     verb = next((t for t in leaves(part) if t.kind in (Kind.V, Kind.ING, Kind.FINITE)), None)
     if verb is None or verb.form == "ing":
         return verb is not None
-    saying = Saying.of(part)
+    saying = Saying(part)
     subject = [t.text for n in saying.subject for t in leaves(n)]
-    return subject == [sections()["addressee"][0]] and bool(saying.verbs) and saying.complement
+    return subject == [first_of("addressee")] and bool(saying.verbs) and saying.complement
 
 
 def _is_pronoun(group: Tree[Leaf]) -> bool:
@@ -506,8 +494,8 @@ def _is_fold(node: Node) -> bool:
 
 
 def _only_when(node: Tree[Leaf]) -> bool:
-    """Tell whether a condition says of somebody that he goes or is done, which no state of things shows."""
-    sayings = [Saying.of(part) for part in trees(node.children, "part")]
+    """Return whether a condition says of somebody that he goes or is done, which no state of things shows."""
+    sayings = [Saying(part) for part in trees(node.children, "part")]
     return bool(sayings) and all(
         saying.verbs
         and saying.verbs[-1].stem in section("intransitive")

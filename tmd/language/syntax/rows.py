@@ -88,7 +88,7 @@ def read_rows(node: yaml.Node | None, file: str, needed: Collection[str], furthe
         further: Keys that a row may have.
 
     Raises:
-        TmdError: It is no list of mappings, a row lacks something or has an unknown key, or two rows have one id.
+        TmdError: It is not a list of mappings, a row lacks something or has an unknown key, or two rows have one id.
     """
     if not isinstance(node, yaml.SequenceNode):
         place = Location(file, node.start_mark.line + 1 if node else 1, 1)
@@ -136,7 +136,7 @@ class Conditions:
         """Compile a condition; an empty one always holds.
 
         Raises:
-            ValueError: It is not well-formed, or speaks of something unknown; in one line.
+            ValueError: It is not well-formed, or names something unknown; in one line.
         """
         # the text can hold nothing but signs and the expressions made here, so eval is safe
         test: Test = eval(f"lambda w: {self.expression(text) if text else True}", self._known)

@@ -6,17 +6,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 from lark import Tree
 
 from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WITH, Mood, Quantifier, Relation, Span
-from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
-from tmd.language.syntax.joins import SETTING, first_of
+from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, named_in
-from tmd.language.syntax.tokens import IMPLIED, Kind, Token
-from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
+from tmd.language.syntax.tokens import IMPLIED, VERBAL, Kind, Token
 
 EXISTS = "exists"
 """The form of *be* in "there is"."""
@@ -24,7 +22,6 @@ Attach = Callable[[ClauseDraft, Sequence[Node], Sequence[Node]], None]
 """Attaches arguments, and what a predicate says of them, to a clause."""
 
 
-@dataclass(slots=True)
 class Saying:
     """One part of a subordinate clause or statement.
 
@@ -36,21 +33,15 @@ class Saying:
         helpers: Its auxiliaries.
     """
 
-    part: Tree[Leaf]
-    subject: list[Node]
-    rest: list[Node]
-    verbs: list[Token]
-    helpers: list[Token]
-
-    @classmethod
-    def of(cls, part: Tree[Leaf]) -> Saying:
+    def __init__(self, part: Tree[Leaf]) -> None:
         """Take a part of the grammar to pieces."""
         predicate = [n for p in trees(part.children, "predicate") for n in p.children]
         words = [n.source for n in predicate if isinstance(n, Leaf)]
-        rest = [n for n in predicate if not isinstance(n, Leaf) or n.source.kind is Kind.MOD]
-        verbs = [t for t in words if t.kind in (Kind.FINITE, Kind.PARTICIPLE, Kind.ING, Kind.V) and t.stem]
-        helpers = [t for t in words if t.kind is Kind.AUX]
-        return cls(part, [n for n in part.children if not is_a(n, "predicate")], rest, verbs, helpers)
+        self.part = part
+        self.subject = [n for n in part.children if not is_a(n, "predicate")]
+        self.rest = [n for n in predicate if not isinstance(n, Leaf) or n.source.kind is Kind.MOD]
+        self.verbs = [t for t in words if t.kind in VERBAL - {Kind.AUX} and t.stem]
+        self.helpers = [t for t in words if t.kind is Kind.AUX]
 
     @property
     def complement(self) -> bool:
@@ -63,18 +54,15 @@ class Saying:
         return bool(self.helpers) and not (self.verbs or self.complement)
 
     def asks(self) -> bool:
-        """Tell whether it says what shall be: a duty, "belongs", "would like"."""
+        """Return whether it demands a state: a duty, "belongs", "would like"."""
         words = [*self.verbs, *self.helpers]
         modal = any(t.text in section("modals") for t in words)
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
         settled = section("belonging") | section("staying")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
-        return wished or placed or (any(t.text in section("duties") for t in words) and not self._about_somebody())
-
-    def _about_somebody(self) -> bool:
-        """Tell whether its subject is somebody who is not asked: "we have guests"."""
-        subject = [t.text.partition("'")[0] for node in self.subject for t in leaves(node)]
-        return bool(subject) and section("tellers").issuperset(subject)
+        subject = {t.text.partition("'")[0] for node in self.subject for t in leaves(node)}
+        somebody = bool(subject) and subject <= section("tellers")  # "we have guests"
+        return wished or placed or (any(t.text in section("duties") for t in words) and not somebody)
 
     def clauses(self, attach: Attach) -> list[ClauseDraft]:
         """Return what it says."""
@@ -90,12 +78,12 @@ class Saying:
         return [self._owned(attach) if owned else self._state(attach)]
 
     def _owns(self, verbs: Sequence[Token]) -> bool:
-        """Tell whether a thing has, or shall have, something: "the cup gets some milk"."""
+        """Return whether a thing has, or should have, something: "the cup gets some milk"."""
         received = bool(verbs) and verbs[-1].stem in section("receiving") and about_things(self.subject)
         return bool(trees(self.rest, "group")) and (received or (self._helped("having") and not verbs))
 
     def _only_states(self) -> bool:
-        """Tell whether its verb adds nothing to a state: "stays open", "you see a cup"."""
+        """Return whether its verb adds nothing to a state: "stays open", "you see a cup"."""
         last = self.verbs[-1].stem if self.verbs else ""
         if last in section("noticed") and trees(self.rest, "group"):
             self.subject = []  # what you see is there
@@ -103,20 +91,15 @@ class Saying:
         return last in section("becoming") | section("staying") and bool(trees(self.rest, "state"))
 
     def _helped(self, name: str) -> bool:
-        """Tell whether its last auxiliary is in a section of ``words.txt``."""
+        """Return whether its last auxiliary is in a section of ``words.txt``."""
         return bool(self.helpers) and self.helpers[-1].text in section(name)
 
     def _passive(self) -> bool:
-        """Tell whether a participle says in what state its subject is, not what it has done."""
+        """Return whether a participle says in what state its subject is, not what it has done."""
         return self._helped("be") or (not self._helped("having") and about_things(self.subject))
 
-    def draft(self, stem: str) -> ClauseDraft:
-        """Return an empty clause that stands where it stands."""
-        places = spans([self.part]) or [Span(0, 0)]
-        return ClauseDraft(Token(Kind.V, stem, places[0], stem=stem, form="base"), spans=places)
-
     def _state(self, attach: Attach) -> ClauseDraft:
-        draft = self.draft(BE)
+        draft = empty_draft(BE, [self.part])
         named = about_things(self.subject)
         if not named and not about_things(self.rest) and trees([*self.subject, *self.rest], "state", "place"):
             start = min(t.span.start for t in leaves(self.part))
@@ -125,21 +108,20 @@ class Saying:
             draft.verb.form = EXISTS
             self.subject = [n for n in self.subject if not is_a(n, "group")]
         attach(draft, self.subject, self.rest)
-        settings = [t.text for t in draft.folds if t.form == SETTING]
-        if draft.result is None and settings and not draft.landmarks:
-            draft.result = settings[-1]  # "until it is two thirds full"
+        if draft.result is None and draft.settings() and not draft.landmarks:
+            draft.result = draft.settings()[-1]  # "until it is two thirds full"
         return draft
 
     def _done(self, verb: Token, attach: Attach) -> ClauseDraft:
         """*The kettle is filled with water*: a state that a participle names."""
-        draft = self.draft(BE)
+        draft = empty_draft(BE, [self.part])
         attach(draft, self.subject, self.rest)
-        draft.result, draft.verb.lead = verb.text, [verb.stem]
+        draft.result, draft.verb.participle = verb.text, verb.stem
         return draft
 
     def _event(self, verb: Token, attach: Attach) -> ClauseDraft:
         """*The water boils* is what *boil the water* brings about; of *when you take it* only the verb counts."""
-        draft = self.draft(verb.stem)
+        draft = empty_draft(verb.stem, [self.part])
         draft.spans += verb.parts
         named = about_things(self.subject)
         about = self.subject if named else [n for n in self.subject if not is_a(n, "group")]
@@ -148,7 +130,7 @@ class Saying:
 
     def _owned(self, attach: Attach) -> ClauseDraft:
         """*The cup has milk in it*: a state with a relation."""
-        draft = self.draft(BE)
+        draft = empty_draft(BE, [self.part])
         if not about_things(self.subject):
             attach(draft, self.rest, ())
             return draft
@@ -161,8 +143,14 @@ class Saying:
         return draft
 
 
+def empty_draft(stem: str, nodes: Sequence[Node]) -> ClauseDraft:
+    """Return a clause without arguments that stands where some nodes stand."""
+    places = spans(nodes) or [Span(0, 0)]
+    return ClauseDraft(Token(Kind.V, stem, places[0], stem=stem, form="base"), spans=places)
+
+
 def demand(draft: ClauseDraft, *, denied: bool) -> None:
-    """Turn a clause that says what shall be into one that brings it about."""
+    """Turn a clause that demands a state into one that brings it about."""
     verb, none = draft.verb, draft.none()
     verb.stem = pairs("demand_verbs").get(verb.stem, verb.stem)
     if verb.stem in section("wishing") or draft.result in section("welcome"):
@@ -180,8 +168,8 @@ def demand(draft: ClauseDraft, *, denied: bool) -> None:
 
 def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
     verb, result = draft.verb, draft.result or ""
-    if verb.lead:
-        verb.stem, draft.result = verb.lead[0], None  # "should be washed"
+    if verb.participle:
+        verb.stem, draft.result = verb.participle, None  # "should be washed"
         draft.mood = Mood.AVOID if denied or none else None
     elif denied and not none:
         for phrase in draft.direct:
@@ -193,13 +181,13 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
 
 
 def _demand_plainly(draft: ClauseDraft, result: str) -> None:
-    """Give a verb to a state that shall be: "the floor should be clean", "the cup should be on the shelf"."""
-    verb = draft.verb
+    """Give a verb to a demanded state: "the floor should be clean", "the cup should be on the shelf"."""
+    verb, said = draft.verb, {r.relation for r in draft.relations}
     if result in pairs("state_verbs") or result in section("verbs"):
         verb.stem, draft.result = pairs("state_verbs").get(result, result), None
-    elif draft.set_to():
+    elif draft.settings():
         verb.stem, draft.result = SET, None
-    elif not result and draft.places() and not draft.owns():
+    elif not result and WITH not in said and not said.isdisjoint(section("static") | section("arrivals")):
         verb.stem = PUT
 
 
@@ -213,7 +201,7 @@ def name_verb(draft: ClauseDraft) -> None:
         verb.stem = BRING
     elif draft.result is not None:
         verb.stem = BE
-    elif draft.set_to():
+    elif draft.settings():
         verb.stem = SET
 
 
@@ -234,7 +222,7 @@ def described(draft: ClauseDraft, ahead: Sequence[Phrase], node: Tree[Leaf]) -> 
 
 
 def _is_whole(head: Phrase, last: Phrase, draft: ClauseDraft, static: Sequence[Relation]) -> bool:
-    """Tell whether all of a kind are meant, and their place is not where they are to be put."""
+    """Return whether all of a kind are meant, and their place is not where they are to be put."""
     elsewhere = any(r.source in (head.name, last.name) and r.target != last.name for r in static)
     placing = draft.verb.stem in section("placing") and not elsewhere
     return head.said().quantifier is Quantifier.ALL and not head.plural and not placing

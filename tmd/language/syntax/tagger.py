@@ -24,19 +24,18 @@ from tmd.language.lexicon.lexicon import (
     section,
     sections,
     singular,
-    slips,
 )
 from tmd.language.syntax.rows import Conditions, Entry, Test, read_file, section_names
 from tmd.language.syntax.tokens import NAME, Kind, Token, fold
 
 _EDGE = Token(Kind.STOP, "", NOWHERE)
-"""What stands before the first word and behind the last."""
+"""The token before the first word and behind the last."""
 _LONGEST_RUN = 8
 """A pattern has at most so many words."""
 WHEN = "says when, which no state shows"
 _STRETCHED = re.compile(r"(.)\1{2,}")
 """A letter that is written three times or more."""
-_LONG = 5
+ADVERB = 5
 """Longer words that end in *ly* are adverbs."""
 
 
@@ -60,11 +59,11 @@ _NEW = Sentence()
 
 
 class Surroundings:
-    """A word and what stands around it: what a condition looks at.
+    """A word and its surroundings, which conditions look at.
 
     Attributes:
-        left: The token before it that is no adverb, decided.
-        right: The token behind it that is no adverb, with its first class.
+        left: The nearest token before it except adverbs, decided.
+        right: The nearest token behind it except adverbs, with its first class.
         beyond: The one behind that.
         last: The very token before it.
         last2: The one before that.
@@ -90,27 +89,27 @@ class Surroundings:
         self.next = tokens[at + 1] if at + 1 < len(tokens) else _EDGE
 
     def graded(self) -> bool:
-        """Tell whether it is the comparative or superlative of an adjective that is dropped: "dirtiest"."""
+        """Return whether it is the comparative or superlative of an adjective that is dropped: "dirtiest"."""
         root = positive(self.word.text)
         roots = (root, f"{root}e") if root != self.word.text else comparative_root(self.word.text)
         return not section("drop_adjectives").isdisjoint(roots)
 
     def verb_next(self) -> bool:
-        """Tell whether the next word can be nothing but a verb, or is a likely one and the last of its part."""
+        """Return whether the next word can be nothing but a verb, or is a likely one and the last of its part."""
         _, form, strength = self.lexicon.verb(self.right.text) or ("", "", 0)
         return form == "base" and strength >= 2 + (self.beyond.kind not in (Kind.STOP, Kind.COMMA))
 
     def particle(self, verb: Token, particle: Token) -> bool | None:
-        """Tell whether a verb has a particle; ``True`` even before a noun, ``None`` not at all."""
+        """Return whether a verb has a particle; ``True`` even before a noun, ``None`` not at all."""
         return self.lexicon.particle(verb.stem or verb.text, particle.text)
 
     def predicate(self) -> bool:
-        """Tell whether the adjectives before it belong to a verb: "is full"."""
+        """Return whether the adjectives before it belong to a verb: "is full"."""
         before = (t.kind for t in reversed(self.tokens[max(0, self.at - 4) : self.at]))
         return next((kind for kind in before if kind not in (Kind.ADJ, Kind.ADV)), None) is Kind.AUX
 
     def later_verb(self) -> bool:
-        """Tell whether a verb comes later in the same part of the sentence."""
+        """Return whether a verb comes later in the same part of the sentence."""
         for token in self.tokens[self.at + 1 :]:
             if token.kind in (Kind.STOP, Kind.COMMA, Kind.CC):
                 return False
@@ -135,7 +134,7 @@ FEATURES = {f.name: f"w.sentence.{f.name}" for f in fields(Sentence)} | {
     "predicate": "w.predicate()",
     "later-verb": "w.later_verb()",
 }
-"""What conditions may name, as Python over a word, ``w``."""
+"""Names for conditions, as Python over a word, ``w``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,7 +161,7 @@ class ClassRow:
 
 
 class WordClasses:
-    """Everything a file says of classes of words.
+    """The classes of words that a file declares.
 
     Attributes:
         rows: All rows in the order of the file.
@@ -226,7 +225,7 @@ class WordClasses:
 
 @cache
 def classes() -> WordClasses:
-    """Return what ``data/pos.yaml`` says."""
+    """Return the classes of ``data/pos.yaml``."""
     return WordClasses(data_text("pos.yaml"), "pos.yaml")
 
 
@@ -264,7 +263,7 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
             _tag_word(token, lexicon, not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC), trace)
         if token.kind is Kind.NUM and used == 1 and _range(tokens, position, tagged):
             token, used = fold(tokens[position : position + 3], Kind.NUM), 3
-            token.text = token.inner[0].text  # "two or three eggs": as few as will do
+            token.text = tokens[position].text  # "two or three eggs": as few as will do
         tagged.append(token)
         position += used
     trace += [row.id for _, row in _each("things", tagged, lexicon)]
@@ -275,7 +274,7 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
 
 
 def _is_name(tokens: Sequence[Token], at: int) -> bool:
-    """Tell whether a word stands beside an arrow, and is no state ("rope -> shed"), or is a letter ("aisle A")."""
+    """Return whether a word beside an arrow is not a state ("rope -> shed"), or is a letter ("aisle A")."""
     word, beside = tokens[at], tokens[max(at - 1, 0) : at + 2]
     if len(word.text) == 1 and word.capital and beside[-1].kind is not Kind.WORD:
         return True
@@ -328,7 +327,7 @@ def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[ClassRow, T
 
 
 def _run(tokens: list[Token], at: int) -> tuple[ClassRow, Token, int] | None:
-    """Fold what a row has a pattern of: "for about 3 minutes", "to 180 degrees", "at 6 pm"."""
+    """Fold a run that a row has a pattern for: "for about 3 minutes", "to 180 degrees", "at 6 pm"."""
     if not _begins_run(tokens[at].text):
         return None
     words = "".join(f"{token.text.replace(' ', '_')} " for token in tokens[at : at + _LONGEST_RUN])
@@ -355,7 +354,7 @@ def _first_class(word: str) -> ClassRow:
 
 
 def is_number(word: str) -> bool:
-    """Tell whether a word is a number, in figures or in words."""
+    """Return whether a word is a number, in figures or in words."""
     return (word[0].isdigit() and not word.endswith(("st", "nd", "rd", "th"))) or word in section("numbers")
 
 
@@ -377,7 +376,7 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) ->
     token.kind = row.kind
     trace.append(row.id)
     if token.kind is Kind.WORD:
-        if word.endswith("ly") and len(word) > _LONG and not lexicon.is_noun(word):
+        if word.endswith("ly") and len(word) > ADVERB and not lexicon.is_noun(word):
             token.kind = Kind.ADV
         elif token.capital and not lexicon.knows(singular(word)):
             token.form = NAME
@@ -396,7 +395,7 @@ def _spelled(token: Token, lexicon: Lexicon) -> str:
     word = token.text
     if word.endswith("'s") and word not in section("be") | section("whole"):
         word, token.form = word[:-2], "possessive"
-    word = slips().get(word, word).rstrip("'")
+    word = pairs("slips").get(word, word).rstrip("'")
     if _STRETCHED.search(word) and not lexicon.knows(word):  # "pleeease"
         word = _STRETCHED.sub(r"\1", word)
     if word.endswith(sections()["contracted"]):
@@ -406,7 +405,7 @@ def _spelled(token: Token, lexicon: Lexicon) -> str:
 
 
 def _reading(word: str, lexicon: Lexicon) -> tuple[str, str, int] | None:
-    """Return what a word is as a verb; one with a hyphen may end in it."""
+    """Return the reading of a word as a verb; a word with a hyphen may end in one."""
     reading = lexicon.verb(word)
     if reading is None and "_" in word:
         if lexicon.particle(*word.split("_", 1)) is not None:
@@ -452,7 +451,7 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
 
 
 def _ahead(tokens: list[Token]) -> list[tuple[Token, Token]]:
-    """Return the next two tokens behind each that are no adverbs."""
+    """Return the next two tokens behind each, except adverbs."""
     found: list[tuple[Token, Token]] = []
     right = beyond = _EDGE
     for token in reversed(tokens):
@@ -475,7 +474,7 @@ def _decide(word: Surroundings) -> ClassRow | None:
 
 
 def _remember(word: Surroundings, sentence: Sentence) -> None:
-    """Note what a decided word says of the sentence."""
+    """Update the state of the sentence by a decided word."""
     token, kind, terms = word.word, word.word.kind, classes().terms
     if kind in (Kind.SUB, Kind.REL, Kind.PURP):
         if not terms["timed"](word):

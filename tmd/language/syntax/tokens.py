@@ -13,8 +13,8 @@ from enum import StrEnum
 from functools import cache
 from itertools import pairwise, takewhile
 
-from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import pairs, section, sections, sections_of
+from tmd.language.clause import Span, hull
+from tmd.language.lexicon.lexicon import first_of, pairs, section, sections, sections_of
 
 
 class Kind(StrEnum):
@@ -47,7 +47,7 @@ class Kind(StrEnum):
     ING = "ING"
     PARTICIPLE = "PARTICIPLE"
     FINITE = "FINITE"
-    """A verb with a subject of its own, inside a folded span or a statement."""
+    """A verb with its own subject, inside a folded span or a statement."""
     SUBJECT = "SUBJECT"
     NEG = "NEG"
     SUB = "SUB"
@@ -60,11 +60,11 @@ class Kind(StrEnum):
     FILLER = "FILLER"
 
     STATE = "STATE"
-    """A state that something is in or shall be in: "leave it open"."""
+    """A state that something is in or should be in: "leave it open"."""
     EXC = "EXC"
     """Opens an exception."""
     WITHOUT = "WITHOUT"
-    """Opens what shall be avoided on the way: "without spilling it"."""
+    """Opens what must be avoided on the way: "without spilling it"."""
     SAY = "SAY"
     """Opens a statement."""
     END = "END"
@@ -74,7 +74,7 @@ class Kind(StrEnum):
 
 
 IMPLIED = "implied"
-"""The form of a verb that was not said: "A glass of milk, please."."""
+"""The form of a verb that the text leaves out: "A glass of milk, please."."""
 NAME = "name"
 """The form of a word of no list that is written with a capital."""
 
@@ -93,12 +93,11 @@ class Token:
         parts: Further places that belong to it (the particle of a split verb).
         note: Why it is skipped.
         capital: Written with a capital where other words are not: a name.
-        inner: The tokens a fold was made of.
-        lead: The determiners, numerals and adjectives before a noun; for a verb, the word for the state it asks for.
+        participle: For a verb *be*: the stem of the participle behind it.
         sentence: The number of the sentence that a verb stands in.
         otherwise: For a verb: "otherwise" stands before it.
         heading: For a verb: what follows a colon says how it is done.
-        told: For a verb: its subject is not the one who is asked.
+        told: For a verb: its subject is not the addressee.
         negated: For the opener of a subordinate clause: a negation stands in it.
         first: Its class and form by lists, before its neighbours decided.
         arrow: Written as an arrow.
@@ -113,8 +112,7 @@ class Token:
     parts: list[Span] = field(default_factory=list)
     note: str = ""
     capital: bool = False
-    inner: list[Token] = field(default_factory=list)
-    lead: list[str] = field(default_factory=list)
+    participle: str = ""
     sentence: int = 0
     otherwise: bool = False
     heading: bool = False
@@ -140,12 +138,13 @@ _KINDS = {
 _AMPERSAND = "&amp;"
 MARKUP = "a sign, not a word"
 """Why HTML, entities and pictures are skipped."""
+ADDRESS = "addresses somebody"
 _RUN = 3
 """Repeated runs of at least this many words are slips."""
 _LONGEST_RUN = 120
 
 _UNSEEN = {0x2019: "'"} | dict.fromkeys((0xAD, 0x200B, 0x200C, 0x200D, 0x2060, 0xFEFF))
-"""Signs that only a printer sees, such as a soft hyphen, are no part of a word."""
+"""Invisible signs, such as a soft hyphen, do not belong to a word."""
 _UNITS = frozenset("%°")
 _LONG_WORD = 60
 _LABEL = 4
@@ -181,7 +180,7 @@ def tokenise(text: str) -> list[Token]:
 
 def _units(tokens: list[Token]) -> None:
     """Set aside the sign of a unit behind no number."""
-    for before, token in pairwise([Token(Kind.STOP, "", Span(0, 0)), *tokens]):
+    for before, token in pairwise([mark(Kind.STOP, 0), *tokens]):
         if token.text in _UNITS and before.kind is not Kind.NUM:
             token.kind, token.note = Kind.SKIP, MARKUP
 
@@ -192,11 +191,10 @@ def _labelled(tokens: list[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         if token.text == ":" and token.kind is Kind.STOP:
             ahead = _until_sign(tokens[at + 1 : at + 1 + _NOTE])
-            before = _until_sign(reversed(tokens[max(at - _NOTE, 0) : at]))
-            if 0 < len(before) <= _LABEL and any(t.arrow for t in ahead):
-                found.append(replace(token, kind=Kind.WORD, text=sections()["arrows"][1], arrow=True))
-                continue
-            if 0 < len(before) <= _LABEL and 0 < len(ahead) <= 2 and ahead[-1].text in section("noted_states"):
+            label = 0 < len(_until_sign(reversed(tokens[max(at - _NOTE, 0) : at]))) <= _LABEL
+            if label and any(t.arrow for t in ahead):
+                token = replace(token, kind=Kind.WORD, text=sections()["arrows"][1], arrow=True)
+            elif label and 0 < len(ahead) <= 2 and ahead[-1].text in section("noted_states"):
                 continue
         found.append(token)
     return found
@@ -225,7 +223,7 @@ def _token(match: re.Match[str]) -> Token:
         return Token(kind, word, span, note=MARKUP)
     if match.lastgroup == "abbr":
         short = pairs("written_signs").get(word)
-        return Token(kind, short or sections()["arrows"][0], span, arrow=short is None)
+        return Token(kind, short or first_of("arrows"), span, arrow=short is None)
     word = word[:_LONG_WORD]
     if kind is Kind.NUM:
         word = word.replace(",", ".")  # a name of a thing has no comma
@@ -286,14 +284,15 @@ def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
         key = tuple(words[position : position + _RUN])
         length = position - last_seen.get(key, position)
         last_seen[key] = position
-        if not _repeats(words, position, length):
+        run = _RUN <= length <= _LONGEST_RUN
+        if not run or words[position - length : position] != words[position : position + length]:
             length = 2 if _doubled(tokens, position) else 0
         if not length and kept and token.kind is Kind.WORD is kept[-1].kind and kept[-1].text == token.text:
             length = 1
         dropped += tokens[position : position + length]
         kept += [] if length else [token]
         position += length or 1
-    return kept, dropped
+    return kept, noted(dropped, "repeats what was just said")
 
 
 def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
@@ -302,30 +301,27 @@ def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
     Returns:
         The tokens that stay and the tokens removed.
     """
-    kept: list[Token] = []
+    gone: set[int] = set()
     dropped: list[Token] = []
-    position = 0
-    while position < len(tokens):
-        words = [t.text for t in tokens[position : position + 4]]
-        end = 1 + (words[1:2] == [sections()["address"][0]]) if tokens[position].kind is Kind.COMMA else len(words)
-        ended = end + 1 < len(words) and tokens[position + end + 1].kind in (Kind.COMMA, Kind.STOP)
-        last = position + end + 1 == len(tokens)
-        if end < len(words) and words[end] in section("endearments") and (ended or last):
-            dropped += tokens[position + 1 : position + end + 1]
-            position += end + 1 + (ended and tokens[position + end + 1].kind is Kind.COMMA)
-        else:
-            kept.append(tokens[position])
-            position += 1
-    return kept, dropped
+    for at, token in enumerate(tokens):
+        begin = at - (at > 0 and tokens[at - 1].text == first_of("address"))
+        opened = begin > 0 and tokens[begin - 1].kind is Kind.COMMA and id(tokens[begin - 1]) not in gone
+        after = tokens[at + 1].kind if at + 1 < len(tokens) else Kind.STOP
+        if token.text in section("endearments") and opened and after in (Kind.COMMA, Kind.STOP):
+            dropped += tokens[begin : at + 1]
+            gone.update(map(id, tokens[begin - 1 : at + 1 + (after is Kind.COMMA)]))  # without the commas
+    return [token for token in tokens if id(token) not in gone], noted(dropped, ADDRESS)
 
 
-def _repeats(words: list[str], at: int, length: int) -> bool:
-    """Tell whether so many words from here on are those before."""
-    return _RUN <= length <= _LONGEST_RUN and words[at - length : at] == words[at : at + length]
+def noted(tokens: list[Token], note: str) -> list[Token]:
+    """Return tokens with the reason for which they are set aside."""
+    for token in tokens:
+        token.note = note
+    return tokens
 
 
 def _doubled(tokens: list[Token], at: int) -> bool:
-    """Tell whether two words come twice: "in the in the"."""
+    """Return whether two words come twice: "in the in the"."""
     pair, after = tokens[at : at + 2], [token.text for token in tokens[at + 2 : at + 4]]
     texts = [token.text for token in pair]
     return texts == after and len(set(texts)) == 2 and all(token.kind is Kind.WORD for token in pair)
@@ -333,8 +329,7 @@ def _doubled(tokens: list[Token], at: int) -> bool:
 
 def fold(tokens: list[Token], kind: Kind, joint: str = "_", form: str = "") -> Token:
     """Make one token of a run."""
-    span = Span(min(t.span.start for t in tokens), max(t.span.end for t in tokens))
-    return Token(kind, joint.join(t.text for t in tokens), span, form=form, inner=tokens)
+    return Token(kind, joint.join(t.text for t in tokens), hull(t.span for t in tokens), form=form)
 
 
 # -- patterns over the classes of words --------------------------------------------------------------------------------
@@ -386,15 +381,15 @@ class Words:
         return self.tokens[at].kind if 0 <= at < len(self.tokens) else K.STOP
 
     def among(self, at: int, *names: str) -> bool:
-        """Tell whether the word at a place is in one of these sections of ``words.txt``."""
+        """Return whether the word at a place is in one of these sections of ``words.txt``."""
         return 0 <= at < len(self.tokens) and not sections_of(self.tokens[at].text).isdisjoint(names)
 
     def stem_among(self, at: int, *names: str) -> bool:
-        """Tell whether the stem of the word at a place is in one of these sections of ``words.txt``."""
+        """Return whether the stem of the word at a place is in one of these sections of ``words.txt``."""
         return 0 <= at < len(self.tokens) and not sections_of(self.tokens[at].stem).isdisjoint(names)
 
     def follows(self, at: int, pattern: str) -> bool:
-        """Tell whether a pattern of classes matches from a place."""
+        """Return whether a pattern of classes matches from a place."""
         return _compiled(pattern).match(self._codes, at) is not None
 
     def past(self, at: int, pattern: str) -> int:
@@ -405,6 +400,11 @@ class Words:
     def peek(self, at: int, skip: str = "IDLE*") -> int:
         """Return the place of the next word behind ``at`` that is none of those to skip."""
         return self.past(at + 1, skip)
+
+    def asked(self, at: int) -> bool:
+        """Return whether the sentence of a place ends with a question mark."""
+        end = self.first(at, "STOP")
+        return end < len(self.tokens) and "?" in self.tokens[end].text
 
     def first(self, at: int, pattern: str) -> int:
         """Return the first place from ``at`` on where a pattern matches; the end where there is none."""
@@ -419,5 +419,5 @@ def _name(token: Token) -> str:
 
 
 def mark(kind: Kind, at: int) -> Token:
-    """Return a token of a class that no word stands for, at a place of the text."""
+    """Return a token without a word, of a class, at a place of the text."""
     return Token(kind, "", Span(at, at))

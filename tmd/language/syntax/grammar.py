@@ -1,12 +1,26 @@
-"""Give each comma and conjunction its class: between nouns or states, verbs, parts of a clause, or units."""
+"""The clause grammar (``clauses.lark``): its terminals, the parser, and its trees.
+
+:class:`Linker` gives each comma and conjunction its class: between nouns or states, verbs, parts of a clause, or units.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from functools import cache
+from importlib.resources import files
+from typing import TypeGuard
+
+from lark import Lark, Tree
+from lark import Token as LarkToken
+from lark.exceptions import UnexpectedInput
+
+from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import section
 from tmd.language.syntax.brackets import ALONE, ALSO
 from tmd.language.syntax.tokens import HEADS, LINKS, NP, OPENERS, VERBAL, Kind, Token, Words
 
 K = Kind
+UNEXPECTED = "does not fit into a clause here"
 CHOICE = "choice"
 """The form of what "or" joins to what stands before it."""
 _FOLLOWERS = {K.CONJ: NP | {K.STATE}, K.VCC: VERBAL, K.LINK: NP | VERBAL | OPENERS | {K.STATE, K.P, K.MOD, K.EXC}}
@@ -100,8 +114,6 @@ class Linker(Words):
 
     def _between_things(self, before: Kind, after: Kind, end: int) -> Kind | None:
         """Classify a link between things or states: "a cup and a mug", "TV on, lamp off"."""
-        if before is K.STATE and after is K.STATE:
-            return K.CONJ
         if after not in NP:
             return None
         if before is K.END and not self._fronted and self.follows(end, "(NP|OF)+ P"):
@@ -116,7 +128,7 @@ class Linker(Words):
         return K.SEP if apart else K.CONJ
 
     def _state_of_its_own(self, at: int) -> bool:
-        """Tell whether a thing with its state follows: "… in the chest, and the lid closed"; not "leave both open"."""
+        """Return whether a thing with its state follows: "… in the chest, the lid closed"; not "leave both open"."""
         unit = self._unit()
         shared = any(t.kind is K.V and t.stem in section("result_verbs") for t in unit)
         shared = shared and not any(t.kind in (K.STATE, K.P) for t in unit)
@@ -141,14 +153,14 @@ class Linker(Words):
         return self.out[start:]
 
     def _place_in_front(self) -> bool:
-        """Tell whether only a prepositional phrase has come."""
+        """Return whether only a prepositional phrase has come."""
         unit = self._unit()
         return bool(unit) and unit[0].kind in (K.P, K.EXC)
 
     def _named(self, *, joined: bool) -> bool:
-        """Tell whether the open unit asks for something: "a glass of milk, and shut the fridge".
+        """Return whether the open unit asks for something: "a glass of milk, and shut the fridge".
 
-        Where nothing joins it to what follows, it says where or how something shall be: "eggs in the pot, boil".
+        Where nothing joins it to what follows, it adds a place or a state: "eggs in the pot, boil".
         """
         behind = named = False
         for token in self._unit():
@@ -159,7 +171,7 @@ class Linker(Words):
         return False
 
     def _condition_of_next(self, at: int) -> bool:
-        """Tell whether a condition belongs to the verb behind it: "take the cup and, if it is dirty, wash it"."""
+        """Return whether a condition belongs to the verb behind it: "take the cup and, if it is dirty, wash it"."""
         depth = 0
         for place in range(at, len(self.tokens)):
             depth += (self.kind(place) in OPENERS) - (self.kind(place) is K.END)
@@ -168,7 +180,7 @@ class Linker(Words):
         return False
 
     def _verbless(self, at: int) -> bool:
-        """Tell whether two parts without verbs are joined: "milk in the cup, sugar in the bowl"."""
+        """Return whether two parts without verbs are joined: "milk in the cup, sugar in the bowl"."""
         said = [t for t in self._unit() if t.kind in (K.P, K.STATE)] if self._fronted else []
         together = bool(said) and said[-1].text in section("with_words")  # "a tea with milk and sugar in a mug"
         return bool(said) and not together and self.follows(at, "(NP|OF|MOD|EXC|ADV)* (P|STATE)")
@@ -186,3 +198,66 @@ class Linker(Words):
                 continue
             backwards.append(token)
         return backwards[::-1]
+
+
+# -- the parser and its trees ----------------------------------------------------------------------------------------
+
+
+@cache
+def _parser() -> Lark:
+    """Return the parser, which is fed token by token."""
+    grammar = (files("tmd.language.syntax") / "clauses.lark").read_text(encoding="utf-8")
+    return Lark(grammar, start="text", parser="lalr")
+
+
+class Leaf(LarkToken):
+    """A lark token that carries ours."""
+
+    __slots__ = ("source",)
+    source: Token
+
+
+Node = Tree[Leaf] | Leaf
+
+
+def parse_tokens(tokens: list[Token]) -> Tree[Leaf]:
+    """Parse the terminals of the grammar. A token that cannot follow is noted and left out. Linear."""
+    parser, fed = _parser().parse_interactive(""), []
+    for token in tokens:
+        leaf = Leaf(token.kind.value, token.text)
+        leaf.source = token
+        try:
+            parser.feed_token(leaf)
+            fed.append(token)
+        except UnexpectedInput:
+            token.note = token.note or UNEXPECTED
+    try:
+        tree: Tree[Leaf] = parser.feed_token(LarkToken("$END", ""))
+    except UnexpectedInput:
+        fed[-1].note = UNEXPECTED  # "the small" at the end of a text, and no noun
+        return parse_tokens(fed[:-1])
+    return tree
+
+
+def leaves(node: Node) -> Iterator[Token]:
+    """Yield the tokens under a node, in order."""
+    if isinstance(node, Leaf):
+        yield node.source
+    else:
+        for child in node.children:
+            yield from leaves(child)
+
+
+def is_a(node: Node, *names: str) -> TypeGuard[Tree[Leaf]]:
+    """Return whether a node is a rule of one of these names."""
+    return isinstance(node, Tree) and node.data in names
+
+
+def trees(nodes: Sequence[Node], *names: str) -> list[Tree[Leaf]]:
+    """Return those of the nodes that are rules of one of these names."""
+    return [n for n in nodes if is_a(n, *names)]
+
+
+def spans(nodes: Sequence[Node]) -> list[Span]:
+    """Return the places of the words under some nodes, with those that belong to them."""
+    return [span for node in nodes for token in leaves(node) for span in (token.span, *token.parts)]

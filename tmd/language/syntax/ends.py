@@ -1,0 +1,124 @@
+"""Lookahead of the brackets: where clauses, statements and prohibitions end.
+
+The classes of the words ahead decide; nothing is changed here.
+"""
+
+from __future__ import annotations
+
+from tmd.language.syntax.tokens import BREAKS, LINKS, Kind, Words
+
+K = Kind
+
+
+class ClauseEnds(Words):
+    """The words of a text, with the ends of the clauses that begin at a place."""
+
+    def _statement_end(self, at: int) -> int:
+        """Return where a statement ends whose finite verb stands at ``at``."""
+        end = self.peek(at, "(IDLE|AUX|SUBJECT|NEG|TO|INF)*")
+        end += self.kind(end) is K.V
+        while self.kind(end) is not K.STOP:
+            deed = self.kind(end) is K.V and self.kind(end - 1) not in (K.TO, K.AUX, K.NEG)
+            # "such a draught that I'll catch a cold", "they are getting warm"
+            deed = deed and not (self.among(end - 1, "self_forms") or self.stem_among(end - 1, "becoming"))
+            joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
+            also = self.kind(end) is K.COMMA and self._statement_follows(end)
+            also = also or (self.kind(end) in LINKS and self._is_reason(end + 1))
+            then = self.among(end, "then_words") and self.kind(end) in LINKS
+            if deed or joint or also or then or self.follows(end, "SUB|ENSURE|PURP"):
+                break
+            end += 1
+        return end
+
+    def _statement_follows(self, at: int) -> bool:
+        """Return whether a subject with its finite verb stands behind a comma or a conjunction."""
+        return self.follows(at + 1, "(NP|OF|IDLE|CC|EXC)* (HEAD|NUM) (NP|OF|IDLE|CC|EXC)* (AUX|FINITE)")
+
+    def _clause_end(self, at: int) -> int:
+        """Return where the subordinate clause that opens at ``at`` ends."""
+        finite, end = False, at + 1
+        while not (self.follows(end, "STOP|COMMA|ENSURE|LET") or self.among(end, "then_words")):
+            deed = self.kind(end) is K.V and end > at + 1
+            free = self.kind(end - 1) not in (K.AUX, K.TO, K.NEG) and (finite or self.kind(end - 1) is not K.SUBJECT)
+            if (deed and free) or self.follows(end, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)"):
+                break
+            if finite and self.follows(end, "SUB|PURP|SUBJECT IDLE* AUX"):
+                break
+            if self.among(end, "by_words") and self.kind(end + 1) is K.ING:
+                break
+            finite = finite or deed or self.follows(end, "FINITE|AUX|ING|PARTICIPLE|ADJ")
+            end += 1
+        return end
+
+    def _relative_end(self, at: int) -> int:
+        """End a relative clause where the main clause goes on: "the chair that stands there to the desk"."""
+        verb = said = False
+        for place in range(at + 1, self._clause_end(at)):
+            if verb and (self.kind(place) is K.CC or (said and self.follows(place, "FINITE|AUX"))):
+                return place  # "everything that is empty | goes in the bin"
+            if self.follows(place, "INF AUX") or self._goes_on(at, place, verb=verb, said=said):
+                return place
+            said = said or (verb and (self.follows(place, "HEAD|ADJ") or self.among(place, "there_words")))
+            verb = verb or self.follows(place, "FINITE|AUX|PARTICIPLE")
+        return self._clause_end(at)
+
+    def _goes_on(self, at: int, place: int, *, verb: bool, said: bool) -> bool:
+        """Return whether a preposition belongs to the main clause again."""
+        if not self.follows(place, "P|TO|EXC"):
+            return False
+        state = self.kind(place - 1) is K.ADJ  # "the bottles that are empty | in the bag"
+        inner = self.follows(place - 2, "P PRON")  # "the cup that has water in it | in the sink"
+        owns = said and self.among(at + 1, "having") and self.kind(place + 1) is not K.PRON
+        away = said and self.among(place, "arrivals", "origins") and not self.among(place, "static")
+        return self.kind(place) is K.EXC or owns or (verb and (state or inner or away))
+
+    def _negation_end(self, at: int) -> int:
+        """Return where a prohibition ends of which the deed, or the thing, stands at ``at``."""
+        deed, end = self.kind(at) in (K.V, K.LET, K.ING), at
+        while self.kind(end) is not K.STOP:
+            contrast = self.among(end, "contrasts") or self.kind(end) is K.COMMA
+            if contrast and self.follows(end + 1, "IDLE* (V|SUBJECT|SUB|NP|P|TO|INF)"):
+                break
+            tells = self.kind(end) is K.SUBJECT and self.among(end, "tellers") and end > at
+            run_on = tells or (self.follows(end - 1, "(HEAD|STATE) V") and self.tokens[end].strength == 3)
+            if run_on or (not deed and self.follows(end, "INF|SUB|PURP|V")):
+                break  # "the saw, not the axe, to cut it"
+            end += 1
+        return end
+
+    def _is_reason(self, at: int) -> bool:
+        """Return whether what stands before is the reason of what follows: "so", but not "so does the mug"."""
+        asks = self.among(at + 1, "frame_modals") and self.among(at + 2, "addressee", "tellers")
+        return self.among(at, "reasoning") and (asks or not self.follows(at + 1, "AUX NP"))
+
+    def _too(self, at: int) -> bool:
+        """Return whether a noun phrase with "too" or "also" stands from a place on, and nothing else."""
+        begin = self.past(at, "IDLE*")
+        end = self.past(begin, "NP+")
+        ahead = any(self.among(i, "also_words") for i in range(at, begin)) and self.kind(end) in BREAKS
+        return end > begin and (ahead or (self.among(end, "also_words") and self.follows(end + 1, "IDLE* BREAK")))
+
+    def _is(self, at: int, verb: int) -> bool:
+        """Return whether a form of *be* stands between a subject and its predicate."""
+        return any(self.kind(i) is K.AUX and self.among(i, "be") for i in range(at + 1, verb))
+
+    def _reports(self, at: int, verb: int, *, past: bool) -> bool:
+        """Return whether a clause reports: "they left it open", "he never puts them away", "they are getting warm"."""
+        denied = self.follows(at + 1, "IDLE* NEG IDLE* (V|N)")
+        progressive = self.kind(verb) is K.ING and self._is(at, verb)
+        return denied or progressive or (past and verb == self.peek(at))
+
+    def _unneeded(self, at: int, deed: int) -> bool:
+        """Return whether a negation says that a deed need not be done: "no need to wash it", "don't bother"."""
+        if self.stem_among(deed, "caring"):
+            return True  # "I don't care if it is old"
+        helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
+        idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
+        return self.among(at, "needless") or helped or idle
+
+    def _causes(self, at: int) -> bool:
+        """Return whether a verb only brings another one about: "make it play", "make close the door"."""
+        end = self.past(at + 1, "(NP|IDLE|OF)*")
+        if self.kind(end) is not K.V or self.tokens[end].form != "base" or self.tokens[end].strength < 3:
+            return False
+        return end == at + 1 or self.follows(end + 1, "IDLE* (BREAK|P|SUB)")
