@@ -20,25 +20,24 @@ from dataclasses import dataclass, field, replace
 
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.table import (
-    FIRST,
     MARK,
     RELATION,
-    WAS,
     GoalRow,
+    placed_in,
+    read_formula,
     read_pattern,
     read_row,
     read_row_condition,
     slot_types,
+    slot_variables,
+    split_predicate,
+    subformulas,
 )
 from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, SharedPredicate
-from tmd.pddl.model import Domain, Formula, hierarchy
+from tmd.pddl.model import Atom, Domain, Equals, Exists, Forall, Formula, free_variables, hierarchy, with_parts
 from tmd.pddl.reading.checking import check_condition
-from tmd.pddl.reading.formulas import read_condition
-from tmd.pddl.reading.syntax import Group, Node, Source, Word, nearest, parse, read_text, split_lines
+from tmd.pddl.reading.syntax import nearest, parse, read_text, split_lines
 from tmd.pddl.writer import format_formula
-
-_OPERATORS = frozenset({"and", "or", "not", "imply", "=", WAS, FIRST})
-_QUANTIFIERS = ("forall", "exists")
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,7 +166,7 @@ class _Translation:
         self._types = {
             name: next((kind for kind in kinds if known.known(kind)), None) for name, kinds in base.types.items()
         }
-        self._fit: dict[tuple[SharedPredicate, Declared], bool] = {}
+        self._fitting: dict[tuple[SharedPredicate, Declared], Formula | None] = {}
 
     def rows(self, entry: Declared) -> tuple[list[GoalRow], str]:
         """Return a row in the predicates of the domain, or the reason why there is none.
@@ -175,13 +174,13 @@ class _Translation:
         Where it applies with some prepositions only, there is a row for each of them.
         """
         try:
-            return [self._row(entry)], ""
+            return [read_row(entry, self._domain, translate=self._translated)], ""
         except TmdError as error:
             reason = error.message
         found = []
         for one in _with_one_preposition(entry):
             try:
-                found.append(self._row(one))
+                found.append(read_row(one, self._domain, translate=self._translated))
             except TmdError:
                 continue
         return found, reason
@@ -189,51 +188,30 @@ class _Translation:
     def adjective(self, entry: Declared) -> tuple[Formula | None, str]:
         """Return the condition of an adjective in the predicates of the domain, or the reason why there is none."""
         try:
-            return read_row_condition(self._translated(entry), {"?x"}, self._domain), ""
+            return read_row_condition(entry, {"?x"}, self._domain, self._translated), ""
         except TmdError as error:
             return None, error.message
 
-    def _row(self, entry: Declared) -> GoalRow:
-        return read_row(self._translated(entry), self._domain)
-
-    def _translated(self, entry: Declared) -> Declared:
-        """Return an entry over the predicates of the domain.
+    def _translated(self, formula: Formula) -> Formula:
+        """Return a condition over the predicates of the domain.
 
         Raises:
             TmdError: The domain has nothing for one of the shared predicates or types.
         """
-        document = parse(entry.condition, "")
-        return replace(entry, condition=_text(self._node(document.groups[0])))
+        if isinstance(formula, Atom):
+            return self._shared(formula)
+        return with_parts(self._typed(formula), self._translated)
 
-    def _node(self, node: Node) -> Node:
-        if isinstance(node, Word):
-            return node
-        if node.head in _OPERATORS:
-            return replace(node, parts=(node.parts[0], *(self._node(part) for part in node.parts[1:])))
-        if node.head in _QUANTIFIERS:
-            typed, *rest = node.parts[1:]
-            parts = (node.parts[0], self._typed(typed), *(self._node(part) for part in rest))
-            return replace(node, parts=parts)
-        return self._shared(node)
+    def _typed(self, formula: Formula) -> Formula:
+        """Replace the types of a quantifier's variables."""
+        if not isinstance(formula, Forall | Exists):
+            return formula
+        parameters = (replace(p, types=tuple(map(self._type, p.types))) for p in formula.parameters)
+        return replace(formula, parameters=tuple(parameters))
 
-    def _with_types(self, node: Node) -> Node:
+    def _with_types(self, formula: Formula) -> Formula:
         """Replace the types of all quantifiers of a condition."""
-        if isinstance(node, Word):
-            return node
-        parts = [self._with_types(part) for part in node.parts]
-        if node.head in _QUANTIFIERS and len(parts) > 1:
-            parts[1] = self._typed(parts[1])
-        return replace(node, parts=tuple(parts))
-
-    def _typed(self, node: Node) -> Node:
-        """Replace the types of a list of variables."""
-        if isinstance(node, Word):
-            return node
-        parts = []
-        for before, part in zip((None, *node.parts), node.parts, strict=False):
-            of_type = isinstance(before, Word) and before.text == "-" and isinstance(part, Word)
-            parts.append(replace(part, text=self._type(part.text)) if of_type and isinstance(part, Word) else part)
-        return replace(node, parts=tuple(parts))
+        return with_parts(self._typed(formula), self._with_types)
 
     def _type(self, name: str) -> str:
         found = self._types.get(name, name)
@@ -242,52 +220,53 @@ class _Translation:
             raise TmdError(f"this domain has no type for '{name}' ({kinds})")
         return found
 
-    def _shared(self, node: Group) -> Node:
+    def _shared(self, atom: Atom) -> Formula:
         """Replace an atom over a shared predicate by the first of its conditions that the domain has."""
-        arguments = tuple(part.text for part in node.parts[1:] if isinstance(part, Word))
+        name, operator = split_predicate(atom.predicate)
         tried: list[SharedPredicate] = []
         for predicate in self._base.predicates:
-            if predicate.name != node.head or not _matches(predicate, arguments):
+            if predicate.name != name or not _matches(predicate, atom.terms):
                 continue
             if any(_shadows(other, predicate) for other in tried):
                 continue
             for form in predicate.forms:
-                if self._has(predicate, form):
-                    return self._with_types(_substituted(predicate, form, arguments))
+                condition = self._condition(predicate, form)
+                if condition is not None:
+                    given = dict(zip(predicate.terms, atom.terms, strict=True))
+                    return _substituted(condition, given, predicate.name, operator)
             tried.append(predicate)
         conditions = " | ".join(" ".join(form.condition.split()) for predicate in tried for form in predicate.forms)
-        raise TmdError(f"this domain has nothing for ({node.head} {' '.join(arguments)}): {conditions or 'none'}")
+        raise TmdError(f"this domain has nothing for ({name} {' '.join(atom.terms)}): {conditions or 'none'}")
 
-    def _has(self, predicate: SharedPredicate, form: Declared) -> bool:
-        """Return whether the domain has the predicate of a shared condition, with arguments of its types."""
-        if (predicate, form) not in self._fit:
-            variables = {term for term in predicate.terms if term.startswith("?")}
+    def _condition(self, predicate: SharedPredicate, form: Declared) -> Formula | None:
+        """Return a condition of a shared predicate; ``None`` where the domain lacks what it speaks of."""
+        if (predicate, form) not in self._fitting:
             try:
-                node = self._with_types(parse(form.condition, "").groups[0])
-                formula = read_condition(_present(node), Source("", ()))
-                self._fit[predicate, form] = not check_condition(formula, variables, self._domain)
+                found = self._with_types(read_formula(form))
+                faults = check_condition(_present(found), _variables(predicate), self._domain)
+                self._fitting[predicate, form] = None if faults else found
             except TmdError:
-                self._fit[predicate, form] = False
-        return self._fit[predicate, form]
+                self._fitting[predicate, form] = None
+        return self._fitting[predicate, form]
 
 
-def _present(node: Node) -> Node:
+def _variables(predicate: SharedPredicate) -> set[str]:
+    return {term for term in predicate.terms if term.startswith("?")}
+
+
+def _present(formula: Formula) -> Formula:
     """Return a condition without ``was`` and ``first``."""
-    if isinstance(node, Word):
-        return node
-    if node.head in (WAS, FIRST) and len(node.parts) == 2:
-        return _present(node.parts[1])
-    return replace(node, parts=tuple(_present(part) for part in node.parts))
+    if isinstance(formula, Atom):
+        return replace(formula, predicate=split_predicate(formula.predicate)[0])
+    return with_parts(formula, _present)
 
 
 def _shadows(first: SharedPredicate, second: SharedPredicate) -> bool:
     """Return whether ``first`` is declared for the same arguments in a file nearer to the domain, and replaces it."""
     places = first.location, second.location
     other = places[0] is not None and places[1] is not None and places[0].file != places[1].file
-    same = [a if not a.startswith("?") else "?" for a in first.terms] == [
-        b if not b.startswith("?") else "?" for b in second.terms
-    ]
-    return other and same
+    one, two = (["?" if term.startswith("?") else term for term in each.terms] for each in (first, second))
+    return other and one == two
 
 
 def _matches(predicate: SharedPredicate, arguments: Sequence[str]) -> bool:
@@ -297,18 +276,27 @@ def _matches(predicate: SharedPredicate, arguments: Sequence[str]) -> bool:
     return all(term.startswith("?") or term == said for term, said in zip(predicate.terms, arguments, strict=True))
 
 
-def _substituted(predicate: SharedPredicate, form: Declared, arguments: Sequence[str]) -> Node:
-    """Return a condition with its variables replaced; those that it binds itself get names of their own."""
-    given = dict(zip(predicate.terms, arguments, strict=True))
+def _substituted(formula: Formula, given: Mapping[str, str], name: str, operator: str) -> Formula:
+    """Return the condition of a shared predicate with its arguments, under ``was`` or ``first``.
 
-    def changed(node: Node) -> Node:
-        if isinstance(node, Group):
-            return replace(node, parts=tuple(changed(part) for part in node.parts))
-        if node.text.startswith("?"):
-            return replace(node, text=given.get(node.text, f"{node.text}_{predicate.name}"))
-        return node
+    Variables that it binds itself get the name of the predicate at their ends.
+    """
 
-    return changed(parse(form.condition, "").groups[0])
+    def term(old: str) -> str:
+        return given.get(old, f"{old}_{name}") if old.startswith("?") else old
+
+    def changed(part: Formula) -> Formula:
+        match part:
+            case Atom(predicate, terms):
+                marked = f"{predicate}{MARK}{operator}" if operator and MARK not in predicate else predicate
+                return replace(part, predicate=marked, terms=tuple(map(term, terms)))
+            case Equals(left, right):
+                return Equals(term(left), term(right))
+            case Forall(parameters) | Exists(parameters):
+                part = replace(part, parameters=tuple(replace(p, name=term(p.name)) for p in parameters))
+        return with_parts(part, changed)
+
+    return changed(formula)
 
 
 def _with_one_preposition(entry: Declared) -> Iterator[Declared]:
@@ -320,12 +308,6 @@ def _with_one_preposition(entry: Declared) -> Iterator[Declared]:
             for name in names:
                 pattern = " ".join((*words[:place], name, *words[place + 1 :]))
                 yield replace(entry, pattern=pattern, condition=entry.condition.replace(RELATION, name))
-
-
-def _text(node: Node) -> str:
-    if isinstance(node, Word):
-        return node.text
-    return f"({' '.join(_text(part) for part in node.parts)})"
 
 
 # ---------------------------------------------------------------------- faults
@@ -350,7 +332,15 @@ def faults_of(lexicon: Lexicon, domain: Domain | None = None) -> list[TmdError]:
         found += _entry_faults(entry, base, is_row=True)
     for entry in adjectives:
         found += _entry_faults(entry, base, is_row=False)
+    for fault in found:
+        fault.source = _line(fault.location)
     return found
+
+
+def _line(place: Location | None) -> str | None:
+    """Return the line of a file at a place."""
+    lines = split_lines(read_text(place.file)) if place is not None else ()
+    return lines[place.line - 1] if place is not None and place.line <= len(lines) else None
 
 
 def _of(place: Location | None, lexicon: Lexicon) -> bool:
@@ -364,25 +354,21 @@ def _predicate_faults(
 
     In a domain those of its own lexicon must be of an included one, and their conditions of the domain.
     """
-    if domain is not None and _of(predicate.location, lexicon):
-        if predicate.name not in names:
-            hint = nearest(predicate.name, sorted(set(names)), what="shared predicates")
-            message = f"no base lexicon that is included has a predicate '{predicate.name}'"
-            yield _fault(message, predicate.location, hint, "unknown-predicate")
-        for form in predicate.forms:
-            yield from _syntax_faults(form) or _domain_faults(predicate, form, domain)
-        return
+    own = domain is not None and _of(predicate.location, lexicon)
+    if own and predicate.name not in names:
+        hint = nearest(predicate.name, sorted(set(names)), what="shared predicates")
+        message = f"no base lexicon that is included has a predicate '{predicate.name}'"
+        yield TmdError(message, location=predicate.location, hint=hint, code="unknown-predicate")
     for form in predicate.forms:
-        yield from _syntax_faults(form)
-
-
-def _domain_faults(predicate: SharedPredicate, form: Declared, domain: Domain) -> list[TmdError]:
-    """Return what a condition that a lexicon gives for a shared predicate says that its domain does not have."""
-    document = parse(form.condition, "")
-    formula = read_condition(_present(document.groups[0]), document.source)
-    variables = {term for term in predicate.terms if term.startswith("?")}
-    found = check_condition(formula, variables, domain, document.source)
-    return [_fault(error.message, _within(form, error.location), error.hint, error.code) for error in found]
+        try:
+            formula = read_formula(form)
+        except TmdError as error:
+            yield error
+            continue
+        if own and domain is not None:
+            source = parse(form.condition, "").source
+            for error in check_condition(_present(formula), _variables(predicate), domain, source):
+                yield placed_in(form, error)
 
 
 def _type_faults(lexicon: Lexicon, domain: Domain) -> Iterator[TmdError]:
@@ -392,97 +378,36 @@ def _type_faults(lexicon: Lexicon, domain: Domain) -> Iterator[TmdError]:
         place = lexicon.places.get(("types", name))
         if _of(place, lexicon) and not any(kinds.known(kind) for kind in meant):
             hint = nearest(meant[0], sorted(kinds.parents), what="types") if meant else None
-            yield _fault(f"the domain has no type '{', '.join(meant)}'", place, hint, "unknown-type")
-
-
-def _syntax_faults(entry: Declared) -> list[TmdError]:
-    """Return what keeps a condition from being one, whatever the domain."""
-    try:
-        document = parse(entry.condition, "")
-        if len(document.groups) == 1:
-            read_condition(_present(document.groups[0]), document.source)
-            return []
-        hint = "write (and (…) (…)) for several"
-        return [_fault("a goal is one condition", entry.location, hint, "bad-goal")]
-    except TmdError as error:
-        return [_fault(error.message, _within(entry, error.location), error.hint, error.code)]
+            message = f"the domain has no type '{', '.join(meant)}'"
+            yield TmdError(message, location=place, hint=hint, code="unknown-type")
 
 
 def _entry_faults(entry: Declared, base: Base, *, is_row: bool) -> Iterator[TmdError]:
     """Yield what is wrong with a row or an adjective of a base lexicon, whatever the domain."""
     try:
-        free = _slots(entry) if is_row else frozenset({"?x"})
+        free = slot_variables(read_pattern(entry)[2]) if is_row else {"?x"}
+        formula = read_formula(entry)
     except TmdError as error:
-        yield _fault(error.message, error.location, error.hint, error.code)
+        yield error
         return
-    told = _syntax_faults(entry)
-    if told:
-        yield from told
-        return
-    for node, bound in _atoms(parse(entry.condition, "").groups[0], free):
-        arguments = [part.text for part in node.parts[1:] if isinstance(part, Word)]
-        place = _within(entry, node.location)
-        if node.head != "=":
-            yield from _atom_faults(entry, node.head, arguments, place, base)
-        for term in arguments:
-            if term.startswith("?") and term not in bound:
-                hint = f"the slots here: {', '.join(sorted(bound)) or 'none'}"
-                yield _fault(f"no slot is called {term}, in '{entry.pattern}'", place, hint, "free-variable")
+    for part, bound in subformulas(formula, frozenset(free)):
+        found = list(_atom_faults(entry, part, base)) if isinstance(part, Atom) else []
+        for term in sorted(free_variables(part) - bound) if isinstance(part, Atom | Equals) else ():
+            hint = f"the slots here: {', '.join(sorted(bound)) or 'none'}"
+            message = f"no slot is called {term}, in '{entry.pattern}'"
+            found.append(TmdError(message, location=part.location, hint=hint, code="free-variable"))
+        yield from (placed_in(entry, error) for error in found)
 
 
-def _slots(entry: Declared) -> frozenset[str]:
-    """Return the variables that the pattern of a row binds.
-
-    Raises:
-        TmdError: It is not a pattern.
-    """
-    slots = read_pattern(entry)[2]
-    related = {RELATION} if any(slot.prepositions for slot in slots) else set()
-    return frozenset({*(slot.variable for slot in slots), *related})
-
-
-def _atom_faults(
-    entry: Declared, name: str, arguments: Sequence[str], place: Location | None, base: Base
-) -> Iterator[TmdError]:
+def _atom_faults(entry: Declared, atom: Atom, base: Base) -> Iterator[TmdError]:
     """Yield what is wrong with an atom of a row: it must be one of the shared predicates."""
+    name, _ = split_predicate(atom.predicate)
     known = [predicate for predicate in base.predicates if predicate.name == name]
     if not known:
         hint = nearest(name, sorted({predicate.name for predicate in base.predicates}), what="shared predicates")
         message = f"there is no shared predicate '{name}', in '{entry.pattern}'"
-        yield _fault(message, place, hint, "unknown-predicate")
-    elif all(len(predicate.terms) != len(arguments) for predicate in known):
+        yield TmdError(message, location=atom.location, hint=hint, code="unknown-predicate")
+    elif all(len(predicate.terms) != len(atom.terms) for predicate in known):
         wanted = " ".join((known[0].name, *known[0].terms))
-        yield _fault(f"'{name}' is declared as ({wanted}), in '{entry.pattern}'", place, None, "wrong-arity")
-
-
-def _atoms(node: Node, bound: frozenset[str]) -> Iterator[tuple[Group, frozenset[str]]]:
-    """Yield the atoms of a condition, each with the variables that are bound there."""
-    if isinstance(node, Word):
-        return
-    if node.head in _QUANTIFIERS:
-        typed = node.parts[1] if len(node.parts) > 1 else None
-        words = typed.parts if isinstance(typed, Group) else ()
-        inner = bound | {word.text for word in words if isinstance(word, Word) and word.text.startswith("?")}
-        for part in node.parts[2:]:
-            yield from _atoms(part, inner)
-    elif node.head in _OPERATORS and node.head != "=":
-        for part in node.parts[1:]:
-            yield from _atoms(part, bound)
-    else:
-        yield node, bound
-
-
-def _within(entry: Declared, place: Location | None) -> Location | None:
-    """Return the place of a part of a condition; where YAML folded its lines, that of the condition."""
-    begin = entry.location
-    if begin is None or place is None or place.line > 1:
-        return begin
-    return replace(begin, column=begin.column + place.column - 1)
-
-
-def _fault(message: str, place: Location | None, hint: str | None, code: str) -> TmdError:
-    source = None
-    if place is not None:
-        lines = split_lines(read_text(place.file))
-        source = lines[place.line - 1] if place.line <= len(lines) else None
-    return TmdError(message, location=place, hint=hint, source=source, code=code or "bad-goal")
+        message = f"'{name}' is declared as ({wanted}), in '{entry.pattern}'"
+        yield TmdError(message, location=atom.location, code="wrong-arity")
