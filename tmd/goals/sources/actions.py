@@ -11,7 +11,7 @@ Four readings, each as rows that an author could have written:
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import permutations, product
@@ -37,7 +37,6 @@ from tmd.pddl.model import (
     TypedName,
     hierarchy,
 )
-from tmd.pddl.writer import format_formula
 
 _ROWS = table("rows")
 """Verbs and prepositions of the rows that are read off a domain, in order."""
@@ -111,7 +110,7 @@ class _Words:
 
     def valued(self, parameter: TypedName) -> bool:
         """Return whether a parameter is a value (an amount, a setting, a substance): its type has constants."""
-        return bool(self.fixed(parameter)) and not self.actor(parameter) and not _placelike(parameter, self.types)
+        return bool(self.fixed(parameter)) and not self.actor(parameter) and not _placelike(parameter)
 
     # ------------------------------------------------------------------ states
 
@@ -475,14 +474,9 @@ def _participle(name: str) -> str | None:
     return verb[0] if verb is not None and verb[1] in words_of("outcomes", "participle") else None
 
 
-def _placelike(parameter: TypedName, types: object) -> bool:
+def _placelike(parameter: TypedName) -> bool:
     """Return whether a parameter may be a thing or a place, although its type has a constant (the floor)."""
     return any(t in words_of("names", "bulk") for t in parameter.types)
-
-
-def describe(rows: Iterable[GoalRow]) -> str:
-    """The rows as lines of ``lexicon.yaml``, for an author to look at."""
-    return "\n".join(f"- {row.pattern}: {' '.join(format_formula(row.condition).split())}" for row in rows)
 
 
 def _moves(made: Sequence[Effect], lost: Sequence[Effect]) -> bool:
