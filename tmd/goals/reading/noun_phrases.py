@@ -132,8 +132,8 @@ class Nouns(Facts):
         if is_noun(noun, "everything"):
             return self.world.profiles.objects
         head, _, vague = noun.rpartition("_")
-        if head and vague in section("vague_heads") and self.things(head, state, place=place, types=types):
-            return self.things(head, state, place=place, types=types)
+        if head and vague in section("vague_heads") and (of_head := self.things(head, state, place=place, types=types)):
+            return of_head
         if ends_as(noun, "thing"):  # "flammable things", of whatever class
             return self._all_that_are(split_name(noun)[:-1], Moments(state, state))
         group = self._group(noun) if not (place and noun in self.lexicon.nouns) else ()

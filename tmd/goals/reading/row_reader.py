@@ -234,18 +234,18 @@ class RowReader:
 
     def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read | None:
         """Return *two spoons of coffee* as some coffee, where nothing can be said of the spoons."""
-        inner = next((target for relation, target in unit.relations if is_relation(relation, "partitive")), None)
-        if inner is None or not self.nouns.constants(inner, ANY_TYPE, reading.state):
-            return None
         clause, measure = reading.clause, reading.clause.phrase(unit.direct or "")
+        measured = self.referents.measured(unit, clause)
+        inner = measured.direct if measured is not None else None
+        if measured is None or inner is None or not self.nouns.constants(inner, ANY_TYPE, reading.state):
+            return None
         if self._too_few(measure, inner, reading):
             return None  # two packets, where there is one
         if measure.quantifier is not Quantifier.PLAIN or not measure.plural:  # of one packet of noodles one is meant
             own = clause.phrase(inner)
             counted = replace(own, quantifier=measure.quantifier, number=measure.number, plural=measure.plural)
             reading.clause = replace(clause, phrases={**clause.phrases, inner: counted})
-        others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
-        found = self._unit(rows, Unit(inner, others + self.referents.relations_of(inner, clause)), reading)
+        found = self._unit(rows, measured, reading)
         reading.clause = clause
         if isinstance(found, Refusal):
             return None

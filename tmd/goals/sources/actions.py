@@ -21,6 +21,7 @@ from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, word
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.nouns import split_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
+from tmd.pddl.ground_formula import conjunction, disjunction
 from tmd.pddl.model import (
     ActionSchema,
     And,
@@ -32,7 +33,6 @@ from tmd.pddl.model import (
     Formula,
     Imply,
     Not,
-    Or,
     Predicate,
     TypedName,
     hierarchy,
@@ -187,10 +187,10 @@ class _Words:
         yield from self._going()
         for preposition, atoms in places.items():
             slots = (Slot("?x"), Slot("?y", (preposition,)))
-            yield self._row(_ROWS["put"], slots, _any_of(atoms), f"put X {preposition} Y", "a predicate of place")
+            yield self._row(_ROWS["put"], slots, disjunction(atoms), f"put X {preposition} Y", "a predicate of place")
         if places:
             whither = tuple(dict.fromkeys(atom for atoms in places.values() for atom in atoms))
-            yield self._placed("bring", "whither", _any_of(whither), "take X to Y")
+            yield self._placed("bring", "whither", disjunction(whither), "take X to Y")
             nowhere = And(tuple(Not(atom) for atoms in places.values() for atom in atoms))
             yield self._placed("take", "whence", nowhere, "take X from Y")
             yield from self._of_all_places()
@@ -207,7 +207,7 @@ class _Words:
                 back[Forall((TypedName("?y", place),), Imply(_at_first(atom), atom))] = None
         why = "predicates of place"
         yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)
-        yield self._row(_ROWS["back"], (Slot("?x"),), _joined(list(back)), "put_back X", why)
+        yield self._row(_ROWS["back"], (Slot("?x"),), conjunction(list(back)), "put_back X", why)
 
     def _all_places(self) -> dict[str, list[Formula]]:
         """Return for each preposition the conditions of place that it says."""
@@ -383,7 +383,7 @@ class _Words:
         own = [e for e in action.effects if not e.parameters and e.condition == And() and not e.atom.terms]
         if not own:
             return
-        condition = _joined([self._said(effect, {}, action) for effect in own])
+        condition = conjunction([self._said(effect, {}, action) for effect in own])
         noun = "_".join(words[1:])
         why = f"the action {action.name}"
         yield self._row(("_".join(words),), (), condition, "_".join(words), why)
@@ -406,7 +406,7 @@ class _Words:
                 names = {p.name: f"?{'xyz'[i]}" for i, p in enumerate(said)}
                 slots = (Slot("?x"), *(Slot(names[p.name], _ANYWHERE) for p in said[1:]))
                 pattern = " … ".join([verbs[0], *(p.name.removeprefix("?").upper() for p in said)])
-                formula = _joined([self._said(effect, names, action) for effect in wanted])
+                formula = conjunction([self._said(effect, names, action) for effect in wanted])
                 yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")
 
     def _said(self, effect: Effect, names: Mapping[str, str], action: ActionSchema) -> Formula:
@@ -444,14 +444,6 @@ def _at_first(formula: Formula) -> Formula:
     if isinstance(formula, Exists):
         return replace(formula, part=_at_first(formula.part))
     return replace(formula, predicate=f"{formula.predicate}{MARK}{FIRST}") if isinstance(formula, Atom) else formula
-
-
-def _any_of(parts: Sequence[Formula]) -> Formula:
-    return parts[0] if len(parts) == 1 else Or(tuple(parts))
-
-
-def _joined(parts: list[Formula]) -> Formula:
-    return parts[0] if len(parts) == 1 else And(tuple(parts))
 
 
 def _verbs_of(name: str) -> Iterator[str]:
