@@ -11,17 +11,15 @@ from typing import TypeAlias
 
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, RowUse, Unit, text_of, words
-from tmd.goals.grounder import Grounder
 from tmd.goals.preferences import ANTECEDENT, PLACE, TELLS_WHICH
 from tmd.goals.reading.fitting import Fitting
 from tmd.goals.reading.noun_phrases import Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Pairs, Requirements
 from tmd.goals.reasons import forms, why_impossible
-from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow, GoalTable
+from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, the_word
 from tmd.language.clause import NounPhrase, Quantifier
-from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.ground_formula import (
     FALSE,
     TRUE,
@@ -34,7 +32,6 @@ from tmd.pddl.ground_formula import (
 )  # fmt: skip
 from tmd.pddl.model import Atom, Formula, Or, conjuncts
 from tmd.planning.unsolvable import Impossible
-from tmd.world.world import World
 
 _NEVER_OTHERWISE = Or((FALSE,))
 """Marks what holds of a thing because the contrary never can: as good as FALSE where that thing alone is meant."""
@@ -67,23 +64,17 @@ class RowReader:
     """Reads clauses by rows in one environment.
 
     Args:
-        world: The environment.
-        table: The meanings of adjectives and groups.
-        lexicon: The domain's words.
-        grounder: Grounds conditions.
-        guess: Whether a thing may be taken for what a noun is only like in meaning.
+        referents: Finds what nouns mean.
     """
 
-    def __init__(
-        self, world: World, table: GoalTable, lexicon: Lexicon, grounder: Grounder, *, guess: bool = False
-    ) -> None:
-        self.world = world
-        self.grounder = grounder
-        self.referents = Referents(world, table, lexicon, grounder, guess=guess)
-        self.nouns = self.referents.nouns
-        self.requirements = Requirements(self.referents)
-        self.fitting = Fitting(self.referents)
-        self.exclusions = Impossible(world.task)
+    def __init__(self, referents: Referents) -> None:
+        self.world = referents.world
+        self.grounder = referents.grounder
+        self.referents = referents
+        self.nouns = referents.nouns
+        self.requirements = Requirements(referents)
+        self.fitting = Fitting(referents)
+        self.exclusions = Impossible(referents.world.task)
 
     def by_rows(self, rows: Sequence[GoalRow], reading: ClauseReading) -> ClauseGoal | Refusal:
         """Return the goal by the first rows that fit every thing the verb acts on."""
