@@ -210,9 +210,7 @@ class GoalReader:
         failure: Refusal | None = None
         for strict, verbs in ((True, own), (True, others), (False, own), *looser):
             for verb in verbs:
-                # what another verb leaves without a trace says nothing of this one: to put is not to sit
-                rows = [row for row in table.of(verb) if verb in own or not row.traceless]
-                tried = self.rows.by_rows(rows, reading.again(strict=strict)) if rows else None
+                tried = self._by_verb(table, verb, reading.again(strict=strict), own)
                 if self._settles(verb, tried, reading.clause):
                     return tried
                 if isinstance(tried, Refusal):
@@ -230,6 +228,13 @@ class GoalReader:
             if not isinstance(found, Refusal) or found.kind is RefusalKind.IMPOSSIBLE:
                 return found
         return None
+
+    def _by_verb(
+        self, table: GoalTable, verb: str, reading: ClauseReading, own: Sequence[str]
+    ) -> ClauseGoal | Refusal | None:
+        # what another verb leaves without a trace says nothing of this one: to put is not to sit
+        rows = [row for row in table.of(verb) if verb in own or not row.traceless]
+        return self.rows.by_rows(rows, reading) if rows else None
 
     def _settles(self, verb: str, found: ClauseGoal | Refusal | None, clause: Clause) -> bool:
         """Return whether there is a goal, or what the verb itself asks for can never be: its relatives ask for less."""
