@@ -112,13 +112,13 @@ class Requirements:
     # ------------------------------------------------------------------ kinds of relations
 
     def _is_mixed(self, said: _Said) -> bool:
-        """*Coffee with milk*: what the goal says of the one shall hold of the other as well, of the same thing."""
+        """Return whether the goal is to hold of another substance as well: *coffee with milk*."""
         supplied = any(map(self.nouns.is_constant, said.names)) or all(map(self.nouns.is_supply, said.names))
         mixing = is_relation(said.relation, "mixing") and bool(self._as_constants(said))
         return mixing and supplied and self._is_substance(said.referent)
 
     def _with_tool(self, said: _Said) -> list[Requirement] | None:
-        """*Heat the milk using the microwave*: what can be taken is taken first; otherwise it is done in there."""
+        """Require that a tool is taken first, or that it is done in there: *heat the milk using the microwave*."""
         instrument = is_relation(said.relation, "tool") and (said.acted_on or self._never(said))
         if not instrument or any(map(self.nouns.is_constant, said.names)):
             return None
@@ -134,7 +134,7 @@ class Requirements:
         return None if any(self.nouns.contents(n, said.reading.state) for n in said.names) else []
 
     def _there(self, said: _Said) -> list[Requirement] | None:
-        """Do it there, or with that: a place or a tool that no slot takes; a substance is where its vessel is."""
+        """Require a place or a tool that no slot takes on the way; a substance is where its vessel is."""
         if not said.acted_on or is_relation(said.relation, "restricting"):
             return None
         self._on_the_way(said, (said.relation,), said.names)

@@ -89,7 +89,7 @@ class _Shape:
 def learn_goals(
     demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon
 ) -> GoalTable:
-    """The rows that demonstrations teach."""
+    """Return the rows that demonstrations teach."""
     shown = list(demonstrations)
     if not shown:
         return GoalTable()
@@ -157,7 +157,7 @@ class _Learner:
         self.predicates = self._of_ends(demonstrations)
 
     def _of_ends(self, demonstrations: Sequence[Demonstration]) -> tuple[Predicate, ...]:
-        """The predicates that ever stand in what was said of an end; where nothing was, those that last."""
+        """Return the predicates of the stated ends; where none is stated, those that last."""
         said = (text for d in demonstrations for text in (*d.end_state, d.goal or ""))
         named = {name for text in said for name in _NAMES.findall(text)}
         passing = passing_predicates(self.domain)
@@ -228,7 +228,7 @@ class _Learner:
     def _slots(
         self, clause: Clause, world: World, state: Bits, done: Sequence[object]
     ) -> tuple[list[tuple[str, str]], str, bool] | None:
-        """Preposition group and object of the direct object and of the first place that was said."""
+        """Return preposition group and object of the direct object and of the first place that was said."""
         used = {a for i in done for a in getattr(i, "args", ())}
         direct = _acted_on(clause)
         first = self._object(direct[0], clause, world, state, used) if len(direct) == 1 else None
@@ -245,7 +245,7 @@ class _Learner:
         return [("", first)], "", substance
 
     def _object(self, noun: str, clause: Clause, world: World, state: Bits, used: set[str]) -> str | None:
-        """The one object, or constant, that a noun meant: one that was used, or the only one there is."""
+        """Return the one object, or constant, that a noun meant: one that was used, or the only one there is."""
         _, nouns = self._tools(world)
         name = clause.meant(noun)[0]
         if is_pronoun(name):
@@ -326,7 +326,7 @@ class _Learner:
         return bool(wanted) and all(a in constants and a not in PREPOSITIONS for a in atom.args[1:])
 
     def _named(self, noun: str, world: World) -> list[Match]:
-        """The objects whose own name a noun is, where it names nothing that they contain."""
+        """Return the objects that a noun names, where it names nothing that they contain."""
         constants = world.profiles.constants
         if any(m.name in constants for m in world.mentions.ranked(noun)):
             return []
@@ -335,7 +335,7 @@ class _Learner:
     # ------------------------------------------------------------------ rows
 
     def rows(self) -> Iterator[GoalRow]:
-        """The rows that the counts bear out, by verb."""
+        """Yield the rows that the counts bear out, by verb."""
         for noun, count in sorted(self.made.items()):
             common = sorted(f for f, n in self.dishes[noun].items() if n >= DISH * count)
             if count >= FEWEST and common:

@@ -161,11 +161,11 @@ class GoalTable:
         return {verb: tuple(rows) for verb, rows in found.items()}
 
     def of(self, verb: str) -> tuple[GoalRow, ...]:
-        """The rows of a verb, in their order."""
+        """Return the rows of a verb, in their order."""
         return self._by_verb.get(verb, ())
 
     def verbs(self) -> list[str]:
-        """The verbs that there are rows for, sorted."""
+        """Return the verbs that there are rows for, sorted."""
         return sorted(self._by_verb)
 
 
@@ -329,7 +329,7 @@ def _marked(node: Node, operator: str) -> Node:
 
 
 def split_predicate(name: str) -> tuple[str, str]:
-    """A predicate and the operator it stands under, or ``""``."""
+    """Return a predicate and the operator it is under, or ``""``."""
     predicate, _, operator = name.partition(MARK)
     return predicate, operator
 
