@@ -76,7 +76,7 @@ class _Words:
         self.actors |= self._movers()
 
     def _movers(self) -> frozenset[str]:
-        """Return the type of the first parameter of most actions, if one of them takes such a thing from place to place."""
+        """Return the type of the first parameter of most actions, if one of them moves such a thing."""
         firsts = Counter(kind for a in self.domain.actions for p in a.parameters[:1] for kind in p.types)
         kind, count = firsts.most_common(1)[0] if firsts else ("", 0)
         twice = any(sum(kind in p.types for p in a.parameters) > 1 for a in self.domain.actions)
