@@ -11,9 +11,8 @@ from tmd.check.checker import Checker
 from tmd.check.codes import Severity
 from tmd.diagnostics import TmdError
 from tmd.files import bundled
-from tmd.goals.base import LeftOut
 from tmd.goals.sources.table import GoalTable
-from tmd.goals.tables import declared_goals, left_out
+from tmd.goals.tables import LeftOut, declared_goals, left_out
 from tmd.knowledge import digest
 from tmd.language.lexicon.file import bases_near, read_lexicon
 from tmd.pddl.reading.reader import read_domain

@@ -342,7 +342,7 @@ class DataFiles:
             segments_of,
             texts_of,
         )
-        from tmd.goals.base import faults_of
+        from tmd.goals.tables import faults_of
 
         folder = self._folder(file)
         actions = [action.name for action in folder.domain.actions]
@@ -362,7 +362,7 @@ class DataFiles:
 
     def _base_lexicon(self, file: Path) -> None:
         from tmd.check.lexicon import check_phrases
-        from tmd.goals.base import faults_of
+        from tmd.goals.tables import faults_of
 
         lexicon = read_lexicon(file)
         for fault in (*faults_of(lexicon), *check_phrases(file, lexicon)):

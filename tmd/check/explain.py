@@ -12,9 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from tmd.diagnostics import Location, TmdError
-from tmd.goals.base import condition_text
 from tmd.goals.sources.table import GoalTable, family
-from tmd.goals.tables import goal_tables, left_out
+from tmd.goals.tables import condition_text, goal_tables, left_out
 from tmd.json_record import JsonRecord
 from tmd.knowledge import known
 from tmd.language.clause import Clause

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from tmd.goals.grounder import Moments
 from tmd.goals.reading.noun_phrases import Memory
-from tmd.goals.sources.table import GoalRow
-from tmd.goals.words import words_of
+from tmd.goals.sources.table import GoalRow, Slot
+from tmd.goals.words import relations_said, words_of
 from tmd.language.clause import Clause
 from tmd.pddl.model import Formula
 from tmd.pddl.task import Bits, Cube
@@ -113,6 +113,30 @@ class ClauseReading:
     def again(self, *, strict: bool = False) -> ClauseReading:
         """Return a fresh reading of the same clause."""
         return ClauseReading(self.clause, self.moments, self.memory, strict, self.awaited, decisions=self.decisions)
+
+
+@dataclass(frozen=True, slots=True)
+class RowUse:
+    """A row with what stands behind its prepositions.
+
+    Attributes:
+        row: The row.
+        direct: The noun of what the verb acts on.
+        places: The slots behind prepositions, each with the relation and the noun; ``None`` where it points back.
+        leftover: The relations of what is acted on that no slot takes.
+        reading: The clause.
+    """
+
+    row: GoalRow
+    direct: str | None
+    places: Sequence[tuple[Slot, str, str | None]]
+    leftover: Sequence[tuple[str, str]]
+    reading: ClauseReading
+
+    @property
+    def said(self) -> list[str]:
+        """The relations that ``?rel`` may be."""
+        return [r for slot, relation, _ in self.places for r in relations_said(relation, slot.prepositions)] or [""]
 
 
 def lost_amount(clause: Clause) -> str | None:

@@ -166,10 +166,11 @@ class Grounder:
 
         These tell nothing of what belongs together: where a fixture is says as much as where a cup is.
         """
-        return all(predicate in self.reflexive or predicate in self._changing for predicate in predicates)
+        return all(predicate in self.reflexive or predicate in self.changing for predicate in predicates)
 
     @cached_property
-    def _changing(self) -> frozenset[str]:
+    def changing(self) -> frozenset[str]:
+        """The predicates of facts that may change."""
         return frozenset(atom.predicate for atom in self.task.atoms)
 
     @cached_property

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from functools import cached_property
 
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.sources.table import RELATION, GoalTable
@@ -58,13 +57,11 @@ class Facts:
         pairs = (a for a in self.facts_about(constant) if a in self.world.task.static and len(a.args) == 2)
         return tuple(atom.args[1] for atom in pairs if atom.args[0] == constant)
 
-    @cached_property
-    def _changing(self) -> frozenset[str]:
-        return frozenset(atom.predicate for atom in self.world.task.atoms)
-
     def contents(self, thing: str, state: Bits) -> tuple[str, ...]:
         """Return the constants beside ``thing`` in facts of two that hold now and may change."""
-        pairs = (a for a in self._pairs(thing) if a.predicate in self._changing and self.grounder.holds(a, state))
+        pairs = (
+            a for a in self._pairs(thing) if a.predicate in self.grounder.changing and self.grounder.holds(a, state)
+        )
         return tuple(dict.fromkeys(atom.args[1] for atom in pairs))
 
     def _pairs(self, thing: str) -> Iterable[GroundAtom]:
@@ -87,6 +84,11 @@ class Facts:
             return next((way for way in ways if way != FALSE), FALSE)  # a lamp is brighter by its knob
         found = self.state_of(state_words(word), name)
         return self._emptied(name) if found is None and word in words_of("empty") else found
+
+    def is_so(self, word: str, name: str, moments: Moments) -> bool | None:
+        """Return whether ``name`` is as an adjective says now; ``None`` for one that nothing here explains."""
+        formula = self.attribute(word, name, moments)
+        return None if formula is None else self.grounder.truth(formula, moments.now)
 
     def _emptied(self, name: str) -> Formula | None:
         """Return that nothing is in a thing; ``None`` where nothing ever is."""

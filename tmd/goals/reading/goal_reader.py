@@ -11,6 +11,7 @@ from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Decisions, lost_amo
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.preferences import LEAST, ODDS
 from tmd.goals.reading.noun_phrases import Memory
+from tmd.goals.reading.referents import Referents
 from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
@@ -47,7 +48,7 @@ class GoalReader:
 
     def _row_reader(self, grounder: Grounder) -> RowReader:
         table = self.tables[0] if self.tables else GoalTable()
-        return RowReader(self.world, table, self.lexicon, grounder, guess=self.guess)
+        return RowReader(Referents(self.world, table, self.lexicon, grounder, guess=self.guess))
 
     @cached_property
     def _exact_rows(self) -> RowReader:

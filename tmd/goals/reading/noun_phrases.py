@@ -132,8 +132,8 @@ class Nouns(Facts):
         if is_noun(noun, "everything"):
             return self.world.profiles.objects
         head, _, vague = noun.rpartition("_")
-        if head and vague in section("vague_heads") and self.things(head, state, place=place, types=types):
-            return self.things(head, state, place=place, types=types)
+        if head and vague in section("vague_heads") and (of_head := self.things(head, state, place=place, types=types)):
+            return of_head
         if ends_as(noun, "thing"):  # "flammable things", of whatever class
             return self._all_that_are(split_name(noun)[:-1], Moments(state, state))
         group = self._group(noun) if not (place and noun in self.lexicon.nouns) else ()
@@ -167,8 +167,8 @@ class Nouns(Facts):
         return having
 
     def _all_that_are(self, adjectives: Sequence[str], moments: Moments) -> tuple[str, ...]:
-        said = {n: [self.attribute(word, n, moments) for word in adjectives] for n in self.world.profiles.objects}
-        return tuple(n for n, all_ in said.items() if all(f and self.grounder.truth(f, moments.now) for f in all_))
+        objects = self.world.profiles.objects
+        return tuple(n for n in objects if all(self.is_so(word, n, moments) for word in adjectives))
 
     def _group(self, noun: str) -> tuple[str, ...]:
         classes = self.table.groups.get(noun, ())
@@ -233,11 +233,11 @@ class Nouns(Facts):
         return [n for n in names if any(alias <= set(split_name(n)) for alias in whole)] or names
 
     def _described(self, modifiers: Collection[str], names: list[str], moments: Moments) -> list[str]:
-        owners = [m.name for m in self.mentions.ranked("_".join(modifiers)) if m.how in (NAME, ALIAS)]
+        owners = self._called("_".join(modifiers))
         for word in modifiers:
-            said = {name: self.attribute(word, name, moments) for name in names}
-            if any(formula is not None for formula in said.values()):  # "the free hook"
-                return [n for n, formula in said.items() if formula and self.grounder.truth(formula, moments.now)]
+            said = {name: self.is_so(word, name, moments) for name in names}
+            if any(so is not None for so in said.values()):  # "the free hook"
+                return [n for n, so in said.items() if so]
         # where names say which one of its kind a thing is ("red_block"), there is no yellow one
         contrary = set(modifiers) & section("keep_adjectives") and all(map(self._modified, names))
         return list(self.related_now(names, "of", owners, moments)) or ([] if contrary else names)
@@ -261,7 +261,9 @@ class Nouns(Facts):
     def _is_about(self, modifier: str, name: str, called: Collection[str], moments: Moments) -> bool:
         """Return whether a modifier is a synonym of a word for a thing, or says what it belongs to or how it is."""
         alike = any(same(modifier, other) for other in called)
-        return alike or self._belongs(modifier, name, moments) or self._is_so(modifier, name, moments)
+        if alike or self._belongs(modifier, name, moments):
+            return True
+        return not self.is_constant(name) and bool(self.is_so(modifier, name, moments))
 
     def _is_declared(self, noun: str) -> bool:
         """Return whether the lexicon says what a noun means here."""
@@ -275,14 +277,10 @@ class Nouns(Facts):
 
     def _belongs(self, modifier: str, name: str, moments: Moments) -> bool:
         """Return whether a thing holds, may hold or is related to what a modifier names; a substance: comes from it."""
-        named = [m.name for m in self.mentions.ranked(modifier) if m.how in (NAME, ALIAS)]
+        named = self._called(modifier)
         if self.is_constant(name):
             return any(not self.is_constant(n) or n in self.turns_into(name) for n in named)
         return bool(self.related_now((name,), "of", named, moments))
-
-    def _is_so(self, word: str, name: str, moments: Moments) -> bool:
-        formula = None if self.is_constant(name) else self.attribute(word, name, moments)
-        return formula is not None and self.grounder.truth(formula, moments.now)
 
     def holders(self, noun: str, contents: Iterable[str], moments: Moments) -> tuple[str, ...]:
         """Return of everything that ``noun`` may mean what holds some of ``contents`` now: *the bag of crisps*."""
@@ -340,10 +338,15 @@ class Nouns(Facts):
     def _aliases(self, matches: Iterable[Match]) -> list[str]:
         return [m.name for m in matches if m.how == ALIAS or (self.guess and m.how == WORDNET)]
 
+    def _called(self, noun: str) -> list[str]:
+        """Return what a noun may mean by its name or by the words of the domain."""
+        return [m.name for m in self.mentions.ranked(noun) if m.how in (NAME, ALIAS)]
+
     def substances(self, noun: str) -> tuple[str, ...]:
         """Return all constants that a noun may mean by its name or by the words of the domain."""
-        called = (m.name for m in self.mentions.ranked(noun) if m.how in (NAME, ALIAS))
-        return tuple(n for n in dict.fromkeys((*called, *self.lexicon.nouns.get(noun, ()))) if self.is_constant(n))
+        return tuple(
+            n for n in dict.fromkeys((*self._called(noun), *self.lexicon.nouns.get(noun, ()))) if self.is_constant(n)
+        )
 
     def narrowed(
         self, names: tuple[str, ...], phrase: NounPhrase, moments: Moments
@@ -351,9 +354,9 @@ class Nouns(Facts):
         """Return the candidates that adjectives leave, and the adjectives that nothing explains."""
         unknown: list[str] = []
         for word in phrase.attributes:
-            said = {name: self.attribute(word, name, moments) for name in names}
-            if any(formula is not None for formula in said.values()):
-                names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, moments.now))
+            said = {name: self.is_so(word, name, moments) for name in names}
+            if any(so is not None for so in said.values()):
+                names = tuple(n for n in names if said[n])
                 names = self._changeable(word, names, moments) if is_noun(phrase.name, "everything") else names
                 continue
             named = tuple(n for n in names if word in split_name(n))

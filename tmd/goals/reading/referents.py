@@ -137,14 +137,19 @@ class Referents:
 
     def _make_room(self, unit: Unit, clause: Clause) -> None:
         """Let a measure make room for what it measures: *a spoon of sugar* is sugar, *the contents* are all of it."""
-        measured = next((t for r, t in unit.relations if is_relation(r, "partitive")), None)
+        measured = self.measured(unit, clause)
         noun = unit.direct or ""
         if measured is not None and is_noun(noun, "content") and not self.nouns.things(noun, 0):
             inside, unit.direct = the_word("relations", "inside"), the_word("nouns", "whole")
             unit.relations = [(inside if is_relation(r, "partitive") else r, t) for r, t in unit.relations]
         if unit.direct in words_of("measures") and measured is not None:
-            others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
-            unit.direct, unit.relations = measured, others + self.relations_of(measured, clause)
+            unit.direct, unit.relations = measured.direct, measured.relations
+
+    def measured(self, unit: Unit, clause: Clause) -> Unit | None:
+        """Return what is measured, *sugar* of *a spoon of sugar*, with all that is said of both."""
+        inner = next((t for r, t in unit.relations if is_relation(r, "partitive")), None)
+        others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
+        return Unit(inner, others + self.relations_of(inner, clause)) if inner is not None else None
 
     def _lacking(self, relations: Sequence[tuple[str, str]], clause: Clause) -> list[tuple[str, str]]:
         """Return relations with *without* for what is joined to a place: "in the bowl, no raspberry"."""
@@ -415,7 +420,7 @@ class Referents:
         several = mode is not Mode.ANY or (among and not relations and not phrase.attributes)
         if several and not group:  # "one of the lamps", "the other lamp": where there is but one lamp, a floor lamp
             every = mode in (Mode.ALL, Mode.NUMBER)
-            objects, group = self._all_kinds(noun, objects, context.types, context.reading, all_of_it=every)
+            objects, group = self._all_kinds(noun, objects, context.types, context.reading.state, all_of_it=every)
         if phrase.number == 2 and mode is Mode.ALL:
             mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
         one = phrase.definite or phrase.undetermined
@@ -511,7 +516,7 @@ class Referents:
         return tuple(dict.fromkeys(map(now, names)))
 
     def _all_kinds(
-        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading, *, all_of_it: bool
+        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], state: Bits, *, all_of_it: bool
     ) -> tuple[tuple[str, ...], bool]:
         """Return *all the lights*, where no class has that name, as all that the noun may mean, and whether it is so.
 
@@ -524,7 +529,7 @@ class Referents:
                 wider = frozenset(kind for kind in wider if noun in split_name(kind))
             names = self._of_kinds(wider, types)
             return (names, True) if len(names) > 1 else (objects, False)
-        matches = self.world.mentions.of(noun, reading.state)
+        matches = self.world.mentions.of(noun, state)
         if not matches or matches[0].how != ALIAS:
             return objects, False
         alike = (m.name for m in matches if m.how == ALIAS and not self.nouns.is_constant(m.name))
@@ -535,15 +540,13 @@ class Referents:
         alike = (n for n in self.world.profiles.objects if kinds.get(n) in wanted)
         return tuple(n for n in alike if self.grounder.is_a(n, types))
 
-    def every_kind(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
-        """Return all that a noun may mean: vanilla and chocolate, where it is *ice cream*."""
-        things = self.nouns.things(noun, reading.state)
-        return self._all_kinds(noun, things, ANY_TYPE, reading, all_of_it=False)[0]
-
     def every_kind_of(self, noun: str, clause: Clause, state: Bits) -> tuple[str, ...]:
-        """Return the same for a noun or pronoun of a clause."""
-        reading = ClauseReading(clause, Moments(state, state), Memory())
-        return tuple(dict.fromkeys(n for one in clause.meant(noun) for n in self.every_kind(one, reading)))
+        """Return all that a noun or pronoun of a clause may mean: vanilla and chocolate, where it is *ice cream*."""
+        found: dict[str, None] = {}
+        for one in clause.meant(noun):
+            things = self.nouns.things(one, state)
+            found.update(dict.fromkeys(self._all_kinds(one, things, ANY_TYPE, state, all_of_it=False)[0]))
+        return tuple(found)
 
     # ------------------------------------------------------------------ relations that tell which
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeAlias
 
-from tmd.goals.clause_goal import ClauseReading, words
+from tmd.goals.clause_goal import ClauseReading, RowUse, words
 from tmd.goals.reading.noun_phrases import Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.sources.table import RELATION, GoalRow
@@ -18,6 +19,7 @@ from tmd.pddl.model import Atom, Formula, GroundAtom, Not
 Requirement: TypeAlias = Callable[[Mapping[str, str]], Formula]
 """The further condition, given what the slots are filled with."""
 Pairs: TypeAlias = Sequence[tuple[str, Referent]]
+"""The slots of a row, with what stands in them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +28,6 @@ class _Said:
 
     Attributes:
         row: The row of the clause.
-        pairs: Its slots, with what stands in them.
         variable: The slot.
         referent: What stands in it.
         relation: The relation.
@@ -37,7 +38,6 @@ class _Said:
     """
 
     row: GoalRow
-    pairs: Pairs
     variable: str
     referent: Referent
     relation: str
@@ -59,77 +59,66 @@ class Requirements:
         self.world = referents.world
         self.grounder = referents.grounder
         self.nouns = referents.nouns
-        self._kinds = (
-            self._selecting, self._lacking, self._unsaid, self._mixed, self._so_already, self._with_tool,
-            self._there, self._beside_place,
-        )  # fmt: skip
 
-    def further(
-        self,
-        row: GoalRow,
-        pairs: Pairs,
-        direct: str | None,
-        leftover: Sequence[tuple[str, str]],
-        reading: ClauseReading,
-    ) -> list[Requirement]:
+    def further(self, use: RowUse, pairs: Pairs) -> list[Requirement]:
         """Return what must hold besides: contents, *without*, adjectives of a substance, where further nouns are."""
+        row, reading = use.row, use.reading
         found: list[Requirement] = []
         if row.direct is None:  # the noun stands in the pattern: "have coffee"
-            for relation, target in leftover:
+            for relation, target in use.leftover:
                 if is_relation(relation, "lacking") or is_none(target, reading.clause):
-                    found.append(self._without(row, self.referents.targets(target, reading), reading))
-        for said in self._relations(row, pairs, direct, leftover, reading):
-            found += next((own for kind in self._kinds if (own := kind(said)) is not None), self._goals(said))
-        found += self._substance_attributes(row, pairs, reading)
+                    found.append(partial(self._without, row, self.referents.targets(target, reading), reading))
+        for said in self._relations(use, pairs):
+            found += self._of_relation(said)
+        for variable, referent in pairs:
+            adjectives = reading.clause.phrase(referent.noun).attributes
+            if adjectives and all(map(self.nouns.is_constant, referent.names)):
+                found.append(partial(self._vessel_is, row, variable, adjectives, reading))
         for variable, referent in pairs:
             if referent.noun in reading.wanted:
-                found.append(self._state_wanted(variable, reading.wanted[referent.noun], reading))
+                found.append(partial(self._state_wanted, variable, reading.wanted[referent.noun], reading))
         return found
 
-    def _relations(
-        self,
-        row: GoalRow,
-        pairs: Pairs,
-        direct: str | None,
-        leftover: Sequence[tuple[str, str]],
-        reading: ClauseReading,
-    ) -> Iterator[_Said]:
+    def _relations(self, use: RowUse, pairs: Pairs) -> Iterator[_Said]:
+        row, reading = use.row, use.reading
         for variable, referent in pairs:
             # a pronoun goes by the name of what it stands for, and what was said of it is said of the direct object
-            noun = direct if row.direct is not None and variable == row.direct.variable else referent.noun
-            relations = leftover if noun == direct else self.referents.relations_of(referent.noun, reading.clause)
+            noun = use.direct if row.direct is not None and variable == row.direct.variable else referent.noun
+            acted_on = noun == use.direct
+            relations = use.leftover if acted_on else self.referents.relations_of(referent.noun, reading.clause)
             for relation, target in relations:
                 names = self.referents.targets(target, reading)
-                yield _Said(row, pairs, variable, referent, relation, target, names, noun == direct, reading)
+                yield _Said(row, variable, referent, relation, target, names, acted_on, reading)
 
-    # ------------------------------------------------------------------ kinds of relations, the first that answers
+    def _of_relation(self, said: _Said) -> list[Requirement]:
+        """Return what a relation asks for, by the first kind of relations that it is of."""
+        if is_relation(said.relation, "selecting") or said.relation.startswith(NEGATED):
+            return []
+        if is_relation(said.relation, "lacking") or is_none(said.target, said.reading.clause):
+            return [partial(self._without, said.row, said.names, said.reading)]
+        if set(said.names) <= set(said.referent.names):
+            return []
+        if self._is_mixed(said):
+            return [partial(self._beside, said, part) for part in self._dealt(said, self._as_constants(said))]
+        if self.referents.described(said.referent, said.relation, self._wider(said), said.reading):
+            return []  # it is so already
+        for kind in (self._with_tool, self._there, self._beside_place):
+            found = kind(said)
+            if found is not None:
+                return found
+        parts = self._dealt(said, self._as_constants(said) or self._wider(said))
+        return [partial(self._relation_goal, said, part) for part in parts]
 
-    def _selecting(self, said: _Said) -> list[Requirement] | None:
-        tells = is_relation(said.relation, "selecting") or said.relation.startswith(NEGATED)
-        return [] if tells else None
+    # ------------------------------------------------------------------ kinds of relations
 
-    def _lacking(self, said: _Said) -> list[Requirement] | None:
-        if not is_relation(said.relation, "lacking") and not is_none(said.target, said.reading.clause):
-            return None
-        return [self._without(said.row, said.names, said.reading)]
-
-    def _unsaid(self, said: _Said) -> list[Requirement] | None:
-        return [] if set(said.names) <= set(said.referent.names) else None
-
-    def _mixed(self, said: _Said) -> list[Requirement] | None:
-        """*Coffee with milk*: what the goal says of the one shall hold of the other as well, of the same thing."""
+    def _is_mixed(self, said: _Said) -> bool:
+        """Return whether the goal is to hold of another substance as well: *coffee with milk*."""
         supplied = any(map(self.nouns.is_constant, said.names)) or all(map(self.nouns.is_supply, said.names))
-        beside = self._as_constants(said)
-        if not (is_relation(said.relation, "mixing") and beside and supplied and self._is_substance(said.referent)):
-            return None
-        return [self._beside(said, part) for part in self._dealt(said, beside)]
-
-    def _so_already(self, said: _Said) -> list[Requirement] | None:
-        names = self._wider(said)
-        return [] if self.referents.described(said.referent, said.relation, names, said.reading) else None
+        mixing = is_relation(said.relation, "mixing") and bool(self._as_constants(said))
+        return mixing and supplied and self._is_substance(said.referent)
 
     def _with_tool(self, said: _Said) -> list[Requirement] | None:
-        """*Heat the milk using the microwave*: what can be taken is taken first; otherwise it is done in there."""
+        """Require that a tool is taken first, or that it is done in there: *heat the milk using the microwave*."""
         instrument = is_relation(said.relation, "tool") and (said.acted_on or self._never(said))
         if not instrument or any(map(self.nouns.is_constant, said.names)):
             return None
@@ -145,7 +134,7 @@ class Requirements:
         return None if any(self.nouns.contents(n, said.reading.state) for n in said.names) else []
 
     def _there(self, said: _Said) -> list[Requirement] | None:
-        """Do it there, or with that: a place or a tool that no slot takes; a substance is where its vessel is."""
+        """Require a place or a tool that no slot takes on the way; a substance is where its vessel is."""
         if not said.acted_on or is_relation(said.relation, "restricting"):
             return None
         self._on_the_way(said, (said.relation,), said.names)
@@ -160,10 +149,6 @@ class Requirements:
             return None
         said.reading.notes.append(f"'{words(said.relation)} {words(said.target)}' says nothing here")
         return []
-
-    def _goals(self, said: _Said) -> list[Requirement]:
-        parts = self._dealt(said, self._as_constants(said) or self._wider(said))
-        return [self._relation_goal(said, part) for part in parts]
 
     # ------------------------------------------------------------------ conditions
 
@@ -205,20 +190,15 @@ class Requirements:
             if name != place
         )
 
-    def _state_wanted(self, variable: str, adjectives: Sequence[str], reading: ClauseReading) -> Requirement:
-        def goal(binding: Mapping[str, str]) -> Formula:
-            said = (self.nouns.attribute(word, binding[variable], reading.moments) for word in adjectives)
-            return conjunction(formula for formula in said if formula is not None)
+    def _state_wanted(
+        self, variable: str, adjectives: Sequence[str], reading: ClauseReading, binding: Mapping[str, str]
+    ) -> Formula:
+        said = (self.nouns.attribute(word, binding[variable], reading.moments) for word in adjectives)
+        return conjunction(formula for formula in said if formula is not None)
 
-        return goal
-
-    def _relation_goal(self, said: _Said, names: Sequence[str]) -> Requirement:
-        def goal(binding: Mapping[str, str]) -> Formula:
-            own = binding[said.variable]
-            related = (self.nouns.related(said.relation, own, n, said.reading.moments) for n in names if n != own)
-            return disjunction(related)
-
-        return goal
+    def _relation_goal(self, said: _Said, names: Sequence[str], binding: Mapping[str, str]) -> Formula:
+        own = binding[said.variable]
+        return disjunction(self.nouns.related(said.relation, own, n, said.reading.moments) for n in names if n != own)
 
     def _on_the_way(self, said: _Said, relations: Sequence[str], names: Sequence[str]) -> None:
         """Ask that what is meant, or what a substance is in, stands in a relation to one of ``names`` on the way."""
@@ -258,56 +238,51 @@ class Requirements:
     def _is_substance(self, referent: Referent) -> bool:
         return bool(referent.names) and all(map(self.nouns.is_constant, referent.names))
 
-    def _beside(self, said: _Said, names: Sequence[str]) -> Requirement:
-        def goal(binding: Mapping[str, str]) -> Formula:
-            one = binding[said.variable]
-            atoms = (atom for atom in self._own(said.row, binding, said.reading) if one in atom.args)
-            pairs = (
-                (atom, atom._replace(args=tuple(name if a == one else a for a in atom.args)))
-                for atom in atoms
-                for name in names
-            )
-            known = (pair for pair in pairs if pair[1] in self.world.task.index)
-            return disjunction(conjunction(Atom(a.predicate, a.args) for a in pair) for pair in known)
+    def _beside(self, said: _Said, names: Sequence[str], binding: Mapping[str, str]) -> Formula:
+        """Return that what the goal says of a substance holds of one of ``names`` as well."""
+        one = binding[said.variable]
+        pairs = (
+            (atom, atom._replace(args=tuple(name if a == one else a for a in atom.args)))
+            for atom in self._own(said.row, binding, said.reading)
+            if one in atom.args
+            for name in names
+        )
+        known = (pair for pair in pairs if pair[1] in self.world.task.index)
+        return disjunction(conjunction(Atom(a.predicate, a.args) for a in pair) for pair in known)
 
-        return goal
-
-    def _without(self, row: GoalRow, names: Sequence[str], reading: ClauseReading) -> Requirement:
-        """None of ``names`` where the goal puts something else of their kind."""
+    def _without(
+        self, row: GoalRow, names: Sequence[str], reading: ClauseReading, binding: Mapping[str, str]
+    ) -> Formula:
+        """Return that none of ``names`` is where the goal puts something else of their kind."""
         types = self.world.mentions.types
 
         def alike(one: str, other: str) -> bool:
             own, its = types[one], types.get(other, ("",))
             return own[:1] == its[:1] or own[1:2] == its[1:2]
 
-        def goal(binding: Mapping[str, str]) -> Formula:
-            others = (
-                atom._replace(args=(*atom.args[:place], name, *atom.args[place + 1 :]))
-                for atom in self._own(row, binding, reading)
-                for place, argument in enumerate(atom.args)
-                for name in names
-                if alike(name, argument)
-            )
-            return conjunction(Not(Atom(a.predicate, a.args)) for a in others if a in self.world.task.index)
+        others = (
+            atom._replace(args=(*atom.args[:place], name, *atom.args[place + 1 :]))
+            for atom in self._own(row, binding, reading)
+            for place, argument in enumerate(atom.args)
+            for name in names
+            if alike(name, argument)
+        )
+        return conjunction(Not(Atom(a.predicate, a.args)) for a in others if a in self.world.task.index)
 
-        return goal
-
-    def _substance_attributes(self, row: GoalRow, pairs: Pairs, reading: ClauseReading) -> Iterator[Requirement]:
-        """Yield that what contains *hot milk* in the end shall be hot."""
-        for variable, referent in pairs:
-            adjectives = reading.clause.phrase(referent.noun).attributes
-            if adjectives and all(map(self.nouns.is_constant, referent.names)):
-                yield self._vessel_is(row, variable, adjectives, reading)
-
-    def _vessel_is(self, row: GoalRow, variable: str, adjectives: Sequence[str], reading: ClauseReading) -> Requirement:
-        def goal(binding: Mapping[str, str]) -> Formula:
-            ways = []
-            for atom in self._own(row, binding, reading):
-                things = [a for a in atom.args if not self.nouns.is_constant(a)][:1]
-                said = [self.nouns.attribute(word, thing, reading.moments) for thing in things for word in adjectives]
-                known = [f for f in said if f is not None]
-                if binding[variable] in atom.args and things and len(known) == len(said):
-                    ways.append(conjunction((Atom(atom.predicate, atom.args), *known)))
-            return disjunction(ways) if ways else TRUE
-
-        return goal
+    def _vessel_is(
+        self,
+        row: GoalRow,
+        variable: str,
+        adjectives: Sequence[str],
+        reading: ClauseReading,
+        binding: Mapping[str, str],
+    ) -> Formula:
+        """Return that what contains *hot milk* in the end is hot."""
+        ways = []
+        for atom in self._own(row, binding, reading):
+            things = [a for a in atom.args if not self.nouns.is_constant(a)][:1]
+            said = [self.nouns.attribute(word, thing, reading.moments) for thing in things for word in adjectives]
+            known = [f for f in said if f is not None]
+            if binding[variable] in atom.args and things and len(known) == len(said):
+                ways.append(conjunction((Atom(atom.predicate, atom.args), *known)))
+        return disjunction(ways) if ways else TRUE

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from itertools import combinations, islice, product
@@ -10,18 +10,16 @@ from operator import or_
 from typing import TypeAlias
 
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
-from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Unit, text_of, words
-from tmd.goals.grounder import Grounder
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading, RowUse, Unit, text_of, words
 from tmd.goals.preferences import ANTECEDENT, PLACE, TELLS_WHICH
 from tmd.goals.reading.fitting import Fitting
 from tmd.goals.reading.noun_phrases import Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
-from tmd.goals.reading.requirements import Requirements
+from tmd.goals.reading.requirements import Pairs, Requirements
 from tmd.goals.reasons import forms, why_impossible
-from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow, GoalTable, Slot
-from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said, the_word
+from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
+from tmd.goals.words import ends_as, is_noun, is_one, is_relation, the_word
 from tmd.language.clause import NounPhrase, Quantifier
-from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.ground_formula import (
     FALSE,
     TRUE,
@@ -33,9 +31,7 @@ from tmd.pddl.ground_formula import (
     only_negative,
 )  # fmt: skip
 from tmd.pddl.model import Atom, Formula, Or, conjuncts
-from tmd.pddl.task import Bits
 from tmd.planning.unsolvable import Impossible
-from tmd.world.world import World
 
 _NEVER_OTHERWISE = Or((FALSE,))
 """Marks what holds of a thing because the contrary never can: as good as FALSE where that thing alone is meant."""
@@ -43,7 +39,6 @@ _DEAD = (FALSE, _NEVER_OTHERWISE)
 _MOST_CHOICES = 200
 """Maximum number of ways of choosing two of many things."""
 Read: TypeAlias = "tuple[Formula, GoalRow] | Refusal"
-Places: TypeAlias = Sequence[tuple[Slot, str, str | None]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,23 +64,17 @@ class RowReader:
     """Reads clauses by rows in one environment.
 
     Args:
-        world: The environment.
-        table: The meanings of adjectives and groups.
-        lexicon: The domain's words.
-        grounder: Grounds conditions.
-        guess: Whether a thing may be taken for what a noun is only like in meaning.
+        referents: Finds what nouns mean.
     """
 
-    def __init__(
-        self, world: World, table: GoalTable, lexicon: Lexicon, grounder: Grounder, *, guess: bool = False
-    ) -> None:
-        self.world = world
-        self.grounder = grounder
-        self.referents = Referents(world, table, lexicon, grounder, guess=guess)
-        self.nouns = self.referents.nouns
-        self.requirements = Requirements(self.referents)
-        self.fitting = Fitting(self.referents)
-        self.exclusions = Impossible(world.task)
+    def __init__(self, referents: Referents) -> None:
+        self.world = referents.world
+        self.grounder = referents.grounder
+        self.referents = referents
+        self.nouns = referents.nouns
+        self.requirements = Requirements(referents)
+        self.fitting = Fitting(referents)
+        self.exclusions = Impossible(referents.world.task)
 
     def by_rows(self, rows: Sequence[GoalRow], reading: ClauseReading) -> ClauseGoal | Refusal:
         """Return the goal by the first rows that fit every thing the verb acts on."""
@@ -236,18 +225,18 @@ class RowReader:
 
     def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read | None:
         """Return *two spoons of coffee* as some coffee, where nothing can be said of the spoons."""
-        inner = next((target for relation, target in unit.relations if is_relation(relation, "partitive")), None)
-        if inner is None or not self.nouns.constants(inner, ANY_TYPE, reading.state):
-            return None
         clause, measure = reading.clause, reading.clause.phrase(unit.direct or "")
+        measured = self.referents.measured(unit, clause)
+        inner = measured.direct if measured is not None else None
+        if measured is None or inner is None or not self.nouns.constants(inner, ANY_TYPE, reading.state):
+            return None
         if self._too_few(measure, inner, reading):
             return None  # two packets, where there is one
         if measure.quantifier is not Quantifier.PLAIN or not measure.plural:  # of one packet of noodles one is meant
             own = clause.phrase(inner)
             counted = replace(own, quantifier=measure.quantifier, number=measure.number, plural=measure.plural)
             reading.clause = replace(clause, phrases={**clause.phrases, inner: counted})
-        others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
-        found = self._unit(rows, Unit(inner, others + self.referents.relations_of(inner, clause)), reading)
+        found = self._unit(rows, measured, reading)
         reading.clause = clause
         if isinstance(found, Refusal):
             return None
@@ -344,7 +333,7 @@ class RowReader:
         ways = [o for o in task.operators if (o.delete if only_negative(formula) else o.add) & wanted]
         added = [way.add & ~gained for way in ways]
         done = [o for o in task.operators if o.add & gained]
-        ruled_out = [o.precondition.negative | _union(cube.positive for cube in o.forbidden) for o in done]
+        ruled_out = [reduce(or_, (cube.positive for cube in o.forbidden), o.precondition.negative) for o in done]
         return any(add & bits for add in added for bits in ruled_out)
 
     def _undoes(self, formula: Formula, reading: ClauseReading) -> bool:
@@ -435,7 +424,7 @@ class RowReader:
         if refused is not None:
             return refused
         choices = product(*([(slot, *filler) for filler in said] for slot, said in fillers))
-        found = [self._combination(row, unit.direct, choice, leftover, reading) for choice in choices]
+        found = [self._combination(RowUse(row, unit.direct, choice, leftover, reading)) for choice in choices]
         return self._joined_ways(found, reading, alternatives=alternatives)
 
     def _joined_ways(
@@ -474,16 +463,9 @@ class RowReader:
                 return self.referents.missing(Referent(target, ()), reading)
         return None
 
-    def _combination(
-        self,
-        row: GoalRow,
-        direct: str | None,
-        places: Places,
-        leftover: Sequence[tuple[str, str]],
-        reading: ClauseReading,
-    ) -> Formula | Refusal:
-        slots = self._options(row, direct, places, leftover, reading)
-        said = [r for slot, relation, _ in places for r in relations_said(relation, slot.prepositions)] or [""]
+    def _combination(self, use: RowUse) -> Formula | Refusal:
+        reading = use.reading
+        slots = self._options(use)
         failure: Refusal | None = None
         for chosen in product(*(options for _, options in slots)):
             missing = next((referent for referent in chosen if not referent.names), None)
@@ -491,63 +473,51 @@ class RowReader:
                 failure = failure or self.referents.missing(missing, reading)
                 continue
             pairs = [(variable, referent) for (variable, _), referent in zip(slots, chosen, strict=True)]
-            formula = self._formula(row, pairs, said, direct, leftover, reading)
+            formula = self._formula(use, pairs)
             if formula == FALSE:
-                failure = failure or self._impossible(row, pairs, said, reading)
+                failure = failure or self._impossible(use, pairs)
                 continue
             reading.meant.update((referent.noun, referent.names) for _, referent in pairs)
             return formula
         return failure or self._cannot(reading)
 
-    def _options(
-        self,
-        row: GoalRow,
-        direct: str | None,
-        places: Places,
-        leftover: Sequence[tuple[str, str]],
-        reading: ClauseReading,
-    ) -> list[tuple[str, list[Referent]]]:
+    def _options(self, use: RowUse) -> list[tuple[str, list[Referent]]]:
         """Return what may stand in each slot."""
+        row, reading = use.row, use.reading
         slots: list[tuple[str, list[Referent]]] = []
-        if row.direct is not None and direct is not None:
-            acted_on = self.referents.referents(direct, row, row.direct, leftover, reading)
-            slots.append((row.direct.variable, [self._at_origin(r, places, reading) for r in acted_on]))
-        for slot, _, target in places:
+        if row.direct is not None and use.direct is not None:
+            acted_on = self.referents.referents(use.direct, row, row.direct, use.leftover, reading)
+            slots.append((row.direct.variable, [self._at_origin(r, use) for r in acted_on]))
+        for slot, _, target in use.places:
             relations = self.referents.relations_of(target, reading.clause) if target else []
             slots.append((slot.variable, self.referents.referents(target or "", row, slot, relations, reading)))
         return slots
 
-    def _at_origin(self, referent: Referent, places: Places, reading: ClauseReading) -> Referent:
+    def _at_origin(self, referent: Referent, use: RowUse) -> Referent:
         """Return of *everything off the table* what is there now."""
-        for _, relation, target in places:
+        for _, relation, target in use.places:
             if target is not None and is_relation(relation, "origin"):
-                ends = self.referents.targets(target, reading)
-                there = self.nouns.related_now(referent.names, relation, ends, reading.moments)
+                ends = self.referents.targets(target, use.reading)
+                there = self.nouns.related_now(referent.names, relation, ends, use.reading.moments)
                 referent = referent.only(there or referent.names)
         return referent
 
     # ------------------------------------------------------------------ conditions
 
-    def _formula(
-        self,
-        row: GoalRow,
-        pairs: Sequence[tuple[str, Referent]],
-        said: Sequence[str],
-        direct: str | None,
-        leftover: Sequence[tuple[str, str]],
-        reading: ClauseReading,
-    ) -> Formula:
+    def _formula(self, use: RowUse, pairs: Pairs) -> Formula:
         """Return the condition of a row with its slots quantified, and what else was said of the thing acted on."""
+        row, reading = use.row, use.reading
         variables = [variable for variable, _ in pairs]
-        further = self.requirements.further(row, pairs, direct, leftover, reading)
-        excepted = frozenset(self.referents.excepted(leftover, reading))
+        further = self.requirements.further(use, pairs)
+        excepted = frozenset(self.referents.excepted(use.leftover, reading))
 
         def own(binding: Mapping[str, str], spared: frozenset[str]) -> tuple[Formula, bool]:
             if len(set(binding.values())) < len(binding):
                 return FALSE, False
             moments = replace(reading.moments, excepted=spared)
             ways = [
-                self.grounder.ground_live(row.condition, {**binding, RELATION: one}, variables, moments) for one in said
+                self.grounder.ground_live(row.condition, {**binding, RELATION: one}, variables, moments)
+                for one in use.said
             ]
             return disjunction(formula for formula, _ in ways), any(live for _, live in ways)
 
@@ -608,22 +578,15 @@ class RowReader:
             return conjunction(left)
         return disjunction(left or alive)
 
-    def _impossible(
-        self, row: GoalRow, pairs: Sequence[tuple[str, Referent]], said: Sequence[str], reading: ClauseReading
-    ) -> Refusal:
+    def _impossible(self, use: RowUse, pairs: Pairs) -> Refusal:
         short = next((r for _, r in pairs if r.mode is Mode.NUMBER and len(r.names) < r.number), None)
         if short is not None:
             called = "1 thing here is" if len(short.names) == 1 else f"{len(short.names)} things here are"
             message = f"only {called} called '{words(short.noun)}', not {short.number}"
             return Refusal(RefusalKind.NO_SUCH_THING, message)
         binding = {variable: referent.names[0] for variable, referent in pairs}
-        reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.grounder)
-        return self._cannot(reading, f": {reason}")
-
-
-def _union(bits: Iterable[Bits]) -> Bits:
-    """Return the union of sets of atoms."""
-    return reduce(or_, bits, 0)
+        reason = why_impossible(use.row.condition, {**binding, RELATION: use.said[0]}, self.grounder)
+        return self._cannot(use.reading, f": {reason}")
 
 
 def _mentions(formula: Formula, names: set[str]) -> bool:

@@ -13,7 +13,7 @@ from tmd.goals.sources.table import GoalRow, Slot
 from tmd.goals.words import BE, IT, NEGATED, is_pronoun, is_relation, is_verb, the_word
 from tmd.language.clause import PERSONS
 from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction
-from tmd.pddl.model import Atom, Formula, GroundAtom
+from tmd.pddl.model import Atom, Formula
 from tmd.world.world import CONTAINED
 
 _ROW = GoalRow((BE,), (Slot("?x"),), TRUE, BE)
@@ -150,8 +150,4 @@ class States:
             things = [a for a in atom.args if not self.nouns.is_constant(a)]
             changes = atom in self.world.task.index
             if len(things) == 1 and (changes or (fixed and atom in self.world.task.static)):
-                yield things[0], _fact(atom) if changes else TRUE
-
-
-def _fact(atom: GroundAtom) -> Formula:
-    return Atom(atom.predicate, atom.args)
+                yield things[0], Atom(atom.predicate, atom.args) if changes else TRUE

@@ -11,7 +11,7 @@ Four readings, each as rows that an author could have written:
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import permutations, product
@@ -21,6 +21,7 @@ from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, word
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.nouns import split_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
+from tmd.pddl.ground_formula import conjunction, disjunction
 from tmd.pddl.model import (
     ActionSchema,
     And,
@@ -32,12 +33,10 @@ from tmd.pddl.model import (
     Formula,
     Imply,
     Not,
-    Or,
     Predicate,
     TypedName,
     hierarchy,
 )
-from tmd.pddl.writer import format_formula
 
 _ROWS = table("rows")
 """Verbs and prepositions of the rows that are read off a domain, in order."""
@@ -46,7 +45,7 @@ _MOST_SLOTS = 3
 
 
 def rows_of_actions(domain: Domain) -> GoalTable:
-    """The rows that a domain's names suggest."""
+    """Return the rows that a domain's names suggest."""
     words = _Words(domain)
     rows = [
         *words.relations(),
@@ -77,7 +76,7 @@ class _Words:
         self.actors |= self._movers()
 
     def _movers(self) -> frozenset[str]:
-        """The type of the first parameter of most actions, if one of them takes such a thing from place to place."""
+        """Return the type of the first parameter of most actions, if one of them moves such a thing."""
         firsts = Counter(kind for a in self.domain.actions for p in a.parameters[:1] for kind in p.types)
         kind, count = firsts.most_common(1)[0] if firsts else ("", 0)
         twice = any(sum(kind in p.types for p in a.parameters) > 1 for a in self.domain.actions)
@@ -98,11 +97,11 @@ class _Words:
         return bool(self._kinds(parameter) & self.actors)
 
     def things(self, predicate: Predicate) -> list[TypedName]:
-        """The parameters of a predicate that stand for neither who acts nor a value."""
+        """Return the parameters of a predicate that are neither the actor nor a value."""
         return [p for p in predicate.parameters if not self.actor(p) and not self.valued(p)]
 
     def fixed(self, parameter: TypedName) -> list[str]:
-        """The constants of the domain that a parameter may be."""
+        """Return the constants of the domain that a parameter may be."""
         found = self._fixed.get(parameter.types)
         if found is None:
             found = [c.name for c in self.domain.constants if self.types.accepts(parameter.types, c.types)]
@@ -111,12 +110,12 @@ class _Words:
 
     def valued(self, parameter: TypedName) -> bool:
         """Return whether a parameter is a value (an amount, a setting, a substance): its type has constants."""
-        return bool(self.fixed(parameter)) and not self.actor(parameter) and not _placelike(parameter, self.types)
+        return bool(self.fixed(parameter)) and not self.actor(parameter) and not _placelike(parameter)
 
     # ------------------------------------------------------------------ states
 
     def states(self) -> Iterator[GoalRow]:
-        """``open X: (opened ?x)`` for every verb of English whose outcome a predicate or a constant has in its name."""
+        """Yield ``open X: (opened ?x)`` for each verb whose outcome a predicate or a constant has in its name."""
         for verb in table("results"):
             for word in results(verb):
                 wanted, positive = word.removeprefix("-"), not word.startswith("-")
@@ -129,7 +128,7 @@ class _Words:
                         yield self._row((verb,), (Slot("?x"),), found, f"{verb} X", f"'{wanted}' in {predicate.name}")
 
     def parts(self) -> Iterator[GoalRow]:
-        """``put the lid on X`` for a predicate such as ``lid_on``."""
+        """Yield ``put the lid on X`` for a predicate such as ``lid_on``."""
         for predicate in self.domain.predicates:
             noun, _, preposition = "_".join(split_name(predicate.name)).rpartition("_")
             if predicate.name not in self.fluent or len(self.things(predicate)) != 1 or not noun:
@@ -143,7 +142,7 @@ class _Words:
                 yield replace(row, noun=noun)
 
     def _state(self, predicate: Predicate, word: str, *, any_value: bool = False) -> Formula | None:
-        """That ``?x`` is in a state that has ``word`` in its name; everything else is left open.
+        """Return that ``?x`` is in a state that has ``word`` in its name; everything else is left open.
 
         A predicate with a value besides (an amount, a load) is such a state with ``any_value`` only: nothing is in it.
         """
@@ -158,7 +157,7 @@ class _Words:
         return self._atom(predicate, {things[0].name: "?x", **chosen})
 
     def _atom(self, predicate: Predicate, given: dict[str, str]) -> Formula:
-        """An atom with some arguments given; what is left is whoever or whatever it may be."""
+        """Return an atom with some arguments given; the others are left open."""
         terms: list[str] = []
         left: list[TypedName] = []
         for parameter in predicate.parameters:
@@ -183,21 +182,21 @@ class _Words:
     # ------------------------------------------------------------------ relations
 
     def relations(self) -> Iterator[GoalRow]:
-        """``put X in Y`` for every relation of two things with a preposition in its name or among its arguments."""
+        """Yield ``put X in Y`` for each relation of two things with a preposition in its name or its arguments."""
         places = self._all_places()
         yield from self._going()
         for preposition, atoms in places.items():
             slots = (Slot("?x"), Slot("?y", (preposition,)))
-            yield self._row(_ROWS["put"], slots, _any_of(atoms), f"put X {preposition} Y", "a predicate of place")
+            yield self._row(_ROWS["put"], slots, disjunction(atoms), f"put X {preposition} Y", "a predicate of place")
         if places:
             whither = tuple(dict.fromkeys(atom for atoms in places.values() for atom in atoms))
-            yield self._placed("bring", "whither", _any_of(whither), "take X to Y")
+            yield self._placed("bring", "whither", disjunction(whither), "take X to Y")
             nowhere = And(tuple(Not(atom) for atoms in places.values() for atom in atoms))
             yield self._placed("take", "whence", nowhere, "take X from Y")
             yield from self._of_all_places()
 
     def _of_all_places(self) -> Iterator[GoalRow]:
-        """``clear Y``: nothing is there; ``put back X``: it is where it was before the text."""
+        """Yield ``clear Y``: nothing is there; and ``put back X``: it is where it was before the text."""
         made = (self.fluent & self.made) - set(self.passing)
         nothing: dict[Formula, None] = {}
         back: dict[Formula, None] = {}
@@ -208,7 +207,7 @@ class _Words:
                 back[Forall((TypedName("?y", place),), Imply(_at_first(atom), atom))] = None
         why = "predicates of place"
         yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)
-        yield self._row(_ROWS["back"], (Slot("?x"),), _joined(list(back)), "put_back X", why)
+        yield self._row(_ROWS["back"], (Slot("?x"),), conjunction(list(back)), "put_back X", why)
 
     def _all_places(self) -> dict[str, list[Formula]]:
         """Return for each preposition the conditions of place that it says."""
@@ -271,7 +270,7 @@ class _Words:
         return frozenset(one for one, other in ways if (other, one) in ways)
 
     def _going(self) -> Iterator[GoalRow]:
-        """``go to Y`` for the place that an action takes the one to who acts, and ``send X to Y`` where he is named."""
+        """Yield ``go to Y`` for the place that an action takes the actor to, and ``send X to Y`` where it is named."""
         found: dict[Formula, None] = {}
         sent: dict[Formula, None] = {}
         for there, left in self._whereabouts():
@@ -296,7 +295,7 @@ class _Words:
                     yield Atom(atom.predicate, terms), tuple(TypedName(names[p.name], p.types) for p in others)
 
     def contents(self) -> Iterator[GoalRow]:
-        """``fill V with S`` for predicates that join a thing and a value which actions bring about: loads, say."""
+        """Yield ``fill V with S`` for predicates that join a thing and a value, and that actions bring about."""
         for predicate in self.domain.predicates:
             if predicate.name not in self.made:
                 continue
@@ -316,7 +315,7 @@ class _Words:
     # ------------------------------------------------------------------ participles
 
     def participles(self) -> Iterator[GoalRow]:
-        """``deliver X to Y`` for ``delivered-to``: what something is when the verb was done to it."""
+        """Yield ``deliver X to Y`` for ``delivered-to``: what something is when the verb was done to it."""
         for predicate in self.domain.predicates:
             first, *rest = split_name(predicate.name)
             verb = _participle(first)
@@ -334,7 +333,7 @@ class _Words:
     # ------------------------------------------------------------------ actions
 
     def named_actions(self, *, shortened: bool = False) -> Iterator[GoalRow]:
-        """Rows for the verbs in the names of actions: what these bring about for their parameters.
+        """Yield rows for the verbs in the names of actions: what these bring about for their parameters.
 
         Args:
             shortened: Rows for names without their particle instead: *lay* for ``lay-down``.
@@ -380,11 +379,11 @@ class _Words:
         return bool(words_in_name(effect.atom.predicate) & held) and self._makers(effect) > 1
 
     def _of_oneself(self, action: ActionSchema, words: Sequence[str]) -> Iterator[GoalRow]:
-        """Rows for an action that only changes who acts: ``wash-gripper``, ``recharge``."""
+        """Yield rows for an action that only changes the actor: ``wash-gripper``, ``recharge``."""
         own = [e for e in action.effects if not e.parameters and e.condition == And() and not e.atom.terms]
         if not own:
             return
-        condition = _joined([self._said(effect, {}, action) for effect in own])
+        condition = conjunction([self._said(effect, {}, action) for effect in own])
         noun = "_".join(words[1:])
         why = f"the action {action.name}"
         yield self._row(("_".join(words),), (), condition, "_".join(words), why)
@@ -410,7 +409,7 @@ class _Words:
                 names = {p.name: f"?{'xyz'[i]}" for i, p in enumerate(said)}
                 slots = (Slot("?x"), *(Slot(names[p.name], anywhere) for p in said[1:]))
                 pattern = " … ".join([verbs[0], *(p.name.removeprefix("?").upper() for p in said)])
-                formula = _joined([self._said(effect, names, action) for effect in wanted])
+                formula = conjunction([self._said(effect, names, action) for effect in wanted])
                 yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")
 
     def _said(self, effect: Effect, names: Mapping[str, str], action: ActionSchema) -> Formula:
@@ -434,7 +433,7 @@ def _by_sign(effects: Sequence[Effect]) -> tuple[list[Effect], list[Effect]]:
 
 
 def _journeys(action: ActionSchema) -> Iterator[tuple[Atom, tuple[str]]]:
-    """The atoms that an action makes true of one place and false of another, each with the place."""
+    """Yield the atoms that an action makes true of one place and false of another, each with the place."""
     settled = [effect for effect in action.effects if effect.condition == And()]
     for made, left in product((e.atom for e in settled if e.positive), [e.atom for e in settled if not e.positive]):
         if left.predicate == made.predicate:
@@ -450,16 +449,8 @@ def _at_first(formula: Formula) -> Formula:
     return replace(formula, predicate=f"{formula.predicate}{MARK}{FIRST}") if isinstance(formula, Atom) else formula
 
 
-def _any_of(parts: Sequence[Formula]) -> Formula:
-    return parts[0] if len(parts) == 1 else Or(tuple(parts))
-
-
-def _joined(parts: list[Formula]) -> Formula:
-    return parts[0] if len(parts) == 1 else And(tuple(parts))
-
-
 def _verbs_of(name: str) -> Iterator[str]:
-    """The verbs that an action's name says: itself, without a preposition at its end, and its first word."""
+    """Yield the verbs that an action's name says: itself, without a preposition at its end, and its first word."""
     yield name
     words = name.split("_")
     if len(words) == 1:
@@ -478,14 +469,9 @@ def _participle(name: str) -> str | None:
     return verb[0] if verb is not None and verb[1] in words_of("outcomes", "participle") else None
 
 
-def _placelike(parameter: TypedName, types: object) -> bool:
+def _placelike(parameter: TypedName) -> bool:
     """Return whether a parameter may be a thing or a place, although its type has a constant (the floor)."""
     return any(t in words_of("names", "bulk") for t in parameter.types)
-
-
-def describe(rows: Iterable[GoalRow]) -> str:
-    """The rows as lines of ``lexicon.yaml``, for an author to look at."""
-    return "\n".join(f"- {row.pattern}: {' '.join(format_formula(row.condition).split())}" for row in rows)
 
 
 def _moves(made: Sequence[Effect], lost: Sequence[Effect]) -> bool:

@@ -89,7 +89,7 @@ class _Shape:
 def learn_goals(
     demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon
 ) -> GoalTable:
-    """The rows that demonstrations teach."""
+    """Return the rows that demonstrations teach."""
     shown = list(demonstrations)
     if not shown:
         return GoalTable()
@@ -122,14 +122,9 @@ def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
     rows = []
     for entry in data["rows"]:
         row = read_row(Declared(str(entry["pattern"]), str(entry["condition"])), domain, LEARNED)
-        rows.append(_with_evidence(row, str(entry["evidence"]), float(str(entry["probability"]))))
-    return GoalTable(
-        tuple(rows), put_back=frozenset(PutBack(str(p), str(kind), bool(once)) for p, kind, once in data["put_back"])
-    )
-
-
-def _with_evidence(row: GoalRow, evidence: str, probability: float) -> GoalRow:
-    return replace(row, evidence=evidence, probability=probability)
+        rows.append(replace(row, evidence=str(entry["evidence"]), probability=float(str(entry["probability"]))))
+    put_back = frozenset(PutBack(str(p), str(kind), bool(once)) for p, kind, once in data["put_back"])
+    return GoalTable(tuple(rows), put_back=put_back)
 
 
 def _said(text: str) -> int:
@@ -162,7 +157,7 @@ class _Learner:
         self.predicates = self._of_ends(demonstrations)
 
     def _of_ends(self, demonstrations: Sequence[Demonstration]) -> tuple[Predicate, ...]:
-        """The predicates that ever stand in what was said of an end; where nothing was, those that last."""
+        """Return the predicates of the stated ends; where none is stated, those that last."""
         said = (text for d in demonstrations for text in (*d.end_state, d.goal or ""))
         named = {name for text in said for name in _NAMES.findall(text)}
         passing = passing_predicates(self.domain)
@@ -233,7 +228,7 @@ class _Learner:
     def _slots(
         self, clause: Clause, world: World, state: Bits, done: Sequence[object]
     ) -> tuple[list[tuple[str, str]], str, bool] | None:
-        """Preposition group and object of the direct object and of the first place that was said."""
+        """Return preposition group and object of the direct object and of the first place that was said."""
         used = {a for i in done for a in getattr(i, "args", ())}
         direct = _acted_on(clause)
         first = self._object(direct[0], clause, world, state, used) if len(direct) == 1 else None
@@ -250,23 +245,15 @@ class _Learner:
         return [("", first)], "", substance
 
     def _object(self, noun: str, clause: Clause, world: World, state: Bits, used: set[str]) -> str | None:
-        """The one object, or constant, that a noun meant: one that was used, or the only one there is."""
+        """Return the one object, or constant, that a noun meant: one that was used, or the only one there is."""
         _, nouns = self._tools(world)
-        meant = clause.meant(noun)
-        for name in meant[:1]:
-            if is_pronoun(name):
-                return None
-            things = nouns.things(name, state)
-            objects = [t for t in things if t not in world.profiles.constants]
-            own = [t for t in objects if t in used or any(p in used for _, p in world.profiles.parts.get(t, ()))]
-            if own:
-                return own[0]
-            constants = nouns.constants(name, (OBJECT,), state)
-            if len(objects) == 1:
-                return objects[0]
-            if constants and not objects:
-                return constants[0]
-        return None
+        name = clause.meant(noun)[0]
+        if is_pronoun(name):
+            return None
+        objects = [t for t in nouns.things(name, state) if t not in world.profiles.constants]
+        own = [t for t in objects if t in used or any(p in used for _, p in world.profiles.parts.get(t, ()))]
+        only = objects if len(objects) == 1 else () if objects else nouns.constants(name, (OBJECT,), state)
+        return next(iter((*own, *only)), None)
 
     # ------------------------------------------------------------------ literals
 
@@ -276,14 +263,18 @@ class _Learner:
         return self._known_literals[variables]
 
     def _make_literals(self, variables: tuple[str, ...]) -> Iterator[tuple[str, GoalRow]]:
-        """Every literal that could be a goal of a clause with such slots."""
+        """Yield every literal that could be a goal of a clause with such slots."""
+        pattern = "do X" + (" in Y" if "?y" in variables else "")
         for predicate in self.predicates:
             for terms in product(*self._choices(predicate, variables)):
                 own = [t for t in terms if t in variables]
                 if not own or len(set(own)) < len(own) or (RELATION in terms and "?y" not in terms):
                     continue
                 for text in self._texts(predicate, terms):
-                    yield from self._readable(text, variables)
+                    try:
+                        yield text, read_row(Declared(pattern, text), self.domain, LEARNED)
+                    except TmdError:
+                        continue
 
     def _choices(self, predicate: Predicate, variables: tuple[str, ...]) -> Iterator[list[str]]:
         """Yield for each parameter of a predicate what may stand there."""
@@ -306,19 +297,9 @@ class _Learner:
             return
         kind = " ".join(predicate.parameters[terms.index("?v")].types[:1])
         yield f"{_QUANTIFIED} (?v - {kind}) {atom})"
-        for state in self._states() if terms.index("?v") == 0 else ():
+        states = (p.name for p in self.predicates if len(p.parameters) == 1)
+        for state in states if terms.index("?v") == 0 else ():
             yield f"{_QUANTIFIED} (?v - {kind}) (and {atom} ({state} ?v)))"
-
-    def _states(self) -> list[str]:
-        """The predicates of one thing."""
-        return [p.name for p in self.predicates if len(p.parameters) == 1]
-
-    def _readable(self, text: str, variables: tuple[str, ...]) -> Iterator[tuple[str, GoalRow]]:
-        pattern = "do X" + (" in Y" if "?y" in variables else "")
-        try:
-            yield text, read_row(Declared(pattern, text), self.domain, LEARNED)
-        except TmdError:
-            return
 
     # ------------------------------------------------------------------ dishes
 
@@ -345,7 +326,7 @@ class _Learner:
         return bool(wanted) and all(a in constants and a not in PREPOSITIONS for a in atom.args[1:])
 
     def _named(self, noun: str, world: World) -> list[Match]:
-        """The objects whose own name a noun is, where it names nothing that they contain."""
+        """Return the objects that a noun names, where it names nothing that they contain."""
         constants = world.profiles.constants
         if any(m.name in constants for m in world.mentions.ranked(noun)):
             return []
@@ -354,7 +335,7 @@ class _Learner:
     # ------------------------------------------------------------------ rows
 
     def rows(self) -> Iterator[GoalRow]:
-        """The rows that the counts bear out, by verb."""
+        """Yield the rows that the counts bear out, by verb."""
         for noun, count in sorted(self.made.items()):
             common = sorted(f for f, n in self.dishes[noun].items() if n >= DISH * count)
             if count >= FEWEST and common:
@@ -402,4 +383,4 @@ class _Learner:
             row = read_row(Declared(pattern, condition), self.domain, LEARNED)
         except TmdError:
             return
-        yield _with_evidence(row, evidence, probability)
+        yield replace(row, evidence=evidence, probability=probability)

@@ -13,10 +13,10 @@ clause begins, and ``(first φ)`` whether it held before the whole text.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Final
+from typing import Final, TypeAlias
 
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.words import PREPOSITIONS as PREPOSITIONS
@@ -53,6 +53,7 @@ RELATION = "?rel"
 DECLARED: Final = "declared"
 LEARNED: Final = "learned"
 ACTIONS: Final = "actions"
+Translation: TypeAlias = Callable[[Formula], Formula]
 _SLOT = re.compile(r"[A-Z]\Z")
 _WORD = re.compile(r"[a-z][a-z0-9_]*\Z")
 _CONNECTIVES = RESERVED | {"=", ""}
@@ -160,11 +161,11 @@ class GoalTable:
         return {verb: tuple(rows) for verb, rows in found.items()}
 
     def of(self, verb: str) -> tuple[GoalRow, ...]:
-        """The rows of a verb, in their order."""
+        """Return the rows of a verb, in their order."""
         return self._by_verb.get(verb, ())
 
     def verbs(self) -> list[str]:
-        """The verbs that there are rows for, sorted."""
+        """Return the verbs that there are rows for, sorted."""
         return sorted(self._by_verb)
 
 
@@ -202,16 +203,20 @@ def read_table(
     return GoalTable(tuple(rows), said, groups)
 
 
-def read_row(entry: Declared, domain: Domain, source: str = DECLARED) -> GoalRow:
+def read_row(entry: Declared, domain: Domain, source: str = DECLARED, translate: Translation | None = None) -> GoalRow:
     """Read one row.
 
     Raises:
         TmdError: Its pattern or its condition is wrong; with its place.
     """
     verbs, noun, slots, result = read_pattern(entry)
-    known = {slot.variable for slot in slots} | ({RELATION} if any(s.prepositions for s in slots) else set())
-    condition = read_row_condition(entry, known, domain)
+    condition = read_row_condition(entry, slot_variables(slots), domain, translate)
     return GoalRow(verbs, slots, condition, entry.pattern, noun, result, source, location=entry.location)
+
+
+def slot_variables(slots: Sequence[Slot]) -> set[str]:
+    """Return the variables that a pattern with some slots binds."""
+    return {slot.variable for slot in slots} | ({RELATION} if any(slot.prepositions for slot in slots) else set())
 
 
 def read_pattern(entry: Declared) -> tuple[tuple[str, ...], str | None, tuple[Slot, ...], str | None]:
@@ -263,24 +268,50 @@ def _wrong(entry: Declared, message: str, hint: str | None = None) -> TmdError:
     return TmdError(message, location=entry.location, hint=hint, code="bad-goal")
 
 
-def read_row_condition(entry: Declared, variables: set[str], domain: Domain) -> Formula:
+def read_row_condition(
+    entry: Declared, variables: set[str], domain: Domain, translate: Translation | None = None
+) -> Formula:
     """Read a condition over ``variables``.
+
+    Args:
+        entry: The condition, with its place.
+        variables: The variables.
+        domain: The domain.
+        translate: Returns the condition in the predicates of the domain.
 
     Raises:
         TmdError: It is not a condition, or speaks of what the domain does not have.
     """
-    place = entry.location or Location("goals", 1, 1)
+    formula = read_formula(entry)
     try:
-        document = parse(entry.condition, place.file)
-        if len(document.groups) != 1:
-            raise TmdError("a goal is one condition", hint="write (and (…) (…)) for several", code="bad-goal")
-        formula = read_condition(_marked(document.groups[0], ""), document.source)
+        formula = translate(formula) if translate is not None else formula
         _check(formula, frozenset(variables), domain)
     except TmdError as error:
-        column = place.column + (error.location.column - 1 if error.location and error.location.line == 1 else 0)
-        where = replace(place, column=column) if entry.location else None
-        raise TmdError(error.message, location=where, hint=error.hint, code=error.code or "bad-goal") from None
+        raise placed_in(entry, error) from None
     return formula
+
+
+def read_formula(entry: Declared) -> Formula:
+    """Read a condition, of any domain.
+
+    Raises:
+        TmdError: It is not a condition.
+    """
+    try:
+        document = parse(entry.condition, "")
+        if len(document.groups) != 1:
+            raise TmdError("a goal is one condition", hint="write (and (…) (…)) for several")
+        return read_condition(_marked(document.groups[0], ""), document.source)
+    except TmdError as error:
+        raise placed_in(entry, error) from None
+
+
+def placed_in(entry: Declared, error: TmdError) -> TmdError:
+    """Return a fault of a condition with its place in the file; where YAML folded its lines, that of the condition."""
+    place, within = entry.location, error.location
+    if place is not None and within is not None and within.line == 1:
+        place = replace(place, column=place.column + within.column - 1)
+    return TmdError(error.message, location=place, hint=error.hint, code=error.code or "bad-goal")
 
 
 def _marked(node: Node, operator: str) -> Node:
@@ -298,7 +329,7 @@ def _marked(node: Node, operator: str) -> Node:
 
 
 def split_predicate(name: str) -> tuple[str, str]:
-    """A predicate and the operator it stands under, or ``""``."""
+    """Return a predicate and the operator it is under, or ``""``."""
     predicate, _, operator = name.partition(MARK)
     return predicate, operator
 

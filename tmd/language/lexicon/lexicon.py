@@ -79,7 +79,7 @@ class SharedPredicate:
 
 @dataclass(frozen=True, slots=True)
 class Base:
-    """Meanings that a lexicon takes from the base lexicons it includes (:mod:`tmd.goals.base`).
+    """Meanings that a lexicon takes from the base lexicons it includes (:mod:`tmd.goals.tables`).
 
     Attributes:
         goals: Rows over shared predicates.
