@@ -230,7 +230,7 @@ class ForwardPass:
             asked = 0
             for cube in aim:
                 asked |= cube.positive | cube.negative
-            factors["unasked"] = float(((end ^ situation.state) & self.lasting & ~asked).bit_count())
+            factors["changes_not_asked_for"] = float(((end ^ situation.state) & self.lasting & ~asked).bit_count())
         for proposer in self.setup.proposers:
             factors |= proposer.judge(situation, (*latent, *own), end)
         return factors, end

@@ -41,7 +41,7 @@ _MOST_FURTHER_STEPS = 8
 # Maximum number of different readings of a request that are followed at a time, each with its own beam.
 _MOST_READINGS = 4
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
-PRIOR = "prior"
+PRIOR = "reading_prior"
 """The factor of the reader's prior: the negative logarithm of its belief in the candidate goal."""
 # A proposal that can be carried out, the planner's instructions before it, and its own instructions.
 _Executable = tuple[Proposal, Instructions, Instructions]
@@ -332,7 +332,7 @@ class GoalPass(ForwardPass):
                 reason = reason or answer.reason
             elif isinstance(answer, Filled) and self._takes(target, way, (*begun, *answer.plan)):
                 own = self._restored(way, (*begun, *answer.plan), target)
-                found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}, aim))
+                found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"policy_proposal": 1.0}, aim))
             if found:
                 return self._undisturbing(found, state)
         if reason:

@@ -180,7 +180,7 @@ class PolicyProposer(Proposer):
         for _, proposed in self.policy.best(situation.clauses, situation.number, situation.done, self.config.generated):
             kept = tuple(i for i in proposed if i in self.world.task.by_instruction)
             names = self.world.mentions.meant(clause, [a for i in kept for a in i.args], situation.state)
-            raw = {"generated": 1.0 / self.trust, **self.energy.of_sequence(kept, len(kept), names)}
+            raw = {"policy_proposal": 1.0 / self.trust, **self.energy.of_sequence(kept, len(kept), names)}
             found.setdefault(kept, Proposal(POLICY_SOURCE, kept, names, raw, self.energy.total(raw)))
         yield from found.values()
 
@@ -189,7 +189,7 @@ class PolicyProposer(Proposer):
         if not self._has_say(situation.clause):
             return {}
         surprise = self.policy.surprise(situation.clauses, situation.number, situation.done, instructions)
-        return {"words": surprise * self.trust}
+        return {"language_model": surprise * self.trust}
 
     def _has_say(self, clause: VerbClause) -> bool:
         verbs = dict.fromkeys(template.clause.verb for template in self.library.distinct(clause, self.world))
