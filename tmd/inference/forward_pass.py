@@ -9,47 +9,33 @@ planner. :mod:`tmd.inference.goal_pass` adds goals that every candidate must rea
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
-from typing import Protocol
 
-from tmd.inference.commitments import Commitment
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy, Factors
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation
 from tmd.inference.ranking import (
     Choice,
     Inferred,
-    Path,
     PlanStep,
     RankedPlan,
     RejectedProposal,
-    StepGoal,
+    Way,
     why_lost,
 )
 from tmd.pddl.domain_traits import passing_predicates
-from tmd.pddl.model import Formula, Instruction
+from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube, Task
+from tmd.planning.backends import TaskPlanners
 from tmd.planning.result import Answer, Filled, GaveUp, NoPlanner, Planner, Unreachable
 from tmd.world.verb_clause import VerbClause
 from tmd.world.world import World
 
 NOTHING = Choice(None, (), {}, {})
 """The choice for a clause for which nothing is done."""
-
-
-class Planners(Protocol):
-    """The planners of one environment."""
-
-    def quick(self, task: Task) -> Planner:
-        """Return the planner that fills gaps."""
-        ...
-
-    def resort(self, task: Task, *, brief: bool = False) -> Planner:
-        """Return the planner that is asked where the quick one gave up; a ``brief`` one gives up after some seconds."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -80,33 +66,10 @@ class InferenceSetup:
 
     world: World
     energy: Energy
-    planners: Planners
-    proposers: tuple[Proposer, ...]
+    planners: TaskPlanners
+    proposers: Sequence[Proposer]
     config: InferenceConfig
-    restoration: Restoration = field(default_factory=Restoration)
-
-
-@dataclass(frozen=True, slots=True)
-class Way:
-    """A way through the first steps.
-
-    Attributes:
-        path: The choices, their energy and the state they end in.
-        memory: The reader's memory.
-        kept: The commitments.
-        goals: The goals of the steps.
-        readings: For each step with several candidate goals, its index and the goal that was taken.
-    """
-
-    path: Path
-    memory: object = None
-    kept: tuple[Commitment, ...] = ()
-    goals: tuple[StepGoal, ...] = ()
-    readings: tuple[tuple[int, Formula], ...] = ()
-
-    def extended(self, choice: Choice, end: Bits) -> Way:
-        """Return the way with a choice for the next clause, which ends in ``end``."""
-        return replace(self, path=self.path.extended(choice, end))
+    restoration: Restoration | None = None
 
 
 class ForwardPass:
@@ -132,20 +95,20 @@ class ForwardPass:
 
     def infer(self, state: Bits) -> Inferred:
         """Return the best distinct plans for the clauses from ``state``."""
-        ways = [Way(Path(0.0, state))]  # α_0[E'_0] = 0
+        ways = [Way(0.0, state)]  # α_0[E'_0] = 0
         for number in range(len(self.clauses)):
             ways = self._forward(number, ways)
         return Inferred(self.ranked(ways), tuple(self.rejected))
 
     def ranked(self, ways: Sequence[Way]) -> tuple[RankedPlan, ...]:
         """Return the cheapest distinct plans, each with the reason why it is not the first."""
-        plans = [RankedPlan(w.path.choices, w.path.state, goals=w.goals) for w in distinct(ways, self.top)]
+        plans = [RankedPlan(w.choices, w.state, goals=w.goals) for w in distinct(ways, self.top)]
         return tuple(replace(p, why=why_lost(p, plans[0])) if place else p for place, p in enumerate(plans))
 
     def _forward(self, number: int, ways: Sequence[Way]) -> list[Way]:
         """Compute α_j from α_{j-1}: Forward-Inference(j)."""
         alpha = by_state(ways)
-        groups = {Situation(self.clauses, number, [way.path for way in group]): group for group in alpha.values()}
+        groups = {Situation(self.clauses, number, group[0]): group for group in alpha.values()}
         found: dict[Bits, list[Way]] = {}
         for bound, situation, candidate in self.queue(groups):  # lines 3 to 7
             if self._settled(found, bound):
@@ -171,7 +134,7 @@ class ForwardPass:
                 if isinstance(proposed, RejectedProposal):
                     self.rejected[proposed] = None
                 else:
-                    found.append((situation.ways[0].energy + proposed.energy, situation, proposed))
+                    found.append((situation.way.energy + proposed.energy, situation, proposed))
         return sorted(found, key=lambda item: item[0])
 
     def _settled(self, found: dict[Bits, list[Way]], bound: float) -> bool:
@@ -182,7 +145,7 @@ class ForwardPass:
         if self.config.beam is None:
             return False
         least = bound + self.setup.energy.least_more()
-        cheaper = [sum(way.path.energy < least for way in ways) for ways in found.values()]
+        cheaper = [sum(way.energy < least for way in ways) for ways in found.values()]
         return sum(map(bool, cheaper)) >= self.config.beam and sum(cheaper) >= self.top
 
     def _answer(self, state: Bits, instructions: Instructions) -> Answer:
@@ -255,7 +218,7 @@ class ForwardPass:
 
     def pruned(self, found: Iterable[Way], beam: int | None) -> list[Way]:
         """Return the cheapest ways to each of the ``beam`` cheapest environments; ``None`` keeps all."""
-        ends = by_state(sorted(found, key=lambda way: way.path.order))
+        ends = by_state(sorted(found, key=lambda way: way.order))
         return [way for group in islice(ends.values(), beam) for way in distinct(group, self.top)]
 
 
@@ -263,15 +226,15 @@ def by_state(ways: Iterable[Way]) -> dict[Bits, list[Way]]:
     """Group ways by the state that they end in; the order is kept."""
     found: dict[Bits, list[Way]] = {}
     for way in ways:
-        found.setdefault(way.path.state, []).append(way)
+        found.setdefault(way.state, []).append(way)
     return found
 
 
 def distinct(ways: Iterable[Way], count: int) -> list[Way]:
     """Return the ``count`` cheapest ways that differ in their instructions, the cheapest first."""
     kept: dict[Instructions, Way] = {}
-    for way in sorted(ways, key=lambda way: way.path.order):
+    for way in sorted(ways, key=lambda way: way.order):
         if len(kept) == count:
             break
-        kept.setdefault(way.path.instructions, way)
+        kept.setdefault(way.instructions, way)
     return list(kept.values())

@@ -14,7 +14,7 @@ from typing import Protocol
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy, Factors
 from tmd.inference.policy.model import Policy
-from tmd.inference.ranking import Path, RejectedProposal
+from tmd.inference.ranking import RejectedProposal, Way
 from tmd.library.library import Library
 from tmd.library.template import Instantiation, Template, instantiate
 from tmd.pddl.model import Instruction
@@ -36,22 +36,22 @@ class Situation:
     Attributes:
         clauses: All clauses of the text.
         number: Which of them it is about, from 0.
-        ways: The ways to the environment, cheapest first; at least one.
+        way: The cheapest way to the environment.
     """
 
     clauses: Sequence[VerbClause]
     number: int
-    ways: Sequence[Path]
+    way: Way
 
     @property
     def state(self) -> Bits:
         """The environment E'_{j-1}."""
-        return self.ways[0].state
+        return self.way.state
 
     @cached_property
     def done(self) -> Instructions:
         """The instructions of the cheapest way there."""
-        return self.ways[0].instructions
+        return self.way.instructions
 
     @property
     def clause(self) -> VerbClause:
