@@ -115,7 +115,8 @@ class ForwardPass:
                 break
             match self._answer(situation.state, candidate.instructions):  # lines 8 and 9
                 case Filled(latent):
-                    choice, end = self._chosen(situation, candidate, latent)  # lines 10 and 11
+                    own, names, raw = candidate.instructions, candidate.names, candidate.raw
+                    choice, end = self.weighed(situation, candidate.source, names, latent, own, raw)  # lines 10 and 11
                     found.setdefault(end, []).extend(w.extended(choice, end) for w in groups[situation])  # line 12
                 case Unreachable(reason):
                     self.rejected[RejectedProposal(number, candidate.source, reason)] = None
@@ -154,29 +155,21 @@ class ForwardPass:
             return Filled((), state, 0)
         return self.planner.fill(state, self.constraints.of(instructions))
 
-    def _chosen(self, situation: Situation, candidate: Proposal, latent: Instructions) -> tuple[Choice, Bits]:
-        """Return the choice of a candidate with the planner's instructions before it, and the state it ends in."""
-        if not self.config.knowledge:  # a robot without knowledge takes its environment to stay as it was
-            return self.choice(situation.number, candidate.source, latent, candidate.instructions, candidate.raw), (
-                situation.state
-            )
-        own = candidate.instructions
-        raw, end = self.weighed(situation, candidate.names, latent, own, candidate.raw)
-        return self.choice(situation.number, candidate.source, latent, own, raw), end
-
     def weighed(
         self,
         situation: Situation,
+        source: str,
         names: Sequence[str],
         latent: Instructions,
         own: Instructions,
         raw: Factors,
         aim: Sequence[Cube] = (),
-    ) -> tuple[Factors, Bits]:
-        """Return all factors of a candidate, and the state that it ends in (Φ, lines 10 and 11).
+    ) -> tuple[Choice, Bits]:
+        """Return the choice of a candidate with all its factors, and the state that it ends in (Φ, lines 10 and 11).
 
         Args:
-            situation: The clause, and the ways to it.
+            situation: The clause, and the way to it.
+            source: The source of the candidate.
             names: The objects that the clause speaks of.
             latent: The planner's instructions (I_jl).
             own: The candidate's instructions (I_j).
@@ -184,25 +177,23 @@ class ForwardPass:
             aim: The goal that it reaches, where there is one.
         """
         energy = self.setup.energy
-        middle = self.simulated(situation.state, latent)  # E_j, line 10
-        end = self.simulated(middle, own)  # E'_j, line 11
-        factors = dict(raw)  # ψ_j
-        factors |= energy.of_end(situation.clause.verb, names, end)  # ψ'_j
-        factors |= energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
-        if aim:
-            asked = 0
-            for cube in aim:
-                asked |= cube.positive | cube.negative
-            factors["changes_not_asked_for"] = float(((end ^ situation.state) & self.lasting & ~asked).bit_count())
-        for proposer in self.setup.proposers:
-            factors |= proposer.judge(situation, (*latent, *own), end)
-        return factors, end
-
-    def choice(self, number: int, source: str, latent: Instructions, own: Instructions, raw: Factors) -> Choice:
-        """Return the choice of a candidate whose factors are ``raw``."""
-        steps = tuple(PlanStep(i, number, latent=True) for i in latent)
-        steps += tuple(PlanStep(i, number, latent=False) for i in own)
-        return Choice(source, steps, self.setup.energy.weigh(raw), raw)
+        factors, end = dict(raw), situation.state  # ψ_j
+        if self.config.knowledge:  # a robot without knowledge takes its environment to stay as it was
+            middle = self.simulated(situation.state, latent)  # E_j, line 10
+            end = self.simulated(middle, own)  # E'_j, line 11
+            factors |= energy.of_end(situation.clause.verb, names, end)  # ψ'_j
+            factors |= energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
+            if aim:
+                asked = 0
+                for cube in aim:
+                    asked |= cube.positive | cube.negative
+                changed = (end ^ situation.state) & self.lasting & ~asked
+                factors["changes_not_asked_for"] = float(changed.bit_count())
+            for proposer in self.setup.proposers:
+                factors |= proposer.judge(situation, (*latent, *own), end)
+        steps = tuple(PlanStep(i, situation.number, latent=True) for i in latent)
+        steps += tuple(PlanStep(i, situation.number, latent=False) for i in own)
+        return Choice(source, steps, energy.weigh(factors), factors), end
 
     @cached_property
     def lasting(self) -> Bits:

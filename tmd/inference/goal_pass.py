@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import islice
 
 from tmd.diagnostics import Refusal, RefusalKind
@@ -33,7 +33,7 @@ from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube
 from tmd.planning.gap_filler import eliminate, untouched
-from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
+from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 
 # Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it.
@@ -83,9 +83,9 @@ class GoalPass(ForwardPass):
         self.dialogue = dialogue
         self.chosen = chosen
         self.restoration = setup.restoration or Restoration()
-        self._resorts: dict[bool, Planner] = {}
         self._may_go_far = True
-        self._far_answers: dict[tuple[Bits, tuple[Cube, ...], bool], Answer] = {}
+        self._far_answer = cache(self._asked_afar)
+        self._resort = cache(lambda brief: setup.planners.resort(self.task, brief=brief))
 
     def infer(self, state: Bits) -> Inferred:
         """Return the best distinct plans for the steps from ``state``, or the reason why there is none."""
@@ -389,7 +389,7 @@ class GoalPass(ForwardPass):
             return quick
         least = target.aims[-1]
         answer = self._far(state, aim, brief=aim != least and isinstance(self.planner.fill(state, least), Filled))
-        if isinstance(answer, Filled) and not self._worth_it(state, answer, least):
+        if aim != least and isinstance(answer, Filled) and not self._worth_it(state, answer, least):
             return quick
         return answer
 
@@ -413,8 +413,6 @@ class GoalPass(ForwardPass):
 
     def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
-        if self._far_answers.get((state, tuple(least), False)) is answer:
-            return True
         quick = self.planner.fill(state, least)
         bare = quick if isinstance(quick, Filled) else self._far(state, least)
         return not isinstance(bare, Filled) or len(answer.plan) <= len(bare.plan) + _MOST_FURTHER_STEPS
@@ -423,15 +421,10 @@ class GoalPass(ForwardPass):
         """Return the answer of the planner that goes further than the quick one."""
         if not (self._may_go_far and self.config.last_resort):
             return GaveUp("the quick planner")
-        asked = state, tuple(aim), brief
-        if asked not in self._far_answers:
-            self._far_answers[asked] = self._asked_afar(state, aim, brief=brief)
-        return self._far_answers[asked]
+        return self._far_answer(state, tuple(aim), brief)
 
-    def _asked_afar(self, state: Bits, aim: Sequence[Cube], *, brief: bool) -> Answer:
-        if brief not in self._resorts:
-            self._resorts[brief] = self.setup.planners.resort(self.task, brief=brief)
-        resort = self._resorts[brief]
+    def _asked_afar(self, state: Bits, aim: tuple[Cube, ...], brief: bool) -> Answer:
+        resort = self._resort(brief)
         # facts that hold already are seldom undone on the way and slow the planner down: first without them
         open_ = tuple(dict.fromkeys(Cube(c.positive & ~state, c.negative & state) for c in aim))
         answer = resort.fill(state, open_)
@@ -497,8 +490,7 @@ class GoalPass(ForwardPass):
         names = self.world.mentions.meant(situation.clause, arguments, way.state)
         if source == PLANNER_SOURCE:
             raw = {**raw, **self.setup.energy.of_sequence(own, len(own), names)}
-        factors, end = self.weighed(situation, names, latent, own, raw, aim)
-        return self.choice(step.number, source, latent, own, factors), end
+        return self.weighed(situation, source, names, latent, own, raw, aim)
 
     @cached_property
     def _contents(self) -> Bits:
