@@ -553,7 +553,7 @@ def _taken(way: Way, choice: Choice, end: Bits, goal: StepGoal) -> Way:
 
 
 def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) -> bool:
-    """Return whether a choice handles one, or every one, of some objects; a part stands for its whole as well."""
+    """Return whether a choice handles one, or every one, of some objects; a part counts as its whole."""
     profiles = own.world.profiles
     handled = {arg for taken in choice.steps for arg in taken.instruction.args}
     handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}

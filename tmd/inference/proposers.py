@@ -150,7 +150,7 @@ class TemplateProposer(Proposer):
 
 
 class PolicyProposer(Proposer):
-    """A policy proposes sequences of its own, and judges all by the words of the clause. Not in the paper.
+    """Proposes sequences of a policy, and judges all by the words of the clause. Not in the paper.
 
     It has no say about a clause whose templates all have verbs that it does not know: it is older than the library.
 
