@@ -15,10 +15,10 @@ from tmd.inference.policy.features import (
     KnownObjects,
     Syntax,
     bag,
+    context_of,
     followers,
     learn_syntax,
     properties,
-    context_of,
 )
 from tmd.inference.policy.menu import FACT_PLACES, Menu, Node, Steps, steps
 from tmd.inference.policy.model import Reward, log_probabilities, share_of_word
