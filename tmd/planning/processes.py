@@ -360,7 +360,8 @@ class Prover:
 
     def _reason(self, deadline: Deadline) -> str | None:
         process = self._started()
-        return json.loads(process.output()) if process.wait(deadline) == 0 else None
+        reason: str | None = json.loads(process.output()) if process.wait(deadline) == 0 else None
+        return reason
 
     def _started(self) -> PlannerProcess:
         if self._process is None:
