@@ -133,7 +133,7 @@ def kind_of(name: str, world: World) -> str:
     return world.mentions.kinds.get(name, name)
 
 
-# Explanations of the factors: the more of one, the dearer the plan.
+# The factors with their explanations: the more of one, the dearer the plan.
 _MEANINGS = {
     "environment_distance": "How much the things here were in other states than the things in the demonstration.",
     "clause_distance": "How many of the things that the clause names are not those that the demonstration's clause "
@@ -162,12 +162,7 @@ FIXED = ("reading_prior",)
 """The factors whose weights are set by hand: no demonstration says how a request was misread."""
 OURS = ("objects_not_touched", "language_model", "policy_proposal", "changes_not_asked_for")
 """Those of them that are not in the paper."""
-NAMES = (
-    *("environment_distance", "clause_distance", "parameter_similarity", "parameter_cardinality"),
-    *("description_length", "instruction_prior", "parameter_prior", "trimming", "inconsistent_end"),
-    *OURS,
-    *("latent_description_length", "latent_instruction_prior", "latent_parameter_prior", "latent_inconsistent_end"),
-)
+NAMES = tuple(name for name in _MEANINGS if name not in (*FIXED, "expected_loss"))
 """The factors whose weights are learned. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
 # Titles that are more than the name in words.
 _TITLES = {"language_model": "language model (-log P)", "reading_prior": "prior of the reading"}
