@@ -29,8 +29,8 @@ from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
 from tmd.planning.unsolvable import reachable, relaxed_literals, unreachable_reason
 
-# The types of variables.
-_Scope = Mapping[str, tuple[str, ...]]
+Scope = Mapping[str, tuple[str, ...]]
+"""The types of variables."""
 
 
 class Possible:
@@ -45,6 +45,7 @@ class Possible:
         assumed: Predicates whose atoms are taken to be possible.
 
     Attributes:
+        objects: The objects of the problem by type.
         actions: The names of the actions that may apply.
         blocked: For each other action what it lacks: a type without objects, or an atom of its precondition.
     """
@@ -52,7 +53,7 @@ class Possible:
     def __init__(self, problem: Problem, assumed: Iterable[str] = ()) -> None:
         self.problem = problem
         self.assumed = frozenset(assumed)
-        self._objects = universe(problem)
+        self.objects = universe(problem)
         self._fits = cache(self._starts_with)
         self._columns: dict[str, list[dict[str, None]]] = {}
         for atom in problem.init:
@@ -61,7 +62,7 @@ class Possible:
                 column[name] = None
         actions = as_actions(problem.domain).actions
         # each effect that adds an atom is a literal of the relaxation, by its number
-        self._effects: list[tuple[Effect, _Scope]] = []
+        self._effects: list[tuple[Effect, Scope]] = []
         self._adding: dict[str, list[int]] = {}
         heads: list[list[int]] = []
         for action in actions:
@@ -69,7 +70,7 @@ class Possible:
             for effect in action.effects:
                 if effect.positive:
                     literal = 2 * len(self._effects)
-                    self._effects.append((effect, _types_of((*action.parameters, *effect.parameters))))
+                    self._effects.append((effect, types_of((*action.parameters, *effect.parameters))))
                     self._adding.setdefault(effect.atom.predicate, []).append(literal)
                     heads[-1].append(literal)
         needs = [self._needs(action) for action in actions]
@@ -96,19 +97,23 @@ class Possible:
             return True
         return self._reached(self._makers(Atom(atom.predicate, atom.args), {}))
 
+    def may_hold(self, atom: Atom, scope: Scope) -> bool:
+        """Return whether some atom of this form holds at the start or may be added."""
+        return self._holds_at_start(atom, scope) or self._reached(self._makers(atom, scope))
+
     def _reached(self, literals: Iterable[int]) -> bool:
         return any(map(self._reachability.holds, literals))
 
     def _needs(self, action: ActionSchema) -> list[tuple[str | Atom, frozenset[int]]]:
         """Return each thing that the initial state does not give to ``action``, with the effects that may make it."""
-        types = [parameter.types for parameter in action.parameters if not self._objects.of(parameter.types)]
+        types = [parameter.types for parameter in action.parameters if not self.objects.of(parameter.types)]
         if types:
             return [(types[0][0], frozenset())]
-        scope = _types_of(action.parameters)
+        scope = types_of(action.parameters)
         atoms = (part for part in conjuncts(action.precondition) if isinstance(part, Atom))
         return [(atom, self._makers(atom, scope)) for atom in atoms if not self._holds_at_start(atom, scope)]
 
-    def _holds_at_start(self, atom: Atom, scope: _Scope) -> bool:
+    def _holds_at_start(self, atom: Atom, scope: Scope) -> bool:
         if atom.predicate in self.assumed:
             return True
         columns = self._columns.get(atom.predicate)
@@ -121,9 +126,9 @@ class Possible:
 
     def _starts_with(self, predicate: str, place: int, types: tuple[str, ...]) -> bool:
         """Return whether the initial state has an object of ``types`` at that place of the predicate."""
-        return any(self._objects.is_a(name, types) for name in self._columns[predicate][place])
+        return any(self.objects.is_a(name, types) for name in self._columns[predicate][place])
 
-    def _makers(self, atom: Atom, scope: _Scope) -> frozenset[int]:
+    def _makers(self, atom: Atom, scope: Scope) -> frozenset[int]:
         """Return the effects that may add an atom of this form."""
         return frozenset(
             literal
@@ -131,15 +136,15 @@ class Possible:
             if self._unify(atom, scope, *self._effects[literal // 2])
         )
 
-    def _unify(self, atom: Atom, scope: _Scope, effect: Effect, inner: _Scope) -> bool:
+    def _unify(self, atom: Atom, scope: Scope, effect: Effect, inner: Scope) -> bool:
         bound: dict[str, str] = {}
         for one, two in zip(atom.terms, effect.atom.terms, strict=True):
             if one.startswith("?") and two.startswith("?"):
                 fits = self._overlap(scope[one], inner[two])
             elif one.startswith("?"):
-                fits = self._objects.is_a(two, scope[one])
+                fits = self.objects.is_a(two, scope[one])
             elif two.startswith("?"):
-                fits = bound.setdefault(two, one) == one and self._objects.is_a(one, inner[two])
+                fits = bound.setdefault(two, one) == one and self.objects.is_a(one, inner[two])
             else:
                 fits = one == two
             if not fits:
@@ -147,11 +152,11 @@ class Possible:
         return True
 
     def _overlap(self, one: Sequence[str], other: Sequence[str]) -> bool:
-        ancestors = self._objects.hierarchy.ancestors
+        ancestors = self.objects.hierarchy.ancestors
         return any(a in ancestors(b) or b in ancestors(a) for a in one for b in other)
 
 
-def _types_of(parameters: Iterable[TypedName]) -> dict[str, tuple[str, ...]]:
+def types_of(parameters: Iterable[TypedName]) -> dict[str, tuple[str, ...]]:
     """Return the types of each parameter."""
     return {parameter.name: parameter.types for parameter in parameters}
 
