@@ -23,7 +23,7 @@ from tmd.inference.bayes_risk import PLANS, decided
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, Weights, count, named_weights
 from tmd.inference.engine import Inference
-from tmd.inference.forward_pass import Planners, Restoration
+from tmd.inference.forward_pass import Restoration
 from tmd.inference.policy.model import Policy, Reward
 from tmd.inference.proposers import proposers_of
 from tmd.inference.ranking import Inferred
@@ -206,7 +206,7 @@ def infer(
     world: World,
     library: Library,
     energy: Energy,
-    planners: Planners,
+    planners: TaskPlanners,
     config: InferenceConfig,
     *,
     policy: Policy | None = None,

@@ -25,9 +25,9 @@ from record_queries import random_goal, random_walk
 
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.task import Bits, Cube, Task
+from tmd.planning.backends import fast_downward_for_gaps
 from tmd.planning.gap_filler import GapFiller
-from tmd.planning.result import Answer, Filled
-from tmd.planning.up_planners import UnifiedPlanner, fast_downward_for_gaps
+from tmd.planning.result import Answer, Filled, Planner
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain, find_root
@@ -65,7 +65,6 @@ def main() -> None:
                 continue
             different += len({answer.cost for answer in answers if isinstance(answer, Filled)}) > 1
             rows.append(row)
-        reference.close()
     show(rows, different, unsolved)
 
 
@@ -78,7 +77,7 @@ def question(task: Task, random: np.random.Generator) -> tuple[Bits, Cube]:
             return state, goal
 
 
-def measured(task: Task, state: Bits, goal: Cube, reference: UnifiedPlanner) -> tuple[Row, list[Answer]]:
+def measured(task: Task, state: Bits, goal: Cube, reference: Planner) -> tuple[Row, list[Answer]]:
     """One query by every route."""
     without, remembering = GapFiller(task, backend="numba", memo=False), GapFiller(task, backend="numba")
     plain = GapFiller(task, backend="python", memo=False)

@@ -20,9 +20,9 @@ from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.normalise import portable
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
+from tmd.planning.backends import fast_downward_for_gaps
+from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
 from tmd.planning.search.flat_task import ones
-from tmd.planning.up_planners import UnifiedPlanner, fast_downward_for_gaps
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain
@@ -55,11 +55,10 @@ def main() -> None:
         reference = fast_downward_for_gaps(task, time_limit=arguments.time_limit)
         lines = [json.dumps(query(task, random, reference)) for _ in range(arguments.count)]
         (arguments.output / f"{path.stem}.jsonl").write_text("\n".join(lines) + "\n", encoding="utf-8")
-        reference.close()
         print(path.stem, len(lines), flush=True)
 
 
-def query(task: Task, random: np.random.Generator, reference: UnifiedPlanner) -> dict[str, object]:
+def query(task: Task, random: np.random.Generator, reference: Planner) -> dict[str, object]:
     """One query that is not satisfied at once, with its verdict."""
     while True:
         walk, state = random_walk(task, random, int(random.integers(0, LONGEST_WALK + 1)))

@@ -25,13 +25,13 @@ from tmd.pddl.task import Cube
 from tmd.planning.result import Filled, NoPlanner, Unreachable
 
 ROOT = Path(__file__).parents[2]
-LATENT = ("latent_dscpl", "latent_inpr", "latent_para", "latent_cons")
+LATENT = ("latent_description_length", "latent_instruction_prior", "latent_parameter_prior", "latent_inconsistent_end")
 ABSENT = {
     "full": OURS,
     "no_latent": (*LATENT, *OURS),
-    "no_nl": ("nl", "pcc", "cons", *OURS),
-    "no_domain": ("cons", *LATENT, *OURS),
-    "paper_extended_learned": ("words", "generated"),
+    "no_nl": ("clause_distance", "parameter_cardinality", "inconsistent_end", *OURS),
+    "no_domain": ("inconsistent_end", *LATENT, *OURS),
+    "paper_extended_learned": ("language_model", "policy_proposal"),
 }
 """The factors that a row does not have."""
 EXAMPLES = 4
@@ -147,9 +147,9 @@ def test_what_is_restored_are_the_weights_that_were_saved(
     data: BundledData, train: list[Example], test: list[Example]
 ) -> None:
     """With others saved the predictions are others: restoring does not learn again."""
-    saved = {"worlds": {"kitchen": {"weights": {"dscpl": 1.0}, "curve": []}}}
+    saved = {"worlds": {"kitchen": {"weights": {"description_length": 1.0}, "curve": []}}}
     model = row("full").restore(train, data, saved)
-    assert model.weights_ == {"kitchen": Weights({"dscpl": 1.0})}
+    assert model.weights_ == {"kitchen": Weights({"description_length": 1.0})}
     assert not any(prediction.instructions for prediction in predictions(model, test, data))
 
 

@@ -47,7 +47,7 @@ def line(model: str, number: int, task: str, score: float, **changes: object) ->
                 "latent": ["moveto(cup)"],
                 "said": ["grasp(mug)", "wait()"],
                 "source": f"demo {EVIL}",
-                "factors": {"env": 3.25, "nl": 0.5, "cons": 0.0},
+                "factors": {"environment_distance": 3.25, "clause_distance": 0.5, "inconsistent_end": 0.0},
             }
         ],
         "segments": [{"text": "Take the cup.", "instructions": ["moveto(cup)", "grasp(cup)", "keep(cup, sink, on)"]}],
@@ -79,7 +79,10 @@ def finished(
 
 def fit(directory: Path, model: str = "full", curve: list[Any] | None = None) -> None:
     points = [{"round": 1 + n // 2, "epoch": n % 2, "loss": 1 / (n + 1), "objective": 2 / (n + 1)} for n in range(6)]
-    world = {"weights": {"env": 1.5, "nl": 0.25}, "curve": points if curve is None else curve}
+    world = {
+        "weights": {"environment_distance": 1.5, "clause_distance": 0.25},
+        "curve": points if curve is None else curve,
+    }
     (directory / "fits").mkdir(exist_ok=True)
     said = {"model": model, "trained_in": ["kitchen1"], "worlds": {"kitchen": world}}
     (directory / "fits" / f"{model}-one.json").write_text(json.dumps(said))
@@ -303,8 +306,8 @@ def test_the_same_run_has_the_same_bytes_whatever_the_user_likes(
         ),
         (
             "fits/full-one.json",
-            '{"model": "full", "trained_in": [], "worlds": {"k": {"weights": {"env": "x"}, "curve": []}}}',
-            "worlds.k.weights.env: should be a valid number",
+            '{"model": "full", "trained_in": [], "worlds": {"k": {"weights": {"trimming": "x"}, "curve": []}}}',
+            "worlds.k.weights.trimming: should be a valid number",
         ),
     ],
 )

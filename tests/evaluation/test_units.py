@@ -51,7 +51,9 @@ class Toy(Crf):
                     file.write(f"{drawn[step]}\n")
         values = [float(line) for line in self.journal.read_text().splitlines()] if self.journal else drawn
         self.learned_ = {
-            "kitchen": Found(Weights({"env": sum(values)}), ({"round": 0, "epoch": 0, "loss": values[0]}, 0.5))
+            "kitchen": Found(
+                Weights({"environment_distance": sum(values)}), ({"round": 0, "epoch": 0, "loss": values[0]}, 0.5)
+            )
         }
         return self
 
@@ -64,7 +66,7 @@ class Toy(Crf):
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         if Toy.dies_predicting:
             raise KeyboardInterrupt
-        count = int(10 * self.learned_["kitchen"].weights["env"] + random.integers(4)) % 7
+        count = int(10 * self.learned_["kitchen"].weights["environment_distance"] + random.integers(4)) % 7
         return Prediction(example.gold[:count])
 
 
@@ -104,7 +106,7 @@ def test_what_was_learned_is_told(tmp_path: Path) -> None:
     assert said["trained_in"] == ["kitchen1", "kitchen3", "kitchen4", "kitchen5"]
     world = said["worlds"]["kitchen"]
     assert list(world["weights"]) == list(NAMES)
-    assert world["weights"]["env"] > 0
+    assert world["weights"]["environment_distance"] > 0
     assert world["curve"][0]["round"] == 0
     assert world["curve"][1] == 0.5
     assert len({p.read_text() for p in found}) == 5, "each training set draws its own numbers"

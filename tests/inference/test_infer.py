@@ -26,7 +26,7 @@ from tmd.world.corpus import Corpus
 from tmd.world.world import World
 
 EXTENDED = named_weights("paper_extended")
-MIXED = Weights({name: 1.5 + number for number, name in enumerate(reversed(NAMES))} | {"trim": 0.3})
+MIXED = Weights({name: 1.5 + number for number, name in enumerate(reversed(NAMES))} | {"trimming": 0.3})
 
 
 def inference_of(
@@ -196,7 +196,7 @@ def test_an_unseen_verb_leaves_the_environment_as_it_is(kitchen: Corpus) -> None
 def test_a_clause_that_is_already_so_may_be_left_out(kitchen: Corpus) -> None:
     """Wholly trimmed, a template is a no-op; free trimming makes it the cheapest."""
     world = kitchen.world("kitchen1")
-    weights = Weights({"dscpl": 1.0})
+    weights = Weights({"description_length": 1.0})
     inference = inference_of(world, library_of(kitchen, "kitchen1"), weights)
     (plan,) = inference.infer_clauses([Clause("fill", ("pot",))], world.task.init).plans
     assert plan.instructions == ()

@@ -32,7 +32,10 @@ class Inference:
         if self.asked == self.lives:
             raise KilledError
         self.asked += 1
-        factors = ({"nl": 0.9, "cons": 0.1 + number / 30}, {"nl": 0.1, "cons": 1 / 3 + number / 7})
+        factors = (
+            {"clause_distance": 0.9, "inconsistent_end": 0.1 + number / 30},
+            {"clause_distance": 0.1, "inconsistent_end": 1 / 3 + number / 7},
+        )
         plans = [RankedPlan((Choice("t", (), {}, raw),), 0) for raw in factors]
         losses = [0.1, 0.8]
         ranked = sorted(

@@ -28,9 +28,9 @@ def energy(weights: Weights, one: RankedPlan) -> float:
 
 
 def test_a_vector_has_a_number_for_each_factor() -> None:
-    vector = vector_of(plan(env=0.5, trim=4.0))
+    vector = vector_of(plan(environment_distance=0.5, trimming=4.0))
     assert vector.shape == (len(NAMES),)
-    assert vector[NAMES.index("trim")] == 4.0
+    assert vector[NAMES.index("trimming")] == 4.0
     assert vector.sum() == 4.5
 
 
@@ -40,21 +40,30 @@ def test_what_the_start_gets_wrong_is_learned() -> None:
     pools = []
     for _ in range(30):
         noise = float(random.random()) * 0.1
-        pools.append(pool((plan(nl=0.6, cons=0.1 + noise), 0.1), (plan(nl=0.2, cons=0.9 - noise), 0.8)))
-    good, bad = plan(nl=0.6, cons=0.15), plan(nl=0.2, cons=0.85)
+        pools.append(
+            pool(
+                (plan(clause_distance=0.6, inconsistent_end=0.1 + noise), 0.1),
+                (plan(clause_distance=0.2, inconsistent_end=0.9 - noise), 0.8),
+            )
+        )
+    good, bad = plan(clause_distance=0.6, inconsistent_end=0.15), plan(clause_distance=0.2, inconsistent_end=0.85)
     assert energy(START, good) > energy(START, bad)
     learned = descend(pools, START, np.random.default_rng(0), epochs=30, rate=0.1, pull=1e-3).weights
     assert energy(learned, good) < energy(learned, bad)
 
 
 def test_weights_stay_non_negative() -> None:
-    pools = [pool((plan(env=1.0), 0.0), (plan(env=0.0), 1.0)) for _ in range(20)]
+    pools = [pool((plan(environment_distance=1.0), 0.0), (plan(environment_distance=0.0), 1.0)) for _ in range(20)]
     learned = descend(pools, START, np.random.default_rng(0), epochs=50, rate=1.0, pull=0.0).weights
     assert all(learned[name] >= 0.0 for name in NAMES)
 
 
 def test_nothing_to_learn_from_leaves_the_start() -> None:
-    pools = [pool(), pool((plan(env=1.0), 0.3)), pool((plan(env=1.0), 0.3), (plan(env=1.0), 0.3))]
+    pools = [
+        pool(),
+        pool((plan(environment_distance=1.0), 0.3)),
+        pool((plan(environment_distance=1.0), 0.3), (plan(environment_distance=1.0), 0.3)),
+    ]
     assert descend(pools, START, np.random.default_rng(0), epochs=5, rate=0.1, pull=0.0).weights is START
 
 
@@ -63,7 +72,10 @@ def test_rounds_propose_with_the_weights_of_the_round_before() -> None:
 
     def propose(number: int, weights: Weights) -> list[tuple[RankedPlan, float]]:
         asked.append(weights)
-        plans = [(plan(nl=0.9, cons=0.1), 0.1), (plan(nl=0.1, cons=0.9), 0.8)]
+        plans = [
+            (plan(clause_distance=0.9, inconsistent_end=0.1), 0.1),
+            (plan(clause_distance=0.1, inconsistent_end=0.9), 0.8),
+        ]
         return sorted(plans, key=lambda item: energy(weights, item[0]))
 
     learned = learn_weights(propose, 4, START, np.random.default_rng(0), rounds=3, epochs=30)
@@ -74,7 +86,13 @@ def test_rounds_propose_with_the_weights_of_the_round_before() -> None:
 
 
 def test_the_seed_decides() -> None:
-    pools = [pool((plan(env=float(i % 3), nl=0.5), i / 10), (plan(env=1.0, nl=float(i % 2)), 0.5)) for i in range(9)]
+    pools = [
+        pool(
+            (plan(environment_distance=float(i % 3), clause_distance=0.5), i / 10),
+            (plan(environment_distance=1.0, clause_distance=float(i % 2)), 0.5),
+        )
+        for i in range(9)
+    ]
     randoms = [np.random.default_rng(seed) for seed in (0, 0, 1)]
     outcomes = [descend(pools, START, random, epochs=3, rate=0.1, pull=1e-3).weights for random in randoms]
     assert outcomes[0] == outcomes[1]

@@ -112,8 +112,8 @@ def test_what_few_demonstrations_taught_is_trusted_less() -> None:
         policy = Always((first(world),))
         return inferred(inference(*proposers_of(config, world, library, energy(), policy)), "Hide the cup.").plans[0]
 
-    assert plan(0).raw["generated"] == 1
-    assert plan(taught).raw["generated"] == 2
+    assert plan(0).raw["policy_proposal"] == 1
+    assert plan(taught).raw["policy_proposal"] == 2
 
 
 def first(world: World) -> Instruction:
@@ -133,7 +133,7 @@ class Own(Proposer):
 
     def judge(self, situation: Situation, instructions: Instructions, end: Bits) -> Factors:
         """Under the name of a factor that has a weight."""
-        return {"words": float(instructions != self.instructions)}
+        return {"language_model": float(instructions != self.instructions)}
 
 
 def test_another_proposer_needs_nothing_but_to_be_given() -> None:
@@ -141,4 +141,4 @@ def test_another_proposer_needs_nothing_but_to_be_given() -> None:
     own = Own((first(world),))
     plan = inferred(inference(own, *proposers_of(PAPER, world, library, energy())), TEXTS[0]).plans[0]
     assert (plan.choices[0].source, plan.instructions) == ("own", (first(world),))
-    assert plan.raw["words"] == 0
+    assert plan.raw["language_model"] == 0

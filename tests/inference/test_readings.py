@@ -111,7 +111,7 @@ def reached(plan: RankedPlan) -> list[str]:
 def test_the_prior_decides_between_goals_that_cost_the_same(belief: float, winner: str) -> None:
     found = infer(Fake([[candidate(CUP, belief), candidate(BOOK, 1 - belief)]]))
     assert reached(found.plans[0]) == [winner]
-    assert found.plans[0].raw["prior"] == pytest.approx(-math.log(max(belief, 1 - belief)))
+    assert found.plans[0].raw["reading_prior"] == pytest.approx(-math.log(max(belief, 1 - belief)))
 
 
 def test_the_loser_and_the_reason_are_reported() -> None:
@@ -159,7 +159,7 @@ def test_the_answer_decides() -> None:
 
 def test_one_candidate_has_no_prior_among_its_factors() -> None:
     found = infer(Fake([[candidate(CUP, 1.0)]]))
-    assert "prior" not in found.plans[0].raw and found.plans[0].goals[0].others == ()
+    assert "reading_prior" not in found.plans[0].raw and found.plans[0].goals[0].others == ()
 
 
 def test_the_memory_belongs_to_the_reading() -> None:

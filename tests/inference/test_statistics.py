@@ -39,8 +39,8 @@ def test_a_clause_that_turns_something_on_is_consistent_with_its_being_on(kitche
     world = kitchen.world("kitchen1")
     energy = Energy(ONES, count(library), world)
     turned = world.task.by_instruction[Instruction("turn", ("stove1_knob1", "high"))].apply(world.task.init)
-    off = energy.of_end("turn_on", ["stove1_burner1"], world.task.init)["cons"]
-    on = energy.of_end("turn_on", ["stove1_burner1"], turned)["cons"]
+    off = energy.of_end("turn_on", ["stove1_burner1"], world.task.init)["inconsistent_end"]
+    on = energy.of_end("turn_on", ["stove1_burner1"], turned)["inconsistent_end"]
     assert 0 <= on < off <= 1
 
 
@@ -50,9 +50,9 @@ def test_usual_instructions_cost_less_than_unusual_ones(kitchen: Corpus) -> None
     usual = energy.of_sequence([Instruction("grasp", ("pot1",))], 1, [])
     unusual = energy.of_sequence([Instruction("squeeze", ("raspberry_bottle1", "cup1", "in"))], 1, [])
     odd_object = energy.of_sequence([Instruction("grasp", ("fork1",))], 1, [])
-    assert usual["inpr"] < unusual["inpr"]
-    assert usual["para"] < odd_object["para"]
-    assert usual["inpr"] == odd_object["inpr"]
+    assert usual["instruction_prior"] < unusual["instruction_prior"]
+    assert usual["parameter_prior"] < odd_object["parameter_prior"]
+    assert usual["instruction_prior"] == odd_object["instruction_prior"]
 
 
 def test_no_latent_instruction_costs_nothing(kitchen: Corpus) -> None:
@@ -61,5 +61,10 @@ def test_no_latent_instruction_costs_nothing(kitchen: Corpus) -> None:
     energy = Energy(ONES, count(library), world)
     assert energy.of_latent([], world.task.init) == {}
     found = energy.of_latent([Instruction("find", ("pot1",))], world.task.init)
-    assert set(found) == {"latent_dscpl", "latent_inpr", "latent_para", "latent_cons"}
-    assert found["latent_dscpl"] == 2.0
+    assert set(found) == {
+        "latent_description_length",
+        "latent_instruction_prior",
+        "latent_parameter_prior",
+        "latent_inconsistent_end",
+    }
+    assert found["latent_description_length"] == 2.0

@@ -13,9 +13,9 @@ import pytest
 
 from tmd.pddl import semantics
 from tmd.pddl.task import Bits, Cube, Task
+from tmd.planning.backends import fast_downward_for_gaps
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Unreachable
-from tmd.planning.up_planners import fast_downward_for_gaps
 
 NAMES = sorted(path.stem for path in (Path(__file__).parent / "queries").glob("*.jsonl"))
 
@@ -90,17 +90,14 @@ def test_a_sample_is_asked_of_fast_downward_again(queries_of: Queries) -> None:
     queries = [query for query in queries_of(NAMES[0]) if query.verdict != "gave up"]
     chosen = queries[len(queries) // 2 :][:1]
     reference = fast_downward_for_gaps(queries[0].task)
-    try:
-        task = queries[0].task
-        known = next(i for i, atom in enumerate(task.atoms) if atom.predicate == "found")
-        forget = Cube(0, 1 << known)
-        assert isinstance(reference.fill(task.init | 1 << known, (forget,)), Unreachable)
-        for query in chosen:
-            answer = reference.fill(query.state, (query.goal,))
-            if query.verdict == "solved":
-                assert isinstance(answer, Filled)
-                assert answer.cost == query.cost
-            else:
-                assert isinstance(answer, Unreachable)
-    finally:
-        reference.close()
+    task = queries[0].task
+    known = next(i for i, atom in enumerate(task.atoms) if atom.predicate == "found")
+    forget = Cube(0, 1 << known)
+    assert isinstance(reference.fill(task.init | 1 << known, (forget,)), Unreachable)
+    for query in chosen:
+        answer = reference.fill(query.state, (query.goal,))
+        if query.verdict == "solved":
+            assert isinstance(answer, Filled)
+            assert answer.cost == query.cost
+        else:
+            assert isinstance(answer, Unreachable)

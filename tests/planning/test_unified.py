@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-import json
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -14,19 +12,11 @@ from tmd.pddl.model import Problem
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import parse
 from tmd.pddl.task import Cube, Task
-from tmd.planning import up_worker
-from tmd.planning.backends import make
+from tmd.planning.backends import fast_downward_for_gaps, make
 from tmd.planning.fast_downward import OPTIMAL_WITH_AXIOMS, OPTIMAL_WITH_CONDITIONS
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Unreachable
-from tmd.planning.up_planners import (
-    EngineSpec,
-    UnifiedPlanner,
-    fast_downward_for_gaps,
-    has_universal,
-    judged,
-    spec,
-)
+from tmd.planning.up_planners import EngineSpec, _judged, fast_downward_engine, has_universal
 
 installed = pytest.mark.skipif(
     __import__("importlib.util").util.find_spec("up_fast_downward") is None, reason="Fast Downward is not installed"
@@ -38,54 +28,36 @@ def test_fast_downward_agrees_in_the_pantry(pantry: Task, pantry_problem: Proble
     """Costs, free steps, conditional effects, a disjunctive precondition, negative goals."""
     reference = fast_downward_for_gaps(pantry)
     ours = GapFiller(pantry)
-    try:
-        for goal in (pantry.goal, (Cube(0, 1 << 3), Cube(1 << 5, 0))):
-            theirs = reference.fill(pantry.init, goal)
-            assert isinstance(theirs, Filled)
-            mine = ours.fill(pantry.init, goal)
-            assert isinstance(mine, Filled)
-            assert mine.cost == theirs.cost
-        assert reference.fill(pantry.init, (Cube(),)) == Filled((), pantry.init, 0)
-        assert isinstance(reference.fill(pantry.init, (Cube(1, 1),)), Unreachable)
-    finally:
-        reference.close()
+    for goal in (pantry.goal, (Cube(0, 1 << 3), Cube(1 << 5, 0))):
+        theirs = reference.fill(pantry.init, goal)
+        assert isinstance(theirs, Filled)
+        mine = ours.fill(pantry.init, goal)
+        assert isinstance(mine, Filled)
+        assert mine.cost == theirs.cost
+    assert reference.fill(pantry.init, (Cube(),)) == Filled((), pantry.init, 0)
+    assert isinstance(reference.fill(pantry.init, (Cube(1, 1),)), Unreachable)
 
 
 @installed
 def test_two_at_once_do_not_disturb_each_other(pantry: Task) -> None:
     planners = [fast_downward_for_gaps(pantry), fast_downward_for_gaps(pantry)]
-    try:
-        with ThreadPoolExecutor(2) as pool:
-            answers = list(pool.map(lambda p: [p.fill(pantry.init, (Cube(1 << i, 0),)) for i in range(4)], planners))
-    finally:
-        for planner in planners:
-            planner.close()
+    with ThreadPoolExecutor(2) as pool:
+        answers = list(pool.map(lambda p: [p.fill(pantry.init, (Cube(1 << i, 0),)) for i in range(2)], planners))
     assert answers[0] == answers[1]
     assert all(isinstance(answer, Filled) for answer in answers[0])
 
 
 @installed
-def test_the_worker_leaves_nothing_behind(pantry: Task, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_engine_leaves_nothing_behind(pantry: Task, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
-    planner = fast_downward_for_gaps(pantry)
-    planner.fill(pantry.init, pantry.goal)
-    planner.close()
-    planner.close()
+    fast_downward_for_gaps(pantry).fill(pantry.init, pantry.goal)
     assert list(tmp_path.iterdir()) == []
-
-
-@installed
-def test_a_closed_planner_starts_again(pantry: Task) -> None:
-    planner = fast_downward_for_gaps(pantry)
-    planner.close()
-    assert isinstance(planner.fill(pantry.init, pantry.goal), Filled)
-    planner.close()
 
 
 def test_an_unknown_engine_is_missing(pantry: Task) -> None:
     with pytest.raises(MissingToolError, match="no engine 'nonesuch'"):
-        make("up:nonesuch", pantry)
+        make("up:nonesuch", pantry).fill(pantry.init, pantry.goal)
 
 
 @pytest.mark.parametrize("name", ["", "fast-downwards", "up:", "inprocess"])
@@ -104,7 +76,7 @@ def test_without_fast_downward(monkeypatch: pytest.MonkeyPatch, pantry: Task) ->
 def test_without_unified_planning(monkeypatch: pytest.MonkeyPatch, pantry: Task) -> None:
     monkeypatch.setattr("tmd.planning.up_planners.find_spec", lambda name: None)
     with pytest.raises(MissingToolError, match="unified-planning"):
-        UnifiedPlanner(pantry, EngineSpec("tamer"))
+        make("up:tamer", pantry)
 
 
 @pytest.mark.parametrize(
@@ -123,9 +95,9 @@ def test_statuses(status: str, kind: type) -> None:
     engine = EngineSpec("fast-downward", time_limit=7)
     if issubclass(kind, Exception):
         with pytest.raises(kind, match="fast-downward"):
-            judged(status, engine, "it is so")
+            _judged(status, engine)
     else:
-        assert isinstance(judged(status, engine, "it is so"), kind)
+        assert isinstance(_judged(status, engine), kind)
 
 
 @pytest.mark.parametrize(
@@ -144,13 +116,7 @@ def test_universal_conditions_are_found(text: str, universal: bool) -> None:
 
 
 def test_axioms_decide_the_configuration(pantry_problem: Problem) -> None:
-    assert spec(pantry_problem.domain).parameters["fast_downward_search_config"] == OPTIMAL_WITH_CONDITIONS
+    assert (
+        fast_downward_engine(pantry_problem.domain).parameters["fast_downward_search_config"] == OPTIMAL_WITH_CONDITIONS
+    )
     assert OPTIMAL_WITH_CONDITIONS != OPTIMAL_WITH_AXIOMS
-
-
-def test_the_worker_answers_faults_in_one_line() -> None:
-    answers = io.StringIO()
-    up_worker.serve(io.StringIO("not json\n"), answers)
-    reply = json.loads(answers.getvalue())
-    assert reply["fault"] == "JSONDecodeError"
-    assert "\n" not in reply["message"]

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -18,12 +19,12 @@ from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.task import Task
 from tmd.pddl.validator import validate
-from tmd.planning import up_planners
-from tmd.planning.backends import solve
-from tmd.planning.fast_downward import FirstPlan
+from tmd.planning import processes, up_planners
+from tmd.planning.backends import GapsAsProblems, solve
+from tmd.planning.fast_downward import first_plan_of_gap
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Solved, Unreachable
-from tmd.planning.up_planners import EngineSpec, UnifiedPlanner, Worker
+from tmd.planning.up_planners import EngineSpec, solve_with_engine
 
 pytest.importorskip("up_fast_downward", reason="Fast Downward is not installed")
 
@@ -229,7 +230,7 @@ def test_only_time_of_the_processor_ends_a_search_for_a_gap(
     """What else the machine does shall not decide what a robot does."""
     fake.does(search, translator)
     task = ground(lamp("(lit)"))
-    answer = FirstPlan(task, seconds=1).fill(task.init, task.goal)
+    answer = GapsAsProblems(task, partial(first_plan_of_gap, seconds=1)).fill(task.init, task.goal)
     assert isinstance(answer, Filled) if found else answer == GaveUp("1 s of Fast Downward")
 
 
@@ -300,25 +301,21 @@ def test_what_kairos_does_not_solve_fast_downward_is_asked(
     assert isinstance(answer, Solved) and answer.plan
 
 
-# ---------------------------------------------------------------------- the worker of unified-planning
-
-
-READY = "print('{}', flush=True); input()"
+# ---------------------------------------------------------------------- the processes of unified-planning
 
 
 @pytest.fixture
-def worker(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
-    """Replaces the program of the worker."""
+def engine(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
+    """Replaces the program of an engine's process."""
     monkeypatch.setattr(up_planners, "GRACE", 1.0)
-    return lambda program: monkeypatch.setattr(Worker, "command", (sys.executable, "-c", program))
+    return lambda program: monkeypatch.setattr(processes, "_CALL", (sys.executable, "-c", program))
 
 
 @pytest.mark.parametrize(
     ("program", "why"),
     [
         ("print('rubbish')", "answered what is no JSON"),
-        (f"input(); {READY}; print('[rubb', flush=True); input()", "answered what is no JSON"),
-        ("import time; time.sleep(60)", "did not start within 2 s"),
+        ("print('[rubb')", "answered what is no JSON"),
         ("import os; os.abort()", "was killed by SIGABRT"),
         (
             "import sys; print('no space', file=sys.stderr); exit(3)",
@@ -326,26 +323,50 @@ def worker(monkeypatch: pytest.MonkeyPatch) -> Callable[[str], None]:
         ),
     ],
 )
-def test_an_engine_that_misbehaves(worker: Callable[[str], None], program: str, why: str, pantry: Task) -> None:
-    worker(program)
+def test_an_engine_that_misbehaves(engine: Callable[[str], None], program: str, why: str, alike: Problem) -> None:
+    engine(program)
     with pytest.raises(PlannerError, match=why):
-        UnifiedPlanner(pantry, EngineSpec("x", time_limit=1.0)).fill(pantry.init, pantry.goal)
+        solve_with_engine(alike, EngineSpec("x", time_limit=5.0))
 
 
-def test_a_worker_that_reads_nothing_gave_up(worker: Callable[[str], None], alike: Problem) -> None:
-    """A question of more than a socket takes at once."""
-    worker(f"input(); {READY.removesuffix('; input()')}; import time; time.sleep(60)")
-    asked = Worker(alike, EngineSpec("x", time_limit=0.2))
-    assert asked.solve([(("x" * 1_000_000,), True)], []) == ("TIMEOUT", None)
-    assert asked.closed
+def test_an_engine_that_hangs_gave_up(engine: Callable[[str], None], alike: Problem) -> None:
+    engine("import time; time.sleep(60)")
+    assert solve_with_engine(alike, EngineSpec("x", time_limit=0.2)) == GaveUp("0.2 s of x")
 
 
-def test_what_a_worker_started_in_a_session_of_its_own_ends_with_it(
-    worker: Callable[[str], None], alike: Problem, tmp_path: Path
+def test_what_an_engine_started_in_a_session_of_its_own_ends_with_it(
+    engine: Callable[[str], None], alike: Problem, tmp_path: Path
 ) -> None:
     text = f"sleep 60; : {tmp_path}"
-    worker(f"import subprocess; subprocess.Popen(['sh', '-c', {text!r}], start_new_session=True); input(); {READY}")
-    asked = Worker(alike, EngineSpec("x", time_limit=10.0))
-    assert processes_with(str(tmp_path))
-    asked.close()
+    engine(
+        f"import subprocess; subprocess.Popen(['sh', '-c', {text!r}], start_new_session=True)\n"
+        """print('{"status": "TIMEOUT"}')"""
+    )
+    assert isinstance(solve_with_engine(alike, EngineSpec("x", time_limit=10.0)), GaveUp)
     assert all_gone(str(tmp_path))
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
+def test_no_engine_outlives_the_program(alike: Problem, tmp_path: Path, number: signal.Signals) -> None:
+    """Neither its directory nor what it has started in a session of its own."""
+    engine = (
+        "import os, subprocess, threading, time; from tmd.planning.up_planners import _end_with_parent as end\n"
+        "threading.Thread(target=end, args=(os.getppid(),), daemon=True).start()\n"
+        f"subprocess.Popen(['sleep', '60'], start_new_session=True, cwd={str(tmp_path)!r}); time.sleep(60)"
+    )
+    program = (
+        f"import sys, tempfile; from tmd.planning import processes; tempfile.tempdir = {str(tmp_path)!r}\n"
+        f"processes._CALL = (sys.executable, '-c', {engine!r})\n"
+        "from tmd.cli import main; sys.argv[0] = 'tmd'; main()"
+    )
+    domain, problem = tmp_path / "d.pddl", tmp_path / "p.pddl"
+    domain.write_text(LAMP)
+    problem.write_text("(define (problem dark) (:domain lamp) (:goal (lit)))")
+    command = [sys.executable, "-c", program, "plan", str(domain), str(problem), "--planner", "up:x"]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as running:
+        while not any("sleep" in Path(f"/proc/{pid}/comm").read_text() for pid in processes_with(str(tmp_path))):
+            time.sleep(0.05)
+        running.send_signal(number)
+        running.communicate()
+    assert all_gone(str(tmp_path))
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["d.pddl", "p.pddl"]

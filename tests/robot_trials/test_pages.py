@@ -24,7 +24,7 @@ def line(number: int, model: str = "full", **changes: object) -> dict[str, Any]:
         "text": "Find the <b>mug</b>.", "predicted": GOOD, "gold": GOOD, "executable": True, "IED": 50.0, "END": 50.0,
         "EED": 50.0, "EED_trim": 50.0, "segments": [],
         "clauses": [{"text": "Find the mug", "verb": "find", "latent": GOOD[:1], "said": GOOD[1:], "source": "demo-1",
-                     "factors": {"dscpl": 1.25}}],
+                     "factors": {"description_length": 1.25}}],
     }  # fmt: skip
     return made | changes
 

@@ -10,7 +10,7 @@ from tmd.view.candidates import candidates
 
 
 def plan(energy: float, source: str | None, why: str = "") -> RankedPlan:
-    factors = {"words": energy, "nl": 0.0}
+    factors = {"language_model": energy, "clause_distance": 0.0}
     return RankedPlan(
         (Choice(source, (PlanStep(Instruction("wait", ()), 0, False),), factors, factors),), state=0, why=why
     )

@@ -13,7 +13,7 @@ from tmd.view.candidates import candidates, factors_of, grouped
 
 def plan(value: float, why: str = "") -> RankedPlan:
     step = PlanStep(Instruction("grasp", ("<b>cup</b>",)), 0, True)
-    return RankedPlan((Choice("<i>demo</i>", (step,), {"dscpl": value, "zero": 0.0}, {}),), 0, why)
+    return RankedPlan((Choice("<i>demo</i>", (step,), {"description_length": value, "zero": 0.0}, {}),), 0, why)
 
 
 def test_plans_have_their_energies_factors_and_reasons(grounded: Grounded) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from tmd.check.codes import SEVERITY, Severity
-from tmd.check.lint.reachable import Possible, Scope, possible, types_of
+from tmd.check.lint.problem import Possible, Scope, types_of
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, family, read_pattern, read_table
 from tmd.goals.tables import declared_goals
@@ -448,7 +448,7 @@ def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: 
     waiting = {(one, preposition): "" for one in sound for preposition in one.prepositions or ("",)}
     looked = False
     for problem in environments if waiting else ():
-        looked, world = True, possible(problem)
+        looked, world = True, Possible(problem)
         lacking = {key: _lacking(_related(key[0].formula, key[1]), _scope(key[0]), world) for key in waiting}
         waiting = {key: atom for key, atom in lacking.items() if atom is not None}
         if not waiting:

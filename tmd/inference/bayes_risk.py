@@ -27,7 +27,7 @@ from tmd.world.world import World
 
 PLANS = 10
 """Number of plans of least energy that are considered."""
-RISK = "risk"
+RISK = "expected_loss"
 """The name of the factor by which such plans are ranked."""
 SAMPLE_SOURCE = "policy sample"
 """The source of a plan that was drawn from the policy."""

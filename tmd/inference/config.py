@@ -74,7 +74,7 @@ class InferenceConfig:
 
     @property
     def akin(self) -> float:
-        """The value of akin nouns, as for :func:`tmd.inference.energy.delta_nl`."""
+        """The value of akin nouns, as for :func:`tmd.inference.energy.clause_distance`."""
         return AKIN if self.extended else 0.0
 
 

@@ -133,72 +133,69 @@ def kind_of(name: str, world: World) -> str:
     return world.mentions.kinds.get(name, name)
 
 
-NAMES = (
-    *("env", "nl", "sim", "pcc", "dscpl", "inpr", "para", "trim", "cons"),
-    *("cover", "words", "generated", "unasked"),
-    *("latent_dscpl", "latent_inpr", "latent_para", "latent_cons"),
-)
-"""The factors whose weights are learned. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
-FIXED = ("prior",)
-"""The factors whose weights are set by hand: no demonstration says how a request was misread."""
-OURS = ("cover", "words", "generated", "unasked")
-"""Those of them that are not in the paper."""
-_TITLES = {
-    "env": "environment distance",
-    "nl": "clause distance",
-    "sim": "parameter similarity",
-    "pcc": "parameter cardinality",
-    "dscpl": "description length",
-    "inpr": "instruction prior",
-    "para": "parameter prior",
-    "trim": "trimming",
-    "cons": "inconsistent end",
-    "cover": "objects not touched",
-    "words": "language model (-log P)",
-    "generated": "policy proposal",
-    "unasked": "changes not asked for",
-    "prior": "prior of the reading",
-    "latent_dscpl": "latent description length",
-    "latent_inpr": "latent instruction prior",
-    "latent_para": "latent parameter prior",
-    "latent_cons": "latent inconsistent end",
-    "risk": "expected loss",
+# The factors with their explanations: the more of one, the dearer the plan.
+_MEANINGS = {
+    "environment_distance": "How much the things here were in other states than the things in the demonstration.",
+    "clause_distance": "How many of the things that the clause names are not those that the demonstration's clause "
+    "named.",
+    "parameter_similarity": "How many things of the demonstration something else stands in for.",
+    "parameter_cardinality": "Whether the clause names more things, or fewer, than the demonstration's clause.",
+    "description_length": "How long the steps are to write down: one for each, and one for each thing in it.",
+    "instruction_prior": "How rare the steps' actions are in the demonstrations.",
+    "parameter_prior": "How rare such things are in such steps in the demonstrations.",
+    "trimming": "How many steps of the demonstration are left out, squared.",
+    "inconsistent_end": "How unlike what this verb usually leaves behind the state at the end is.",
+    "objects_not_touched": "How many of the things that the clause names no step touches.",
+    "language_model": "How unlikely a person is to have said just this of what is done.",
+    "policy_proposal": "What a choice costs that the policy proposed and no demonstration showed.",
+    "changes_not_asked_for": "How much is otherwise at the end that nobody asked for.",
+    "reading_prior": "How unlikely the reader thinks it that this goal is meant (-log P).",
+    "latent_description_length": "How long the steps are to write down that the planner puts in.",
+    "latent_instruction_prior": "How rare the actions are that the planner puts in.",
+    "latent_parameter_prior": "How rare such things are in the steps that the planner puts in.",
+    "latent_inconsistent_end": "How unlike what is usual the state is that the steps which the planner puts in leave "
+    "behind.",
+    "expected_loss": "How far the plan is on average from what people may do, in steps and in what they change, in "
+    "percent.",
 }
+FIXED = ("reading_prior",)
+"""The factors whose weights are set by hand: no demonstration says how a request was misread."""
+OURS = ("objects_not_touched", "language_model", "policy_proposal", "changes_not_asked_for")
+"""Those of them that are not in the paper."""
+NAMES = tuple(name for name in _MEANINGS if name not in (*FIXED, "expected_loss"))
+"""The factors whose weights are learned. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
+# Titles that are more than the name in words.
+_TITLES = {"language_model": "language model (-log P)", "reading_prior": "prior of the reading"}
 
 
 def title(name: str) -> str:
     """Return the words for a factor, where files and JSON have its name."""
-    return _TITLES.get(name, name)
-
-
-_MEANINGS = {
-    "env": "How much the things here were in other states than the things in the demonstration.",
-    "nl": "How many of the things that the clause names are not those that the demonstration's clause named.",
-    "sim": "How many things of the demonstration something else stands in for.",
-    "pcc": "Whether the clause names more things, or fewer, than the demonstration's clause.",
-    "dscpl": "How long the steps are to write down: one for each, and one for each thing in it.",
-    "inpr": "How rare the steps' actions are in the demonstrations.",
-    "para": "How rare such things are in such steps in the demonstrations.",
-    "trim": "How many steps of the demonstration are left out, squared.",
-    "cons": "How unlike what this verb usually leaves behind the state at the end is.",
-    "cover": "How many of the things that the clause names no step touches.",
-    "words": "How unlikely a person is to have said just this of what is done.",
-    "generated": "What a choice costs that the policy proposed and no demonstration showed.",
-    "unasked": "How much is otherwise at the end that nobody asked for.",
-    "prior": "How unlikely the reader thinks it that this goal is meant (-log P).",
-    "latent_dscpl": "How long the steps are to write down that the planner puts in.",
-    "latent_inpr": "How rare the actions are that the planner puts in.",
-    "latent_para": "How rare such things are in the steps that the planner puts in.",
-    "latent_cons": "How unlike what is usual the state is that the steps which the planner puts in leave behind.",
-    "risk": "How far the plan is on average from what people may do, in steps and in what they change, in percent.",
-}
+    return _TITLES.get(name, name.replace("_", " "))
 
 
 def meaning(name: str) -> str:
-    """Explain a factor in a sentence: the more of it, the dearer the plan; empty where it is not known."""
+    """Explain a factor in a sentence; empty where it is not known."""
     return _MEANINGS.get(name, "")
 
 
+# Former names of factors, without the prefix of latent ones.
+_OLD_NAMES = {
+    "env": "environment_distance",
+    "nl": "clause_distance",
+    "sim": "parameter_similarity",
+    "pcc": "parameter_cardinality",
+    "dscpl": "description_length",
+    "inpr": "instruction_prior",
+    "para": "parameter_prior",
+    "trim": "trimming",
+    "cons": "inconsistent_end",
+    "cover": "objects_not_touched",
+    "words": "language_model",
+    "generated": "policy_proposal",
+    "unasked": "changes_not_asked_for",
+    "prior": "reading_prior",
+}
+_LATENT = "latent_"
 _RENAMED = {"original": "paper", "hand_set": "paper_extended", "generating": "policy", "stating": "goals"}
 
 
@@ -208,11 +205,23 @@ class Weights:
 
     values: Mapping[str, float]
 
+    def __post_init__(self) -> None:
+        for name in self.values:
+            _refuse_old_name(name)
+
     def __getitem__(self, name: str) -> float:
         return self.values.get(name, 0.0)
 
     def __iter__(self) -> Iterator[str]:
         return iter(NAMES)
+
+
+def _refuse_old_name(name: str, place: Location | None = None, line: str | None = None) -> None:
+    """Raise TmdError for a former name of a factor."""
+    new = _OLD_NAMES.get(name.removeprefix(_LATENT))
+    if new is not None:
+        new = f"{_LATENT}{new}" if name.startswith(_LATENT) else new
+        raise TmdError(f"the factor '{name}' is now called '{new}'", location=place, source=line)
 
 
 def parse_weights(text: str, file: str = "<text>") -> Weights:
@@ -230,6 +239,7 @@ def parse_weights(text: str, file: str = "<text>") -> Weights:
         if len(words) != 2:
             raise TmdError("a line of weights is a name and a number", location=place, source=line)
         name, value = words
+        _refuse_old_name(name, place, line)
         if name not in (*NAMES, *FIXED):
             hint = nearest(name, (*NAMES, *FIXED))
             raise TmdError(f"there is no factor '{name}'", location=place, source=line, hint=hint)
@@ -273,7 +283,7 @@ def format_weights(weights: Weights) -> str:
     return "".join(f"{name} {weights[name]!r}\n" for name in (*NAMES, *FIXED))
 
 
-def delta_env(instantiation: Instantiation) -> float:
+def environment_distance(instantiation: Instantiation) -> float:
     """Return the environmental distance: the mean share of states in which ξ(z) and ξ_s(z) differ.
 
     Δ_env = 1/|Z| Σ_z 1/|T(z)| Σ_t 1(ξ(z)[t] ≠ ξ_s(z)[t]); 0 for a template without variables.
@@ -285,7 +295,7 @@ def delta_env(instantiation: Instantiation) -> float:
     return sum(differences(before[z], instantiation.profiles[z]) for z in variables) / len(variables)
 
 
-def delta_nl(template_clause: VerbClause, clause: VerbClause, *, akin: float = AKIN) -> float:
+def clause_distance(template_clause: VerbClause, clause: VerbClause, *, akin: float = AKIN) -> float:
     """Return the natural-language distance: 1 - |obj(C_s) ∩ obj(C_i)| / |obj(C_s) ∪ obj(C_i)|.
 
     The paper prints the Jaccard index itself, which is a similarity; a cost needs its complement. Two clauses
@@ -310,7 +320,7 @@ def akin_nouns(one: str, other: str) -> bool:
     return one.endswith(f"_{other}") or other.endswith(f"_{one}")
 
 
-def delta_sim(instantiation: Instantiation) -> float:
+def parameter_similarity(instantiation: Instantiation) -> float:
     """Return the parameter similarity cost: the share of variables whose object is not that of the sample."""
     variables = instantiation.grounding
     if not variables:
@@ -319,22 +329,22 @@ def delta_sim(instantiation: Instantiation) -> float:
     return sum(before[z] != name for z, name in variables.items()) / len(variables)
 
 
-def delta_pcc(template_clause: VerbClause, clause: VerbClause) -> float:
+def parameter_cardinality(template_clause: VerbClause, clause: VerbClause) -> float:
     """Return the parameter cardinality cost: 1 where the clauses speak of different numbers of objects."""
     return float(len(clause.resolved()) != len(template_clause.resolved()))
 
 
-def delta_dscpl(instructions: Sequence[Instruction]) -> float:
+def description_length(instructions: Sequence[Instruction]) -> float:
     """Return the description length: the sum over the instructions of the number of arguments plus one."""
     return float(sum(1 + len(instruction.args) for instruction in instructions))
 
 
-def delta_trim(kept: int, whole: int) -> float:
+def trimming(kept: int, whole: int) -> float:
     """Return the trimming cost: (|I_s| - |I_i|)²."""
     return float((whole - kept) ** 2)
 
 
-def delta_cover(names: Collection[str], used: Collection[str]) -> float:
+def objects_not_touched(names: Collection[str], used: Collection[str]) -> float:
     """Return the share of the objects that the clause speaks of (``names``) which the instructions do not touch.
 
     Not in the paper. Δ_nl compares the clause with the template's clause, not with what is done: this keeps *take
@@ -354,7 +364,7 @@ class Energy:
         weights: The weight of each factor.
         statistics: The tables of the training data.
         world: The environment.
-        akin: As for :func:`~tmd.inference.energy.delta_nl`.
+        akin: As for :func:`~tmd.inference.energy.clause_distance`.
     """
 
     def __init__(self, weights: Weights, statistics: Statistics, world: World, *, akin: float = AKIN) -> None:
@@ -368,47 +378,50 @@ class Energy:
         """Return the factors of ψ_i that do not depend on how much of the template is kept."""
         template = instantiation.template.clause
         return {
-            "env": delta_env(instantiation),
-            "nl": delta_nl(template, clause, akin=self.akin),
-            "sim": delta_sim(instantiation),
-            "pcc": delta_pcc(template, clause),
+            "environment_distance": environment_distance(instantiation),
+            "clause_distance": clause_distance(template, clause, akin=self.akin),
+            "parameter_similarity": parameter_similarity(instantiation),
+            "parameter_cardinality": parameter_cardinality(template, clause),
         }
 
     def of_sequence(self, kept: Sequence[Instruction], whole: int, names: Sequence[str]) -> Factors:
         """Return the factors of ψ_i that depend on the kept instructions; ``names`` are the clause's objects."""
         used = {unit for i in kept for argument in i.args for unit in self.world.profiles.unit(argument)}
-        inpr, para = self._prior(kept)
+        own, arguments = self._prior(kept)
         return {
-            "dscpl": delta_dscpl(kept),
-            "inpr": inpr,
-            "para": para,
-            "trim": delta_trim(len(kept), whole),
-            "cover": delta_cover(names, used),
+            "description_length": description_length(kept),
+            "instruction_prior": own,
+            "parameter_prior": arguments,
+            "trimming": trimming(len(kept), whole),
+            "objects_not_touched": objects_not_touched(names, used),
         }
 
     def of_end(self, verb: str, names: Sequence[str], end: Bits) -> Factors:
         """Return ψ'_i: whether the clause's objects end as they usually do when its verb has been done."""
         table = self.statistics.ends.get(self.world.mentions.lexicon.canonical_verb(verb))
-        return {"cons": self._inconsistency(table, names, end) if table is not None else 0.0}
+        return {"inconsistent_end": self._inconsistency(table, names, end) if table is not None else 0.0}
 
     def of_latent(self, plan: Sequence[Instruction], end: Bits) -> Factors:
         """Return ψ_il and ψ'_il, for the instructions that were left unsaid; nothing where none are needed."""
         if not plan:
             return {}
-        inpr, para = self._prior(plan)
+        own, arguments = self._prior(plan)
         used = dict.fromkeys(a for i in plan for a in i.args if a not in self.world.profiles.constants)
         return {
-            "latent_dscpl": delta_dscpl(plan),
-            "latent_inpr": inpr,
-            "latent_para": para,
-            "latent_cons": self._inconsistency(self.statistics.all_ends, list(used), end),
+            "latent_description_length": description_length(plan),
+            "latent_instruction_prior": own,
+            "latent_parameter_prior": arguments,
+            "latent_inconsistent_end": self._inconsistency(self.statistics.all_ends, list(used), end),
         }
 
     def least_more(self) -> float:
         """Return the least that end and latent factors can add to a candidate, negative only by weights."""
-        if any(self.weights[name] < 0 for name in ("latent_dscpl", "latent_inpr", "latent_para")):
+        if any(
+            self.weights[name] < 0
+            for name in ("latent_description_length", "latent_instruction_prior", "latent_parameter_prior")
+        ):
             return -math.inf
-        return min(0.0, self.weights["cons"]) + min(0.0, self.weights["latent_cons"])
+        return min(0.0, self.weights["inconsistent_end"]) + min(0.0, self.weights["latent_inconsistent_end"])
 
     def weigh(self, values: Mapping[str, float]) -> Factors:
         """Return each factor multiplied by its weight."""

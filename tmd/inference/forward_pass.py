@@ -9,47 +9,33 @@ planner. :mod:`tmd.inference.goal_pass` adds goals that every candidate must rea
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
-from typing import Protocol
 
-from tmd.inference.commitments import Commitment
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy, Factors
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation
 from tmd.inference.ranking import (
     Choice,
     Inferred,
-    Path,
     PlanStep,
     RankedPlan,
     RejectedProposal,
-    StepGoal,
+    Way,
     why_lost,
 )
 from tmd.pddl.domain_traits import passing_predicates
-from tmd.pddl.model import Formula, Instruction
+from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube, Task
+from tmd.planning.backends import TaskPlanners
 from tmd.planning.result import Answer, Filled, GaveUp, NoPlanner, Planner, Unreachable
 from tmd.world.verb_clause import VerbClause
 from tmd.world.world import World
 
 NOTHING = Choice(None, (), {}, {})
 """The choice for a clause for which nothing is done."""
-
-
-class Planners(Protocol):
-    """The planners of one environment."""
-
-    def quick(self, task: Task) -> Planner:
-        """Return the planner that fills gaps."""
-        ...
-
-    def resort(self, task: Task, *, brief: bool = False) -> Planner:
-        """Return the planner that is asked where the quick one gave up; a ``brief`` one gives up after some seconds."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -80,33 +66,10 @@ class InferenceSetup:
 
     world: World
     energy: Energy
-    planners: Planners
-    proposers: tuple[Proposer, ...]
+    planners: TaskPlanners
+    proposers: Sequence[Proposer]
     config: InferenceConfig
-    restoration: Restoration = field(default_factory=Restoration)
-
-
-@dataclass(frozen=True, slots=True)
-class Way:
-    """A way through the first steps.
-
-    Attributes:
-        path: The choices, their energy and the state they end in.
-        memory: The reader's memory.
-        kept: The commitments.
-        goals: The goals of the steps.
-        readings: For each step with several candidate goals, its index and the goal that was taken.
-    """
-
-    path: Path
-    memory: object = None
-    kept: tuple[Commitment, ...] = ()
-    goals: tuple[StepGoal, ...] = ()
-    readings: tuple[tuple[int, Formula], ...] = ()
-
-    def extended(self, choice: Choice, end: Bits) -> Way:
-        """Return the way with a choice for the next clause, which ends in ``end``."""
-        return replace(self, path=self.path.extended(choice, end))
+    restoration: Restoration | None = None
 
 
 class ForwardPass:
@@ -132,27 +95,28 @@ class ForwardPass:
 
     def infer(self, state: Bits) -> Inferred:
         """Return the best distinct plans for the clauses from ``state``."""
-        ways = [Way(Path(0.0, state))]  # α_0[E'_0] = 0
+        ways = [Way(0.0, state)]  # α_0[E'_0] = 0
         for number in range(len(self.clauses)):
             ways = self._forward(number, ways)
         return Inferred(self.ranked(ways), tuple(self.rejected))
 
     def ranked(self, ways: Sequence[Way]) -> tuple[RankedPlan, ...]:
         """Return the cheapest distinct plans, each with the reason why it is not the first."""
-        plans = [RankedPlan(w.path.choices, w.path.state, goals=w.goals) for w in distinct(ways, self.top)]
+        plans = [RankedPlan(w.choices, w.state, goals=w.goals) for w in distinct(ways, self.top)]
         return tuple(replace(p, why=why_lost(p, plans[0])) if place else p for place, p in enumerate(plans))
 
     def _forward(self, number: int, ways: Sequence[Way]) -> list[Way]:
         """Compute α_j from α_{j-1}: Forward-Inference(j)."""
         alpha = by_state(ways)
-        groups = {Situation(self.clauses, number, [way.path for way in group]): group for group in alpha.values()}
+        groups = {Situation(self.clauses, number, group[0]): group for group in alpha.values()}
         found: dict[Bits, list[Way]] = {}
         for bound, situation, candidate in self.queue(groups):  # lines 3 to 7
             if self._settled(found, bound):
                 break
             match self._answer(situation.state, candidate.instructions):  # lines 8 and 9
                 case Filled(latent):
-                    choice, end = self._chosen(situation, candidate, latent)  # lines 10 and 11
+                    own, names, raw = candidate.instructions, candidate.names, candidate.raw
+                    choice, end = self.weighed(situation, candidate.source, names, latent, own, raw)  # lines 10 and 11
                     found.setdefault(end, []).extend(w.extended(choice, end) for w in groups[situation])  # line 12
                 case Unreachable(reason):
                     self.rejected[RejectedProposal(number, candidate.source, reason)] = None
@@ -171,7 +135,7 @@ class ForwardPass:
                 if isinstance(proposed, RejectedProposal):
                     self.rejected[proposed] = None
                 else:
-                    found.append((situation.ways[0].energy + proposed.energy, situation, proposed))
+                    found.append((situation.way.energy + proposed.energy, situation, proposed))
         return sorted(found, key=lambda item: item[0])
 
     def _settled(self, found: dict[Bits, list[Way]], bound: float) -> bool:
@@ -182,7 +146,7 @@ class ForwardPass:
         if self.config.beam is None:
             return False
         least = bound + self.setup.energy.least_more()
-        cheaper = [sum(way.path.energy < least for way in ways) for ways in found.values()]
+        cheaper = [sum(way.energy < least for way in ways) for ways in found.values()]
         return sum(map(bool, cheaper)) >= self.config.beam and sum(cheaper) >= self.top
 
     def _answer(self, state: Bits, instructions: Instructions) -> Answer:
@@ -191,29 +155,21 @@ class ForwardPass:
             return Filled((), state, 0)
         return self.planner.fill(state, self.constraints.of(instructions))
 
-    def _chosen(self, situation: Situation, candidate: Proposal, latent: Instructions) -> tuple[Choice, Bits]:
-        """Return the choice of a candidate with the planner's instructions before it, and the state it ends in."""
-        if not self.config.knowledge:  # a robot without knowledge takes its environment to stay as it was
-            return self.choice(situation.number, candidate.source, latent, candidate.instructions, candidate.raw), (
-                situation.state
-            )
-        own = candidate.instructions
-        raw, end = self.weighed(situation, candidate.names, latent, own, candidate.raw)
-        return self.choice(situation.number, candidate.source, latent, own, raw), end
-
     def weighed(
         self,
         situation: Situation,
+        source: str,
         names: Sequence[str],
         latent: Instructions,
         own: Instructions,
         raw: Factors,
         aim: Sequence[Cube] = (),
-    ) -> tuple[Factors, Bits]:
-        """Return all factors of a candidate, and the state that it ends in (Φ, lines 10 and 11).
+    ) -> tuple[Choice, Bits]:
+        """Return the choice of a candidate with all its factors, and the state that it ends in (Φ, lines 10 and 11).
 
         Args:
-            situation: The clause, and the ways to it.
+            situation: The clause, and the way to it.
+            source: The source of the candidate.
             names: The objects that the clause speaks of.
             latent: The planner's instructions (I_jl).
             own: The candidate's instructions (I_j).
@@ -221,25 +177,23 @@ class ForwardPass:
             aim: The goal that it reaches, where there is one.
         """
         energy = self.setup.energy
-        middle = self.simulated(situation.state, latent)  # E_j, line 10
-        end = self.simulated(middle, own)  # E'_j, line 11
-        factors = dict(raw)  # ψ_j
-        factors |= energy.of_end(situation.clause.verb, names, end)  # ψ'_j
-        factors |= energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
-        if aim:
-            asked = 0
-            for cube in aim:
-                asked |= cube.positive | cube.negative
-            factors["unasked"] = float(((end ^ situation.state) & self.lasting & ~asked).bit_count())
-        for proposer in self.setup.proposers:
-            factors |= proposer.judge(situation, (*latent, *own), end)
-        return factors, end
-
-    def choice(self, number: int, source: str, latent: Instructions, own: Instructions, raw: Factors) -> Choice:
-        """Return the choice of a candidate whose factors are ``raw``."""
-        steps = tuple(PlanStep(i, number, latent=True) for i in latent)
-        steps += tuple(PlanStep(i, number, latent=False) for i in own)
-        return Choice(source, steps, self.setup.energy.weigh(raw), raw)
+        factors, end = dict(raw), situation.state  # ψ_j
+        if self.config.knowledge:  # a robot without knowledge takes its environment to stay as it was
+            middle = self.simulated(situation.state, latent)  # E_j, line 10
+            end = self.simulated(middle, own)  # E'_j, line 11
+            factors |= energy.of_end(situation.clause.verb, names, end)  # ψ'_j
+            factors |= energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
+            if aim:
+                asked = 0
+                for cube in aim:
+                    asked |= cube.positive | cube.negative
+                changed = (end ^ situation.state) & self.lasting & ~asked
+                factors["changes_not_asked_for"] = float(changed.bit_count())
+            for proposer in self.setup.proposers:
+                factors |= proposer.judge(situation, (*latent, *own), end)
+        steps = tuple(PlanStep(i, situation.number, latent=True) for i in latent)
+        steps += tuple(PlanStep(i, situation.number, latent=False) for i in own)
+        return Choice(source, steps, energy.weigh(factors), factors), end
 
     @cached_property
     def lasting(self) -> Bits:
@@ -255,7 +209,7 @@ class ForwardPass:
 
     def pruned(self, found: Iterable[Way], beam: int | None) -> list[Way]:
         """Return the cheapest ways to each of the ``beam`` cheapest environments; ``None`` keeps all."""
-        ends = by_state(sorted(found, key=lambda way: way.path.order))
+        ends = by_state(sorted(found, key=lambda way: way.order))
         return [way for group in islice(ends.values(), beam) for way in distinct(group, self.top)]
 
 
@@ -263,15 +217,15 @@ def by_state(ways: Iterable[Way]) -> dict[Bits, list[Way]]:
     """Group ways by the state that they end in; the order is kept."""
     found: dict[Bits, list[Way]] = {}
     for way in ways:
-        found.setdefault(way.path.state, []).append(way)
+        found.setdefault(way.state, []).append(way)
     return found
 
 
 def distinct(ways: Iterable[Way], count: int) -> list[Way]:
     """Return the ``count`` cheapest ways that differ in their instructions, the cheapest first."""
     kept: dict[Instructions, Way] = {}
-    for way in sorted(ways, key=lambda way: way.path.order):
+    for way in sorted(ways, key=lambda way: way.order):
         if len(kept) == count:
             break
-        kept.setdefault(way.path.instructions, way)
+        kept.setdefault(way.instructions, way)
     return list(kept.values())

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import islice
 
 from tmd.diagnostics import Refusal, RefusalKind
@@ -24,16 +24,16 @@ from tmd.inference.commitments import (
     violated,
 )
 from tmd.inference.energy import Factors
-from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup, Way
+from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup, Restoration
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
-from tmd.inference.ranking import Choice, Inferred, LostGoal, Path, PlanStep, StepGoal
+from tmd.inference.ranking import Choice, Inferred, LostGoal, PlanStep, StepGoal, Way
 from tmd.library.library import tidy
 from tmd.pddl.ground_formula import TRUE, goal_cubes
 from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube
 from tmd.planning.gap_filler import eliminate, untouched
-from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
+from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 
 # Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it.
@@ -41,7 +41,7 @@ _MOST_FURTHER_STEPS = 8
 # Maximum number of different readings of a request that are followed at a time, each with its own beam.
 _MOST_READINGS = 4
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
-PRIOR = "prior"
+PRIOR = "reading_prior"
 """The factor of the reader's prior: the negative logarithm of its belief in the candidate goal."""
 # A proposal that can be carried out, the planner's instructions before it, and its own instructions.
 _Executable = tuple[Proposal, Instructions, Instructions]
@@ -82,9 +82,10 @@ class GoalPass(ForwardPass):
         self.constraints = Constraints(self.task)
         self.dialogue = dialogue
         self.chosen = chosen
-        self._resorts: dict[bool, Planner] = {}
+        self.restoration = setup.restoration or Restoration()
         self._may_go_far = True
-        self._far_answers: dict[tuple[Bits, tuple[Cube, ...], bool], Answer] = {}
+        self._far_answer = cache(self._asked_afar)
+        self._resort = cache(lambda brief: setup.planners.resort(self.task, brief=brief))
 
     def infer(self, state: Bits) -> Inferred:
         """Return the best distinct plans for the steps from ``state``, or the reason why there is none."""
@@ -92,7 +93,7 @@ class GoalPass(ForwardPass):
         if dialogue.refusal is not None:
             return Inferred((), (), (None, dialogue.refusal))
         kept = kept_throughout(dialogue.constraints.kept, -1, self.task)
-        ways = [Way(Path(0.0, state), dialogue.memory, kept)]
+        ways = [Way(0.0, state, memory=dialogue.memory, kept=kept)]
         for number, step in enumerate(dialogue.steps):
             found = self._over(number, step, ways)
             if isinstance(found, Refusal):
@@ -122,20 +123,20 @@ class GoalPass(ForwardPass):
             return refusal
         beam = self.config.beam and max(self.config.beam, self.top)
         readings: dict[tuple[tuple[int, Formula], ...], list[Way]] = {}
-        for way in sorted(found, key=lambda way: way.path.order):
+        for way in sorted(found, key=lambda way: way.order):
             readings.setdefault(way.readings, []).append(way)
         return [way for group in islice(readings.values(), _MOST_READINGS) for way in self.pruned(group, beam)]
 
     def _from(self, number: int, step: Step, way: Way) -> list[Way] | Refusal:
         """Return the ways over one step from one way, over all its candidate goals."""
-        read = self.dialogue.goals(step, way.path.state, way.memory)
+        read = self.dialogue.goals(step, way.state, way.memory)
         if isinstance(read, Refusal):
             return self._without_goal(step, way, read)
         keeps = kept_throughout(read.keeps, step.number, self.task)
         way = replace(way, memory=read.memory, kept=(*way.kept, *keeps))
         if not read.goals:
             goal = StepGoal(step.number, step.text, None, note=read.note)
-            return [_taken(way, NOTHING, way.path.state, goal)]
+            return [_taken(way, NOTHING, way.state, goal)]
         candidates = [goal for goal in read.goals if goal.formula == self.chosen.get(number, goal.formula)]
         if len(candidates) < 2:
             return self._to_candidate(step, way, (candidates or read.goals)[0])
@@ -156,7 +157,7 @@ class GoalPass(ForwardPass):
                 reached[place] = answer
         if not reached:
             return refusals[0]
-        least = {place: min(w.path.energy for w in ways) for place, ways in reached.items()}
+        least = {place: min(w.energy for w in ways) for place, ways in reached.items()}
         found = []
         for own, ways in reached.items():
             others = tuple(
@@ -179,15 +180,15 @@ class GoalPass(ForwardPass):
         kept = way.kept
         memory = way.memory
         if goal.formula != TRUE:
-            kept = self._kept_after(target, way, way.path.state)
-            memory = self.dialogue.reached(goal, way.path.state, way.memory)
+            kept = self._kept_after(target, way, way.state)
+            memory = self.dialogue.reached(goal, way.state, way.memory)
         choice = self._with_prior(NOTHING, goal)
-        return [_taken(replace(way, memory=memory, kept=kept), choice, way.path.state, _step_goal(target))]
+        return [_taken(replace(way, memory=memory, kept=kept), choice, way.state, _step_goal(target))]
 
     def _question(self, ways: Sequence[Way]) -> Question | None:
         """Return a question about the first step in which readings of nearly equal energy have different goals."""
-        best, *others = sorted(ways, key=lambda way: way.path.order)
-        near = [way for way in others if way.path.energy <= best.path.energy + self.config.close]
+        best, *others = sorted(ways, key=lambda way: way.order)
+        near = [way for way in others if way.energy <= best.energy + self.config.close]
         for place, (number, formula) in enumerate(best.readings):
             rivals = [w.readings[place][1] for w in near if len(w.readings) > place and w.readings[place][0] == number]
             formulas = tuple(dict.fromkeys((formula, *rivals)))
@@ -209,7 +210,7 @@ class GoalPass(ForwardPass):
         ways = tuple(goal_cubes(self.task, formula) for formula in goal.via)
         if not all(ways):
             return _impossible_goal(step)
-        held = not ways and any(cube.holds(way.path.state) for cube in own[0])
+        held = not ways and any(cube.holds(way.state) for cube in own[0])
         return Target(step, goal, held, own, ways)
 
     def _kept_after(self, target: Target, way: Way, end: Bits) -> tuple[Commitment, ...]:
@@ -239,7 +240,7 @@ class GoalPass(ForwardPass):
         if self.config.guess:
             proposed = self._proposed(step, way) if step.main else []
             goal = StepGoal(step.number, text, None, note=f"a guess: {refusal.message}")
-            return [_taken(way, choice, end, goal) for choice, end in proposed or [(NOTHING, way.path.state)]]
+            return [_taken(way, choice, end, goal) for choice, end in proposed or [(NOTHING, way.state)]]
         groups = self.dialogue.handled(step) if refusal.kind is RefusalKind.UNKNOWN_VERB and step.main else None
         if groups is None:
             return refusal
@@ -280,14 +281,14 @@ class GoalPass(ForwardPass):
         constraints = self.dialogue.constraints
         if not constraints.never:
             return True
-        return violated(self.task, constraints, list(self._trace(first, way.path.instructions))) is None
+        return violated(self.task, constraints, list(self._trace(first, way.instructions))) is None
 
     # ------------------------------------------------------------------ planning
 
     def _towards(self, way: Way, target: Target) -> list[Way] | Refusal:
         """Return every way of reaching a goal that was proposed or planned."""
         found = self._reaching(way, target)
-        state = way.path.state
+        state = way.state
         if isinstance(found, Refusal) and self._reached_bit_by_bit(target, state):
             note = "postponed: will be achieved together with the next clause"
             goal = replace(_step_goal(target), formula=None, note=note)
@@ -318,7 +319,7 @@ class GoalPass(ForwardPass):
 
         Proposals come before the far planner: what was shown is at hand, and better than any plan.
         """
-        passed = self._on_the_way(target, way.path.state)
+        passed = self._on_the_way(target, way.state)
         if isinstance(passed, Refusal):
             return passed
         begun, state = passed
@@ -332,7 +333,7 @@ class GoalPass(ForwardPass):
                 reason = reason or answer.reason
             elif isinstance(answer, Filled) and self._takes(target, way, (*begun, *answer.plan)):
                 own = self._restored(way, (*begun, *answer.plan), target)
-                found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}, aim))
+                found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"policy_proposal": 1.0}, aim))
             if found:
                 return self._undisturbing(found, state)
         if reason:
@@ -352,7 +353,7 @@ class GoalPass(ForwardPass):
 
     def _takes(self, target: Target, way: Way, instructions: Instructions) -> bool:
         """Return whether a plan may be taken: it meets the conditions on the way, or it is a guess."""
-        return self.config.guess or self._passes(target, way.path.state, instructions)
+        return self.config.guess or self._passes(target, way.state, instructions)
 
     def _on_the_way(self, target: Target, state: Bits) -> tuple[Instructions, Bits] | Refusal:
         """Return instructions through the conditions on the way to a goal, and the state they end in.
@@ -388,7 +389,7 @@ class GoalPass(ForwardPass):
             return quick
         least = target.aims[-1]
         answer = self._far(state, aim, brief=aim != least and isinstance(self.planner.fill(state, least), Filled))
-        if isinstance(answer, Filled) and not self._worth_it(state, answer, least):
+        if aim != least and isinstance(answer, Filled) and not self._worth_it(state, answer, least):
             return quick
         return answer
 
@@ -412,8 +413,6 @@ class GoalPass(ForwardPass):
 
     def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
-        if self._far_answers.get((state, tuple(least), False)) is answer:
-            return True
         quick = self.planner.fill(state, least)
         bare = quick if isinstance(quick, Filled) else self._far(state, least)
         return not isinstance(bare, Filled) or len(answer.plan) <= len(bare.plan) + _MOST_FURTHER_STEPS
@@ -422,15 +421,10 @@ class GoalPass(ForwardPass):
         """Return the answer of the planner that goes further than the quick one."""
         if not (self._may_go_far and self.config.last_resort):
             return GaveUp("the quick planner")
-        asked = state, tuple(aim), brief
-        if asked not in self._far_answers:
-            self._far_answers[asked] = self._asked_afar(state, aim, brief=brief)
-        return self._far_answers[asked]
+        return self._far_answer(state, tuple(aim), brief)
 
-    def _asked_afar(self, state: Bits, aim: Sequence[Cube], *, brief: bool) -> Answer:
-        if brief not in self._resorts:
-            self._resorts[brief] = self.setup.planners.resort(self.task, brief=brief)
-        resort = self._resorts[brief]
+    def _asked_afar(self, state: Bits, aim: tuple[Cube, ...], brief: bool) -> Answer:
+        resort = self._resort(brief)
         # facts that hold already are seldom undone on the way and slow the planner down: first without them
         open_ = tuple(dict.fromkeys(Cube(c.positive & ~state, c.negative & state) for c in aim))
         answer = resort.fill(state, open_)
@@ -445,12 +439,12 @@ class GoalPass(ForwardPass):
 
     def _executables(self, step: Step, way: Way) -> Iterator[_Executable]:
         """Yield the likeliest candidates that can be carried out, each with what must be done before it."""
-        situation = Situation(self.clauses, step.number, [way.path])
+        situation = Situation(self.clauses, step.number, way)
         candidates = (candidate for _, _, candidate in self.queue([situation]))
         for candidate in islice(candidates, self.config.tried):
             if any(i not in self.task.by_instruction for i in candidate.instructions):
                 continue
-            answer = self.planner.fill(way.path.state, self.constraints.of(candidate.instructions))
+            answer = self.planner.fill(way.state, self.constraints.of(candidate.instructions))
             if isinstance(answer, Filled):
                 yield candidate, answer.plan, candidate.instructions
 
@@ -462,7 +456,7 @@ class GoalPass(ForwardPass):
         Objects that it handles for nothing are left alone.
         """
         candidate, latent, own = proposal
-        state = way.path.state
+        state = way.state
 
         def reached(instructions: Sequence[Instruction]) -> bool:
             end = self.simulated(state, instructions)
@@ -491,13 +485,12 @@ class GoalPass(ForwardPass):
         aim: Sequence[Cube] = (),
     ) -> tuple[Choice, Bits]:
         """Return the choice of a candidate, and the state it ends in; ``aim`` is what it reaches."""
-        situation = Situation(self.clauses, step.number, [way.path])
+        situation = Situation(self.clauses, step.number, way)
         arguments = [a for i in own for a in i.args]
-        names = self.world.mentions.meant(situation.clause, arguments, way.path.state)
+        names = self.world.mentions.meant(situation.clause, arguments, way.state)
         if source == PLANNER_SOURCE:
             raw = {**raw, **self.setup.energy.of_sequence(own, len(own), names)}
-        factors, end = self.weighed(situation, names, latent, own, raw, aim)
-        return self.choice(step.number, source, latent, own, factors), end
+        return self.weighed(situation, source, names, latent, own, raw, aim)
 
     @cached_property
     def _contents(self) -> Bits:
@@ -516,9 +509,9 @@ class GoalPass(ForwardPass):
 
     def _restored(self, way: Way, instructions: Instructions, target: Target) -> Instructions:
         """Return a sequence for a step, followed by what people undo at once when it is done."""
-        end = self.simulated(way.path.state, instructions)
+        end = self.simulated(way.state, instructions)
         kept = self._kept_after(target, way, end)
-        return (*instructions, *self._undone(way.path.state, end, kept, self.setup.restoration.at_once))
+        return (*instructions, *self._undone(way.state, end, kept, self.restoration.at_once))
 
     def _undone(
         self, before: Bits, end: Bits, kept: Sequence[Commitment], known: frozenset[tuple[str, str]]
@@ -539,25 +532,28 @@ class GoalPass(ForwardPass):
 
     def _finished(self, way: Way, first: Bits) -> Way:
         """Return a way through all steps, followed by what people put back in the end."""
-        done = self._undone(first, way.path.state, way.kept, self.setup.restoration.at_the_end)
-        if not done or not way.path.choices:
+        done = self._undone(first, way.state, way.kept, self.restoration.at_the_end)
+        if not done or not way.choices:
             return way
-        last, goal = way.path.choices[-1], way.goals[-1]
+        last, goal = way.choices[-1], way.goals[-1]
         steps = (*last.steps, *(PlanStep(i, goal.clause, latent=True) for i in done))
-        path = replace(way.path, choices=(*way.path.choices[:-1], replace(last, steps=steps)))
-        path = replace(path, state=self.simulated(way.path.state, done))
-        return replace(way, path=path, goals=(*way.goals[:-1], replace(goal, last=goal.last + len(done))))
+        return replace(
+            way,
+            state=self.simulated(way.state, done),
+            choices=(*way.choices[:-1], replace(last, steps=steps)),
+            goals=(*way.goals[:-1], replace(goal, last=goal.last + len(done))),
+        )
 
 
 def _taken(way: Way, choice: Choice, end: Bits, goal: StepGoal) -> Way:
     """Return a way with the choice for one more step, and with its goal."""
-    before = len(way.path.instructions)
+    before = len(way.instructions)
     placed = replace(goal, first=before, last=before + len(choice.steps))
     return replace(way.extended(choice, end), goals=(*way.goals, placed))
 
 
 def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) -> bool:
-    """Return whether a choice handles one, or every one, of some objects; a part stands for its whole as well."""
+    """Return whether a choice handles one, or every one, of some objects; a part counts as its whole."""
     profiles = own.world.profiles
     handled = {arg for taken in choice.steps for arg in taken.instruction.args}
     handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}

@@ -14,7 +14,7 @@ from typing import Protocol
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy, Factors
 from tmd.inference.policy.model import Policy
-from tmd.inference.ranking import Path, RejectedProposal
+from tmd.inference.ranking import RejectedProposal, Way
 from tmd.library.library import Library
 from tmd.library.template import Instantiation, Template, instantiate
 from tmd.pddl.model import Instruction
@@ -36,22 +36,22 @@ class Situation:
     Attributes:
         clauses: All clauses of the text.
         number: Which of them it is about, from 0.
-        ways: The ways to the environment, cheapest first; at least one.
+        way: The cheapest way to the environment.
     """
 
     clauses: Sequence[VerbClause]
     number: int
-    ways: Sequence[Path]
+    way: Way
 
     @property
     def state(self) -> Bits:
         """The environment E'_{j-1}."""
-        return self.ways[0].state
+        return self.way.state
 
     @cached_property
     def done(self) -> Instructions:
         """The instructions of the cheapest way there."""
-        return self.ways[0].instructions
+        return self.way.instructions
 
     @property
     def clause(self) -> VerbClause:
@@ -150,7 +150,7 @@ class TemplateProposer(Proposer):
 
 
 class PolicyProposer(Proposer):
-    """A policy proposes sequences of its own, and judges all by the words of the clause. Not in the paper.
+    """Proposes sequences of a policy, and judges all by the words of the clause. Not in the paper.
 
     It has no say about a clause whose templates all have verbs that it does not know: it is older than the library.
 
@@ -180,7 +180,7 @@ class PolicyProposer(Proposer):
         for _, proposed in self.policy.best(situation.clauses, situation.number, situation.done, self.config.generated):
             kept = tuple(i for i in proposed if i in self.world.task.by_instruction)
             names = self.world.mentions.meant(clause, [a for i in kept for a in i.args], situation.state)
-            raw = {"generated": 1.0 / self.trust, **self.energy.of_sequence(kept, len(kept), names)}
+            raw = {"policy_proposal": 1.0 / self.trust, **self.energy.of_sequence(kept, len(kept), names)}
             found.setdefault(kept, Proposal(POLICY_SOURCE, kept, names, raw, self.energy.total(raw)))
         yield from found.values()
 
@@ -189,7 +189,7 @@ class PolicyProposer(Proposer):
         if not self._has_say(situation.clause):
             return {}
         surprise = self.policy.surprise(situation.clauses, situation.number, situation.done, instructions)
-        return {"words": surprise * self.trust}
+        return {"language_model": surprise * self.trust}
 
     def _has_say(self, clause: VerbClause) -> bool:
         verbs = dict.fromkeys(template.clause.verb for template in self.library.distinct(clause, self.world))

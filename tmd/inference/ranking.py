@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Refusal
+from tmd.inference.commitments import Commitment
 from tmd.inference.energy import title
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
@@ -48,29 +49,6 @@ class Choice:
     def energy(self) -> float:
         """The sum of the factors."""
         return sum(self.factors.values())
-
-
-@dataclass(frozen=True, slots=True)
-class Path:
-    """A way through the first clauses: what it cost, where it ends, and the choices that make it."""
-
-    energy: float
-    state: Bits
-    choices: tuple[Choice, ...] = ()
-
-    def extended(self, choice: Choice, end: Bits) -> Path:
-        """Return the way with a choice for the next clause, which ends in ``end``."""
-        return Path(self.energy + choice.energy, end, (*self.choices, choice))
-
-    @property
-    def instructions(self) -> tuple[Instruction, ...]:
-        """The instructions on it."""
-        return tuple(step.instruction for choice in self.choices for step in choice.steps)
-
-    @property
-    def order(self) -> tuple[float, tuple[Instruction, ...]]:
-        """Cheapest first; ties in the order of the instructions, so that the ranking is the same everywhere."""
-        return self.energy, self.instructions
 
 
 @dataclass(frozen=True, slots=True)
@@ -129,6 +107,43 @@ class StepGoal:
     def origin(self) -> str:
         """The source, with the row that the goal was read by where there is one."""
         return f"{self.source}: {self.row}" if self.row else self.source
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A way through the first steps of a request.
+
+    Attributes:
+        energy: What it cost.
+        state: The state it ends in.
+        choices: One for each step.
+        memory: The reader's memory.
+        kept: The commitments.
+        goals: The goals of the steps.
+        readings: For each step with several candidate goals, its index and the goal that was taken.
+    """
+
+    energy: float
+    state: Bits
+    choices: tuple[Choice, ...] = ()
+    memory: object = None
+    kept: tuple[Commitment, ...] = ()
+    goals: tuple[StepGoal, ...] = ()
+    readings: tuple[tuple[int, Formula], ...] = ()
+
+    def extended(self, choice: Choice, end: Bits) -> Way:
+        """Return the way with a choice for the next step, which ends in ``end``."""
+        return replace(self, energy=self.energy + choice.energy, state=end, choices=(*self.choices, choice))
+
+    @property
+    def instructions(self) -> tuple[Instruction, ...]:
+        """The instructions on it."""
+        return tuple(step.instruction for choice in self.choices for step in choice.steps)
+
+    @property
+    def order(self) -> tuple[float, tuple[Instruction, ...]]:
+        """Cheapest first; ties in the order of the instructions, so that the ranking is the same everywhere."""
+        return self.energy, self.instructions
 
 
 @dataclass(frozen=True, slots=True)

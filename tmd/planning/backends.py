@@ -4,16 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import replace
+from functools import partial
 from importlib.util import find_spec
 from threading import TIMEOUT_MAX, Thread
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import MissingToolError, PlannerError, TmdError
-from tmd.pddl.model import Problem
+from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
 from tmd.pddl.reading.syntax import nearest
-from tmd.planning.fast_downward import FirstPlan, fast_downward
+from tmd.planning.fast_downward import binaries, fast_downward, first_plan_of_gap
+from tmd.planning.kairos import kairos
 from tmd.planning.processes import Deadline, memory_limit
-from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved
+from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved, Unreachable, filled
+from tmd.planning.up_planners import EngineSpec, fast_downward_engine, require_unified_planning, solve_with_engine
 
 if TYPE_CHECKING:
     from tmd.pddl.task import Bits, Cube, Task
@@ -67,14 +71,30 @@ def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
 
         return (GapFiller if name == IN_PROCESS else FirstSearch)(task, cap=DEFAULT_CAP if cap is None else cap)
     if name == FAST_DOWNWARD:
-        from tmd.planning.up_planners import fast_downward_for_gaps
-
         return fast_downward_for_gaps(task)
-    if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):
-        from tmd.planning.up_planners import EngineSpec, UnifiedPlanner
-
-        return UnifiedPlanner(task, EngineSpec(name.removeprefix(UP_PREFIX)))
+    if engine := _engine(name):
+        return _gaps_by_engine(task, EngineSpec(engine))
     raise _unknown(name, [IN_PROCESS, IN_PROCESS_FIRST, FAST_DOWNWARD, f"{UP_PREFIX}ENGINE"])
+
+
+def fast_downward_for_gaps(task: Task, *, time_limit: float = 60.0) -> Planner:
+    """Return Fast Downward as the reference planner for the gaps of ``task``, with a time limit for one call.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
+    binaries()
+    return _gaps_by_engine(task, fast_downward_engine(task.problem.domain, time_limit))
+
+
+def _gaps_by_engine(task: Task, engine: EngineSpec) -> Planner:
+    require_unified_planning()
+    return GapsAsProblems(task, partial(solve_with_engine, engine=engine), together=False)
+
+
+def _engine(name: str) -> str:
+    """Return the engine of unified-planning that a planner's name means; empty for none."""
+    return name.removeprefix(UP_PREFIX) if name.startswith(UP_PREFIX) else ""
 
 
 def _unknown(name: str, known: Sequence[str]) -> TmdError:
@@ -89,7 +109,7 @@ def last_resort(task: Task) -> Planner:
     """
     if find_spec("up_fast_downward") is None:
         return make(IN_PROCESS_FIRST, task)
-    return InTurn((soon(task), FirstPlan(task)))
+    return InTurn((soon(task), GapsAsProblems(task, first_plan_of_gap)))
 
 
 def soon(task: Task) -> Planner:
@@ -129,6 +149,60 @@ class TaskPlanners:
         return last_resort(task) if self._name == IN_PROCESS else make(self._name, task)
 
 
+class GapsAsProblems:
+    """Fills gaps with a planner for whole problems, which executes its plans before it returns them.
+
+    Args:
+        task: The instantiated problem.
+        solver: The planner.
+        together: Whether it is asked for a disjunction, where a goal has several cubes; otherwise it is asked cube by
+            cube, and the cheapest answer is taken.
+    """
+
+    def __init__(self, task: Task, solver: Callable[[Problem], Solution], *, together: bool = True) -> None:
+        self._task = task
+        self._solver = solver
+        self._together = together
+
+    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
+        """Return the instructions from ``state`` to any cube of ``goal`` that the planner finds.
+
+        Raises:
+            MissingToolError, PlannerError, TmdError: As the planner.
+        """
+        if any(cube.holds(state) for cube in goal):
+            return Filled((), state, 0)
+        wanted: list[Formula] = [_formula(self._task, cube) for cube in goal if not cube.positive & cube.negative]
+        if self._together and len(wanted) > 1:
+            wanted = [Or(tuple(wanted))]
+        answer = _best([self._answer(state, formula) for formula in wanted])
+        if isinstance(answer, Unreachable):
+            from tmd.planning.unsolvable import unreachable_reason  # imports numpy, which whole problems do not need
+
+            return Unreachable(unreachable_reason(self._task, state, goal))
+        return answer
+
+    def _answer(self, state: Bits, goal: Formula) -> Answer:
+        answer = self._solver(replace(self._task.problem, init=self._task.decode(state), goal=goal))
+        if isinstance(answer, Solved):
+            return filled(state, [self._task.by_instruction[step] for step in answer.plan])
+        return answer
+
+
+def _best(answers: Sequence[Answer]) -> Answer:
+    """Return the cheapest plan, the first one among equals; without any, a limit before a proof."""
+    plans = [answer for answer in answers if isinstance(answer, Filled)]
+    if plans:
+        return min(plans, key=lambda answer: answer.cost)
+    limits = (answer for answer in answers if isinstance(answer, GaveUp))
+    return next(limits, Unreachable("no alternative can be reached"))
+
+
+def _formula(task: Task, cube: Cube) -> Formula:
+    atoms = [Atom(atom.predicate, atom.args) for atom in task.names(cube.positive)]
+    return And((*atoms, *(Not(Atom(atom.predicate, atom.args)) for atom in task.names(cube.negative))))
+
+
 class EachAlone:
     """A planner that is asked for each alternative of a goal by itself, for the cheapest of its plans.
 
@@ -145,15 +219,12 @@ class EachAlone:
         self._planner = planner
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """Return the cheapest plan, the first one among equals; without any, the reason or the limit."""
+        """Return the cheapest plan; without any, the limit or the reason."""
         if len(goal) > self.MOST or any(cube.holds(state) for cube in goal):
             return self._planner.fill(state, goal)
-        answers = [self._planner.fill(state, (cube,)) for cube in goal]
-        plans = [answer for answer in answers if isinstance(answer, Filled)]
-        if plans:
-            return min(plans, key=lambda answer: answer.cost)
-        gave_up = (answer for answer in answers if isinstance(answer, GaveUp))
-        return next(gave_up, None) or self._planner.fill(state, goal)  # the reason of all together
+        answer = _best([self._planner.fill(state, (cube,)) for cube in goal])
+        # the reason of all together
+        return self._planner.fill(state, goal) if isinstance(answer, Unreachable) else answer
 
 
 class InTurn:
@@ -219,13 +290,9 @@ def _solution(problem: Problem, planner: str, optimal: bool, deadline: Deadline)
     if name == FAST_DOWNWARD:
         return fast_downward(problem, optimal=optimal, deadline=deadline)
     if name == KAIROS:
-        from tmd.planning.kairos import kairos
-
         return kairos(problem, optimal=optimal, deadline=deadline)
-    if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):
-        from tmd.planning.up_planners import solved_by_engine
-
-        return solved_by_engine(problem, name.removeprefix(UP_PREFIX), deadline)
+    if engine := _engine(name):
+        return solve_with_engine(problem, EngineSpec(engine, time_limit=deadline.seconds, memory=deadline.memory))
     if name != IN_PROCESS:
         raise _unknown(name, [AUTO, FAST_DOWNWARD, KAIROS, IN_PROCESS, f"{UP_PREFIX}ENGINE"])
     return _in_time(lambda: _in_process(problem, deadline), deadline)

@@ -9,23 +9,17 @@ from __future__ import annotations
 import re
 import signal
 import sys
-from collections.abc import Sequence
 from contextlib import nullcontext
-from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from typing import IO
 
 from tmd.diagnostics import LimitError, MissingToolError, TmdError
-from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
+from tmd.pddl.model import Problem
 from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.processes import Deadline, PlannerProcess, ending, unnamed_file
-from tmd.planning.prover import EXPLAINING, Prover
-from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable, filled
-
-if TYPE_CHECKING:
-    from tmd.pddl.task import Bits, Cube, Task
+from tmd.planning.processes import Deadline, PlannerProcess, Prover, ending, unnamed_file
+from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
 
 NAME = "Fast Downward"
 
@@ -96,7 +90,7 @@ class _Downward:
     def __init__(self, problem: Problem, deadline: Deadline) -> None:
         self._binaries = binaries()
         self._deadline = deadline
-        self._texts = [unnamed_file(text) for text in texts_for_planners(problem)]
+        self._texts = texts_for_planners(problem)
         self.sas, self.plan = unnamed_file(), unnamed_file()
 
     def __enter__(self) -> _Downward:
@@ -177,7 +171,7 @@ def _answer(
     # the dead ends of searches that are not optimal prove nothing
     exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.output()
     if code in _UNSOLVABLE or exhausted:
-        reason = prover.reason(deadline.at_most(EXPLAINING)) if prover else None
+        reason = prover.explain() if prover else None
         return Unreachable(reason or f"{NAME} looked at every state that can be reached, and the goal holds in none")
     if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search not in _OPTIMAL):
         return None
@@ -219,8 +213,8 @@ def path_of(file: IO[bytes]) -> str:
     return f"/dev/fd/{file.fileno()}"
 
 
-def texts_for_planners(problem: Problem) -> tuple[str, str]:
-    """Return domain and problem as text for planners that read PDDL themselves.
+def texts_for_planners(problem: Problem) -> tuple[IO[bytes], IO[bytes]]:
+    """Return files of domain and problem for planners that read PDDL themselves.
 
     Where ``either`` cannot be rewritten it stays: they take it in the declaration of a predicate.
     """
@@ -228,7 +222,7 @@ def texts_for_planners(problem: Problem) -> tuple[str, str]:
         plain = portable(problem)
     except TmdError:
         plain = problem
-    return format_domain(plain.domain), format_problem(plain)
+    return unnamed_file(format_domain(plain.domain).encode()), unnamed_file(format_problem(plain).encode())
 
 
 def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool) -> Solved:
@@ -250,41 +244,16 @@ def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool)
     return Solved(plan, verdict.cost, optimal)
 
 
-class FirstPlan:
-    """The first plan of Fast Downward for the gaps of a task that nothing else fills.
+def first_plan_of_gap(problem: Problem, seconds: int = 20) -> Solution:
+    """Return the first plan of Fast Downward for a gap that nothing else fills.
 
     Args:
-        task: The instantiated problem.
-        seconds: The limit for one question, in seconds of the processor: neither the other work of the machine nor
-            its sleep decides the answer. The limit by the clock is a multiple of it, in case the process hangs.
+        problem: The gap as a problem.
+        seconds: The limit in seconds of the processor: neither the other work of the machine nor its sleep decides the
+            answer. The limit by the clock is a multiple of it, in case the process hangs.
+
+    Raises:
+        MissingToolError, PlannerError, TmdError: As :func:`fast_downward`.
     """
-
-    def __init__(self, task: Task, seconds: int = 20) -> None:
-        self.task = task
-        self.seconds = seconds
-
-    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """Return instructions from ``state`` to any cube of ``goal``.
-
-        Raises:
-            MissingToolError, PlannerError, TmdError: As :func:`fast_downward`.
-        """
-        if any(cube.holds(state) for cube in goal):
-            return Filled((), state, 0)
-        cubes = [_formula(self.task, cube) for cube in goal if not cube.positive & cube.negative]
-        wanted = cubes[0] if len(cubes) == 1 else Or(tuple(cubes))  # a disjunction becomes an axiom
-        problem = replace(self.task.problem, init=self.task.decode(state), goal=wanted)
-        deadline = Deadline(_PATIENCE * self.seconds, processor=self.seconds)
-        answer = fast_downward(problem, optimal=False, deadline=deadline, search=FIRST_OF_A_GAP, prove=False)
-        if isinstance(answer, Solved):
-            return filled(state, [self.task.by_instruction[step] for step in answer.plan])
-        if isinstance(answer, Unreachable):
-            from tmd.planning.unsolvable import unreachable_reason  # imports numpy, which whole problems do not need
-
-            return Unreachable(unreachable_reason(self.task, state, goal))
-        return answer
-
-
-def _formula(task: Task, cube: Cube) -> Formula:
-    atoms = [Atom(atom.predicate, atom.args) for atom in task.names(cube.positive)]
-    return And((*atoms, *(Not(Atom(atom.predicate, atom.args)) for atom in task.names(cube.negative))))
+    deadline = Deadline(_PATIENCE * seconds, processor=seconds)
+    return fast_downward(problem, optimal=False, deadline=deadline, search=FIRST_OF_A_GAP, prove=False)

@@ -11,8 +11,7 @@ from pathlib import Path
 from tmd.diagnostics import MissingToolError
 from tmd.pddl.model import Problem
 from tmd.planning.fast_downward import checked, path_of, texts_for_planners
-from tmd.planning.processes import Deadline, PlannerProcess, ending, unnamed_file
-from tmd.planning.prover import EXPLAINING, Prover
+from tmd.planning.processes import Deadline, PlannerProcess, Prover, ending
 from tmd.planning.result import GaveUp, Solution, Unreachable
 
 NAME = "kairos"
@@ -27,7 +26,7 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
         MissingToolError: kairos is not installed.
         PlannerError: It died, or its plan is not valid.
     """
-    domain, task = map(unnamed_file, texts_for_planners(problem))
+    domain, task = texts_for_planners(problem)
     with domain, task:
         command = [
             *(program(), path_of(domain), path_of(task), "--threads", "1", "-v"),  # with one thread its plans repeat
@@ -48,7 +47,7 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
                 case None | 11:
                     return GaveUp(f"{deadline.seconds:g} s of {NAME}")
                 case 10:
-                    return Unreachable(prover.reason(deadline.at_most(EXPLAINING)) or f"{NAME} proved it")
+                    return Unreachable(prover.explain() or f"{NAME} proved it")
                 case 12:
                     return GaveUp(f"{deadline.memory_limit()} of {NAME}")
                 case 14:

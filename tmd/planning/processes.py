@@ -6,7 +6,9 @@ dies, even by SIGKILL. Texts pass through files without names, so nothing is lef
 
 from __future__ import annotations
 
+import json
 import os
+import pickle
 import resource
 import signal
 import subprocess
@@ -15,17 +17,20 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from functools import cache
-from pathlib import Path
-from typing import IO, TYPE_CHECKING
+from pkgutil import resolve_name
+from tempfile import TemporaryFile
+from typing import IO
+
+import psutil
 
 from tmd.diagnostics import PlannerError
-
-if TYPE_CHECKING:
-    import socket
+from tmd.pddl.model import Problem
 
 MEGABYTE = 1 << 20
 # A planner that prints without end must not fill the disk.
 _LARGEST_FILE = 4 << 30
+# Share of the machine's memory that a process may take where no limit is given.
+_SHARE_OF_MEMORY = 0.8
 # Bytes at the end of the output, and lines of them, that are quoted when a planner fails.
 _TAIL = 4_096
 _LINES = 3
@@ -35,8 +40,6 @@ _PAUSE = 0.002
 
 PROGRAM = "TMD_PROGRAM"
 """Environment variable that marks all processes that a program started."""
-PLANNER = "TMD_PLANNER"
-"""Environment variable that marks a planner and all processes that it started."""
 
 
 class Deadline:
@@ -77,9 +80,8 @@ class PlannerProcess:
         stdin: Standard input; empty by default.
         passed: Files that it inherits under their descriptors.
         environment: Variables that are set in addition to those of this program.
-        channel: A socket that becomes standard input and output. The process then does not end with the thread that
-            started it, and must end by itself when the program dies.
         directory: Working directory.
+        bound: Whether the kernel kills it when this program dies; otherwise it must end by itself.
 
     Raises:
         PlannerError: It cannot be started.
@@ -94,24 +96,21 @@ class PlannerProcess:
         stdin: IO[bytes] | None = None,
         passed: Sequence[IO[bytes]] = (),
         environment: Mapping[str, str] | None = None,
-        channel: socket.socket | None = None,
         directory: str | None = None,
+        bound: bool = True,
     ) -> None:
         self.name = name
         self._files = (unnamed_file(), unnamed_file())
-        ends = (
-            (stdin or subprocess.DEVNULL, self._files[0]) if channel is None else (channel.fileno(), channel.fileno())
-        )
         try:
             self._process = subprocess.Popen(
                 list(command),
-                stdin=ends[0],
-                stdout=ends[1],
+                stdin=stdin or subprocess.DEVNULL,
+                stdout=self._files[0],
                 stderr=self._files[1],
                 pass_fds=[file.fileno() for file in passed],
                 cwd=directory,
                 env={**os.environ, **(environment or {})},
-                preexec_fn=_limits(deadline, None if channel else os.getpid()),
+                preexec_fn=_limits(deadline, os.getpid() if bound else None),
                 process_group=0,
             )
         except OSError as error:
@@ -173,21 +172,12 @@ def ending(code: int) -> str:
     return f"was killed by {name}{' (out of memory?)' if -code == signal.SIGKILL else ''}"
 
 
-def unnamed_file(text: str = "") -> IO[bytes]:
-    """Return a temporary file without a name, at its beginning, with ``text`` in it."""
-    file = _unnamed()
-    file.write(text.encode())
+def unnamed_file(content: bytes = b"") -> IO[bytes]:
+    """Return a temporary file without a name, at its beginning, with ``content`` in it."""
+    file = TemporaryFile()  # noqa: SIM115 - the caller closes it
+    file.write(content)
     file.seek(0)
     return file
-
-
-def _unnamed() -> IO[bytes]:
-    with suppress(AttributeError, OSError):  # as tempfile does on Linux, whose import takes as long as a small search
-        directory = os.environ.get("TMPDIR") or "/tmp"
-        return os.fdopen(os.open(directory, os.O_TMPFILE | os.O_RDWR, 0o600), "w+b")
-    import tempfile
-
-    return tempfile.TemporaryFile()
 
 
 def _read(file: IO[bytes], most: int | None = None) -> str:
@@ -200,12 +190,11 @@ def _read(file: IO[bytes], most: int | None = None) -> str:
 @contextmanager
 def memory_limit(memory: int | None) -> Iterator[None]:
     """Limit this process to ``memory`` bytes more than it has now; allocations beyond it raise MemoryError."""
-    if memory is None or not Path("/proc/self/statm").exists():
+    if memory is None or not sys.platform.startswith("linux"):
         yield
         return
-    taken = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
     before = resource.getrlimit(resource.RLIMIT_AS)
-    _limit(resource.RLIMIT_AS, taken + memory)
+    _limit(resource.RLIMIT_AS, psutil.Process().memory_info().vms + memory)
     try:
         yield
     finally:
@@ -223,7 +212,7 @@ def _limits(deadline: Deadline, parent: int | None) -> Callable[[], None]:
     import ctypes
 
     library = ctypes.CDLL(None)
-    memory = deadline.memory or int(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * 0.8)
+    memory = deadline.memory or int(psutil.virtual_memory().total * _SHARE_OF_MEMORY)
     limits = [(resource.RLIMIT_AS, memory), (resource.RLIMIT_FSIZE, _LARGEST_FILE)]
     if deadline.processor is not None:
         limits.append((resource.RLIMIT_CPU, deadline.processor))
@@ -240,12 +229,11 @@ def _limits(deadline: Deadline, parent: int | None) -> Callable[[], None]:
 
 
 def kill_marked(variable: str, value: str) -> None:
-    """Kill every process, except this one, that has the environment variable with this value (Linux)."""
-    wanted = f"{variable}={value}".encode()
-    for path in Path("/proc").glob("[0-9]*/environ"):
-        with suppress(OSError):
-            if int(path.parent.name) != os.getpid() and wanted in path.read_bytes().split(b"\0"):
-                os.kill(int(path.parent.name), signal.SIGKILL)
+    """Kill every process, except this one, that has the environment variable with this value."""
+    for process in psutil.process_iter(["environ"]):
+        if (process.info["environ"] or {}).get(variable) == value and process.pid != os.getpid():
+            with suppress(psutil.NoSuchProcess):
+                process.kill()
 
 
 _GUARD = f"""
@@ -282,3 +270,101 @@ def end_with_program() -> subprocess.Popen[bytes] | None:
 def python_environment() -> dict[str, str]:
     """Return the environment in which another Python finds the modules that this one finds."""
     return {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+
+
+# The program of a process that calls one function.
+_CALL = (sys.executable, "-c", "from tmd.planning.processes import answer_call; answer_call()")
+
+
+def call_in_process(
+    name: str,
+    function: str,
+    arguments: Sequence[object],
+    deadline: Deadline,
+    *,
+    environment: Mapping[str, str] | None = None,
+    directory: str | None = None,
+    bound: bool = True,
+) -> PlannerProcess:
+    """Start a Python process that calls a function and prints the result as JSON.
+
+    Args:
+        name: Name of the process for messages.
+        function: The function as ``module:name``, so that this program need not import it.
+        arguments: Its arguments, which are pickled.
+        deadline: As for :class:`PlannerProcess`, as are the other arguments.
+        environment: Variables that are set in addition.
+        directory: Working directory.
+        bound: Whether the kernel kills it when this program dies.
+    """
+    with unnamed_file(pickle.dumps((function, arguments))) as question:
+        variables = {**python_environment(), **(environment or {})}
+        return PlannerProcess(
+            name, _CALL, deadline, stdin=question, environment=variables, directory=directory, bound=bound
+        )
+
+
+def answer_call() -> None:
+    """Answer a call in the process that was started for it; other output goes to standard error."""
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    function, arguments = pickle.load(sys.stdin.buffer)
+    json.dump(resolve_name(function)(*arguments), answers)
+    answers.close()
+
+
+class Prover:
+    """The process that looks for a proof that a problem has no plan, from when it is first needed.
+
+    No search finds out that a mug cannot be in two places; it runs to its limit. The proofs that do
+    (:mod:`tmd.planning.unsolvable`) need the instantiated problem, which takes long where the problem is large. So they
+    run beside a search that has not ended soon. Leaving the ``with`` block ends them.
+
+    Args:
+        problem: The problem.
+        deadline: The memory that the process may take.
+    """
+
+    # Seconds of search after which proofs are looked for.
+    SOON = 1.0
+    # Seconds in which the reason is looked for when it is known that there is no plan.
+    EXPLAINING = 20.0
+
+    def __init__(self, problem: Problem, deadline: Deadline) -> None:
+        self._problem = problem
+        self._deadline = deadline
+        self._process: PlannerProcess | None = None
+
+    def __enter__(self) -> Prover:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        if self._process is not None:
+            self._process.kill()
+
+    def explain(self) -> str | None:
+        """Return why the problem, which is known to have no plan, has none; ``None`` where that takes too long."""
+        return self._reason(self._deadline.at_most(self.EXPLAINING))
+
+    def watch(self, search: PlannerProcess, deadline: Deadline) -> str | None:
+        """Wait until a search ends or there is a proof, and return the proof.
+
+        ``None`` means that the search ended or that the deadline was reached.
+        """
+        if search.wait(deadline.at_most(self.SOON)) is None and search.wait(deadline, self._started()) is None:
+            reason = self._reason(Deadline(0))
+            if reason is not None:
+                return reason
+            search.wait(deadline)
+        return None
+
+    def _reason(self, deadline: Deadline) -> str | None:
+        process = self._started()
+        reason: str | None = json.loads(process.output()) if process.wait(deadline) == 0 else None
+        return reason
+
+    def _started(self) -> PlannerProcess:
+        if self._process is None:
+            proof = "tmd.planning.unsolvable:proof"
+            self._process = call_in_process("the search for a proof", proof, [self._problem], self._deadline)
+        return self._process

@@ -10,6 +10,8 @@ from itertools import combinations, product
 from math import gcd, lcm
 from operator import or_
 
+from tmd.pddl.grounding.ground_task import ground
+from tmd.pddl.model import Problem
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.planning.search.flat_task import ones
 
@@ -35,6 +37,11 @@ def relaxed_literals(task: Task, state: Bits) -> Cube:
                     false |= delete & ~add
         changed = (true, false) != before
     return Cube(true, false)
+
+
+def reachable(cube: Cube, may_hold: Cube) -> bool:
+    """Return whether every literal of ``cube`` is among :func:`relaxed_literals`."""
+    return not cube.positive & ~may_hold.positive and not cube.negative & ~may_hold.negative
 
 
 def unreachable_reason(task: Task, state: Bits, goal: Sequence[Cube]) -> str:
@@ -460,6 +467,18 @@ class Impossible:
     def reason_from(self, state: Bits, goal: Sequence[Cube]) -> str | None:
         """Return the reason as derived from ``state`` itself: slower, and it sees more (what is used up)."""
         return None if self._too_large else _Derived(self.task, state).reason(state, goal)
+
+
+def proof(problem: Problem) -> str | None:
+    """Return the reason why a whole problem has no plan, if that can be proven.
+
+    Raises:
+        TmdError: It cannot be instantiated.
+    """
+    task = ground(problem)
+    if any(reachable(cube, relaxed_literals(task, task.init)) for cube in task.goal):
+        return Impossible(task).reason(task.init, task.goal)
+    return unreachable_reason(task, task.init, task.goal)
 
 
 class _Derived:

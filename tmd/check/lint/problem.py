@@ -2,26 +2,168 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from math import prod
 from pathlib import Path
 
 from tmd.check.lint.domain import said_twice
-from tmd.check.lint.reachable import Possible, possible
 from tmd.diagnostics import TmdError
 from tmd.pddl.derived import as_actions
-from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, may_be_too_large
+from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, Reachability, Rule, may_be_too_large
 from tmd.pddl.grounding.ground_task import ground, ground_condition
-from tmd.pddl.model import ActionSchema, Atom, Domain, GroundAtom, Not, Problem, conjuncts, universe
+from tmd.pddl.model import (
+    ActionSchema,
+    Atom,
+    Domain,
+    Effect,
+    GroundAtom,
+    Not,
+    Problem,
+    TypedName,
+    conjuncts,
+    universe,
+)
 from tmd.pddl.reading.syntax import Source, read_text, split_lines
 from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
-from tmd.planning.unsolvable import relaxed_literals, unreachable_reason
+from tmd.planning.unsolvable import reachable, relaxed_literals, unreachable_reason
+
+Scope = Mapping[str, tuple[str, ...]]
+"""The types of variables."""
+
+
+class Possible:
+    """Atoms that may hold and actions that may apply in a problem, found without grounding it.
+
+    An over-approximation in time linear in the problem: relaxed reachability over the effects of the lifted actions,
+    and over the objects that the initial state has at each place of each predicate. What is impossible here is
+    impossible.
+
+    Args:
+        problem: A sound problem.
+        assumed: Predicates whose atoms are taken to be possible.
+
+    Attributes:
+        objects: The objects of the problem by type.
+        actions: The names of the actions that may apply.
+        blocked: For each other action what it lacks: a type without objects, or an atom of its precondition.
+    """
+
+    def __init__(self, problem: Problem, assumed: Iterable[str] = ()) -> None:
+        self.problem = problem
+        self.assumed = frozenset(assumed)
+        self.objects = universe(problem)
+        self._fits = cache(self._starts_with)
+        self._columns: dict[str, list[dict[str, None]]] = {}
+        for atom in problem.init:
+            columns = self._columns.setdefault(atom.predicate, [{} for _ in atom.args])
+            for column, name in zip(columns, atom.args, strict=True):
+                column[name] = None
+        actions = as_actions(problem.domain).actions
+        # each effect that adds an atom is a literal of the relaxation, by its number
+        self._effects: list[tuple[Effect, Scope]] = []
+        self._adding: dict[str, list[int]] = {}
+        heads: list[list[int]] = []
+        for action in actions:
+            heads.append([])
+            for effect in action.effects:
+                if effect.positive:
+                    literal = 2 * len(self._effects)
+                    self._effects.append((effect, types_of((*action.parameters, *effect.parameters))))
+                    self._adding.setdefault(effect.atom.predicate, []).append(literal)
+                    heads[-1].append(literal)
+        needs = [self._needs(action) for action in actions]
+        self._reachability = Reachability((), lambda atom: False)
+        for number, own in enumerate(needs):
+            self._reachability.add(Rule((number, -1), [literals for _, literals in own], heads[number]))
+        self._reachability.run()
+        self.actions: set[str] = set()
+        self.blocked: dict[str, str | Atom] = {}
+        for action, own in zip(actions, needs, strict=True):
+            lack = next((need for need, literals in own if not self._reached(literals)), None)
+            if lack is None:
+                self.actions.add(action.name)
+            else:
+                self.blocked[action.name] = lack
+
+    def adds(self, predicate: str) -> bool:
+        """Return whether some possible action adds an atom of ``predicate``."""
+        return self._reached(self._adding.get(predicate, ()))
+
+    def reaches(self, atom: GroundAtom) -> bool:
+        """Return whether ``atom`` holds at the start, or some possible action may add it."""
+        if atom in self.problem.init or atom.predicate in self.assumed:
+            return True
+        return self._reached(self._makers(Atom(atom.predicate, atom.args), {}))
+
+    def may_hold(self, atom: Atom, scope: Scope) -> bool:
+        """Return whether some atom of this form holds at the start or may be added."""
+        return self._holds_at_start(atom, scope) or self._reached(self._makers(atom, scope))
+
+    def _reached(self, literals: Iterable[int]) -> bool:
+        return any(map(self._reachability.holds, literals))
+
+    def _needs(self, action: ActionSchema) -> list[tuple[str | Atom, frozenset[int]]]:
+        """Return each thing that the initial state does not give to ``action``, with the effects that may make it."""
+        types = [parameter.types for parameter in action.parameters if not self.objects.of(parameter.types)]
+        if types:
+            return [(types[0][0], frozenset())]
+        scope = types_of(action.parameters)
+        atoms = (part for part in conjuncts(action.precondition) if isinstance(part, Atom))
+        return [(atom, self._makers(atom, scope)) for atom in atoms if not self._holds_at_start(atom, scope)]
+
+    def _holds_at_start(self, atom: Atom, scope: Scope) -> bool:
+        if atom.predicate in self.assumed:
+            return True
+        columns = self._columns.get(atom.predicate)
+        if columns is None:
+            return False
+        return all(
+            self._fits(atom.predicate, place, scope[term]) if term.startswith("?") else term in columns[place]
+            for place, term in enumerate(atom.terms)
+        )
+
+    def _starts_with(self, predicate: str, place: int, types: tuple[str, ...]) -> bool:
+        """Return whether the initial state has an object of ``types`` at that place of the predicate."""
+        return any(self.objects.is_a(name, types) for name in self._columns[predicate][place])
+
+    def _makers(self, atom: Atom, scope: Scope) -> frozenset[int]:
+        """Return the effects that may add an atom of this form."""
+        return frozenset(
+            literal
+            for literal in self._adding.get(atom.predicate, ())
+            if self._unify(atom, scope, *self._effects[literal // 2])
+        )
+
+    def _unify(self, atom: Atom, scope: Scope, effect: Effect, inner: Scope) -> bool:
+        bound: dict[str, str] = {}
+        for one, two in zip(atom.terms, effect.atom.terms, strict=True):
+            if one.startswith("?") and two.startswith("?"):
+                fits = self._overlap(scope[one], inner[two])
+            elif one.startswith("?"):
+                fits = self.objects.is_a(two, scope[one])
+            elif two.startswith("?"):
+                fits = bound.setdefault(two, one) == one and self.objects.is_a(one, inner[two])
+            else:
+                fits = one == two
+            if not fits:
+                return False
+        return True
+
+    def _overlap(self, one: Sequence[str], other: Sequence[str]) -> bool:
+        ancestors = self.objects.hierarchy.ancestors
+        return any(a in ancestors(b) or b in ancestors(a) for a in one for b in other)
+
+
+def types_of(parameters: Iterable[TypedName]) -> dict[str, tuple[str, ...]]:
+    """Return the types of each parameter."""
+    return {parameter.name: parameter.types for parameter in parameters}
 
 
 def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
     """Return the warnings for a problem that has no faults."""
-    found = possible(problem)
+    found = Possible(problem)
     unreachable = list(_unreachable_goals(found, source))
     if len(unreachable) > 1:
         unreachable[0].message += f", and {len(unreachable) - 1} more of its parts cannot be reached either"
@@ -86,10 +228,10 @@ def _provably_unreachable(problem: Problem, source: Source) -> list[TmdError]:
         task = ground(problem)
     except TmdError:
         return []
-    true, false = relaxed_literals(task, task.init)
+    may_hold = relaxed_literals(task, task.init)
 
     def reaches(cubes: Sequence[Cube]) -> bool:
-        return any(not cube.positive & ~true and not cube.negative & ~false for cube in cubes)
+        return any(reachable(cube, may_hold) for cube in cubes)
 
     if reaches(task.goal):
         return []
@@ -158,7 +300,7 @@ def _goal_holds(problem: Problem, source: Source) -> list[TmdError]:
 
 def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -> list[TmdError]:
     """Return warnings on actions of ``domain`` that never apply in any of the ``problems``, and why."""
-    known = [possible(problem) for problem in problems]
+    known = [Possible(problem) for problem in problems]
     if not known:
         return []
     every = "in this problem" if len(known) == 1 else f"in none of the {len(known)} problems"
@@ -217,8 +359,8 @@ def _that_frees_most(
 
 
 def _assuming(found: Possible, predicate: str) -> Possible:
-    return possible(found.problem, (*found.assumed, predicate))
+    return Possible(found.problem, (*found.assumed, predicate))
 
 
 def _ever_holds(predicate: str, known: Iterable[Possible]) -> bool:
-    return any(predicate in p.adding or any(atom.predicate == predicate for atom in p.problem.init) for p in known)
+    return any(p.adds(predicate) or any(atom.predicate == predicate for atom in p.problem.init) for p in known)

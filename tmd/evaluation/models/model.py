@@ -15,7 +15,7 @@ from tmd.evaluation.models.predefined_templates import PredefinedTemplates
 from tmd.evaluation.models.prediction import Prediction, by_clause
 from tmd.evaluation.models.ranked import Ranked
 from tmd.evaluation.runs.dataset import Dataset, Example
-from tmd.inference.energy import delta_env, delta_nl
+from tmd.inference.energy import clause_distance, environment_distance
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.library.library import Library, run
@@ -101,7 +101,7 @@ class NearestEnvironment:
         candidates = (instantiate(t, clause, world, state) for t in library.propose(clause))
         return min(
             (c for c in candidates if c is not None),
-            key=lambda c: (delta_env(c), delta_nl(c.template.clause, clause, akin=0.0)),
+            key=lambda c: (environment_distance(c), clause_distance(c.template.clause, clause, akin=0.0)),
             default=None,
         )
 

@@ -33,11 +33,11 @@ from tmd.readers.interface import Dialogue
 from tmd.world.corpus import Corpus
 from tmd.world.world import World
 
-_SPOKEN = ("nl", "pcc", "cons", "cover")
+_SPOKEN = ("clause_distance", "parameter_cardinality", "inconsistent_end", "objects_not_touched")
 """The factors that read the clause."""
-_LATENT = ("latent_dscpl", "latent_inpr", "latent_para", "latent_cons")
+_LATENT = ("latent_description_length", "latent_instruction_prior", "latent_parameter_prior", "latent_inconsistent_end")
 """The factors of what was left unsaid."""
-_BLIND = ("cons", *_LATENT)
+_BLIND = ("inconsistent_end", *_LATENT)
 """The factors that need to know what instructions do."""
 
 
@@ -116,7 +116,7 @@ class Crf:
         config = self.config
         absent = (
             *(() if config.extended else OURS),
-            *(() if config.policy else ("words", "generated")),
+            *(() if config.policy else ("language_model", "policy_proposal")),
             *(() if config.language else _SPOKEN),
             *(() if config.knowledge else _BLIND),
             *(() if config.latent else _LATENT),

@@ -306,7 +306,7 @@ class ClauseContext:
     where: int
 
 
-def said_in(
+def context_of(
     clauses: Sequence[VerbClause], number: int, features: Features, things: KnownObjects, *, grounded: bool
 ) -> ClauseContext:
     """Return the context of one clause of a text."""

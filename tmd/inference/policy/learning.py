@@ -15,10 +15,10 @@ from tmd.inference.policy.features import (
     KnownObjects,
     Syntax,
     bag,
+    context_of,
     followers,
     learn_syntax,
     properties,
-    said_in,
 )
 from tmd.inference.policy.menu import FACT_PLACES, Menu, Node, Steps, steps
 from tmd.inference.policy.model import Reward, log_probabilities, share_of_word
@@ -61,9 +61,9 @@ def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient
         rest[rows, choices] += 1
         parts, menu = features.parts(gradient), at.menu
         having = rest @ menu.properties
-        parts.local[at.said.words] += having.sum(axis=0)
+        parts.local[at.context.words] += having.sum(axis=0)
         if parts.text is not None:
-            parts.text[at.said.text] += share_of_word(at.said) * having.sum(axis=0)
+            parts.text[at.context.text] += share_of_word(at.context) * having.sum(axis=0)
         for words, row in zip(at.followers, having, strict=True):
             parts.local[words] += row
         weights = np.repeat(rest.ravel(), at.pairs.shape[2])
@@ -206,7 +206,7 @@ def steps_made(lesson: PolicyLesson, menu: Menu, *, grounded: bool) -> list[Made
     for clause, made in lesson.clauses:
         if clause is not None and made:
             nodes = [Node(done, made[:length]) for length in range(len(made) + 1)]
-            at = steps(menu, said_in(clauses, number, menu.features, menu.things, grounded=grounded), nodes)
+            at = steps(menu, context_of(clauses, number, menu.features, menu.things, grounded=grounded), nodes)
             choices: Ints = np.array([menu.index[choice] for choice in (*made, STOP)], np.int64)
             # the constraints are only almost always kept; what was done was possible
             at.allowed[np.arange(len(choices)), choices] = True

@@ -177,7 +177,7 @@ class Steps:
 
     Attributes:
         menu: The choices.
-        said: The clause.
+        context: The clause.
         followers: For each node the numbers of the words for its sequence.
         pairs: H × C × Q, the numbers of the paired features.
         facts: H × (things + 1) × facts, 1 where one holds of a thing.
@@ -186,7 +186,7 @@ class Steps:
     """
 
     menu: Menu
-    said: ClauseContext
+    context: ClauseContext
     followers: tuple[Ints, ...]
     pairs: Ints
     facts: Floats
@@ -194,14 +194,14 @@ class Steps:
     allowed: Mask
 
 
-def steps(menu: Menu, said: ClauseContext, nodes: Sequence[Node]) -> Steps:
+def steps(menu: Menu, context: ClauseContext, nodes: Sequence[Node]) -> Steps:
     """Return the features of every choice at each node."""
-    looks = [_look(menu, said, node) for node in nodes]
+    looks = [_look(menu, context, node) for node in nodes]
     added, pairs, facts, reals, allowed = zip(*looks, strict=True)
-    return Steps(menu, said, tuple(added), np.stack(pairs), np.stack(facts), np.stack(reals), np.stack(allowed))
+    return Steps(menu, context, tuple(added), np.stack(pairs), np.stack(facts), np.stack(reals), np.stack(allowed))
 
 
-def _look(menu: Menu, said: ClauseContext, node: Node) -> tuple[Ints, Ints, Floats, Floats, Mask]:
+def _look(menu: Menu, context: ClauseContext, node: Node) -> tuple[Ints, Ints, Floats, Floats, Mask]:
     """Return one node's part of :class:`Steps`."""
     features, none = menu.features, len(menu.things.numbers)
     n = len(features.actions)
@@ -221,7 +221,7 @@ def _look(menu: Menu, said: ClauseContext, node: Node) -> tuple[Ints, Ints, Floa
 
     follows = features.actions[before.name] if before is not None else n
     goes_on = (recent[menu.args] == JUST_NAMED).any(axis=1)
-    start, levels = features.starts, said.levels
+    start, levels = features.starts, context.levels
     met = _met(menu, levels, node.own)
     last_column = np.full(len(menu.choices), start[5])
     last_column[-1] += 1 + met
@@ -243,13 +243,13 @@ def _look(menu: Menu, said: ClauseContext, node: Node) -> tuple[Ints, Ints, Floa
                 times[menu.index[instruction]] += 1
         recent[menu.words] = 0
         earlier = features.actions[sequence[-2].name] if len(sequence) > 1 else n
-        begun, where = min(len(node.own), BEGUN - 1), said.where
+        begun, where = min(len(node.own), BEGUN - 1), context.where
         end = np.full(len(menu.choices), start[13])
         end[-1] += 1 + (met * WHERE + where) * LENGTHS + min(len(node.own), LENGTHS - 1)
         mentioned = levels[menu.args]
         columns += [
             start[6] + (menu.places * LEVELS + mentioned) * RECENCIES + recent[menu.args],
-            start[7] + menu.places * 4 + said.later[menu.args] * 2 + (mentioned > 0),
+            start[7] + menu.places * 4 + context.later[menu.args] * 2 + (mentioned > 0),
             start[8] + (earlier * (n + 1) + follows) * n + menu.actions,
             start[9] + menu.actions * REPEATS + np.minimum(times, 2) * 2 + done,
             start[10] + (menu.actions * WHERE + where) * BEGUN + begun,

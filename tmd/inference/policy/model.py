@@ -19,7 +19,7 @@ from tmd.inference.policy.features import (
     Floats,
     Ints,
     KnownObjects,
-    said_in,
+    context_of,
     verb_word,
 )
 from tmd.inference.policy.menu import Menu, Node, Steps, steps
@@ -36,9 +36,9 @@ MOST = 12.0
 def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
     """Return ln P(instruction | words, sequence so far), H × C: exp(θ·φ), normalised over the allowed choices."""
     parts, menu = features.parts(theta), at.menu
-    words = parts.local[at.said.words].sum(axis=0)
+    words = parts.local[at.context.words].sum(axis=0)
     if parts.text is not None:
-        words = words + share_of_word(at.said) * parts.text[at.said.text].sum(axis=0)
+        words = words + share_of_word(at.context) * parts.text[at.context.text].sum(axis=0)
     rows = words + np.stack([parts.local[words].sum(axis=0) for words in at.followers])
     # an instruction has few of the many properties: a product of matrices would take ten times as long
     padded = np.pad(rows, ((0, 0), (0, 1)))
@@ -52,9 +52,9 @@ def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
     return logs
 
 
-def share_of_word(said: ClauseContext) -> float:
+def share_of_word(context: ClauseContext) -> float:
     """Return the weight of each word of the whole text: a long text has many that say little."""
-    return 1.0 / float(np.sqrt(max(len(said.text), 1)))
+    return 1.0 / float(np.sqrt(max(len(context.text), 1)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,11 +121,11 @@ class Policy:
             count: Maximum number of sequences; at least one is found, perhaps the empty one.
         """
         features = self.reward.features
-        menu, said = self._read(clauses, number)
+        menu, context = self._read(clauses, number)
         found: list[tuple[float, tuple[Instruction, ...]]] = []
         beam: list[tuple[float, tuple[Instruction, ...]]] = [(0.0, ())]
         for _ in range(features.syntax.longest + 1):
-            at = steps(menu, said, [Node(tuple(done), own) for _, own in beam])
+            at = steps(menu, context, [Node(tuple(done), own) for _, own in beam])
             logs = np.round(log_probabilities(features, self.reward.theta, at), _ROUNDED)
             longer = []
             for (total, own), row in zip(beam, logs, strict=True):
@@ -163,12 +163,12 @@ class Policy:
     ) -> list[tuple[Instruction, ...]]:
         """Draw a sequence for one clause after each of those ``before``."""
         features = self.reward.features
-        menu, said = self._read(clauses, number)
+        menu, context = self._read(clauses, number)
         own: list[tuple[Instruction, ...]] = [()] * len(before)
         going = list(range(len(before)))
         for _ in range(features.syntax.longest):
             nodes = list(dict.fromkeys(Node(before[i], own[i]) for i in going))
-            shares = np.exp(log_probabilities(features, self.reward.theta, steps(menu, said, nodes))).cumsum(axis=1)
+            shares = np.exp(log_probabilities(features, self.reward.theta, steps(menu, context, nodes))).cumsum(axis=1)
             sums = dict(zip(nodes, np.round(shares / shares[:, -1:], _ROUNDED), strict=True))
             still = []
             for i, draw in zip(going, random.random(len(going)).tolist(), strict=True):
@@ -190,10 +190,10 @@ class Policy:
         instructions: Sequence[Instruction],
     ) -> float:
         """Return the mean of -ln P over a sequence and its end; each term is at most :data:`MOST`."""
-        menu, said = self._read(clauses, number)
+        menu, context = self._read(clauses, number)
         own = tuple(instructions)
         nodes = [Node(tuple(done), own[:length]) for length in range(len(own) + 1)]
-        logs = log_probabilities(self.reward.features, self.reward.theta, steps(menu, said, nodes))
+        logs = log_probabilities(self.reward.features, self.reward.theta, steps(menu, context, nodes))
         each = [
             min(MOST, -float(logs[row, menu.index[choice]])) if choice in menu.index else MOST
             for row, choice in enumerate((*own, STOP))
@@ -206,8 +206,8 @@ class Policy:
         last = self._last
         if last is None or last[0] != key:
             menu = self.menu
-            said = said_in(clauses, number, menu.features, menu.things, grounded=self.grounded)
-            last = self._last = key, (_with_mentioned(menu, said.levels) if self.grounded else menu, said)
+            context = context_of(clauses, number, menu.features, menu.things, grounded=self.grounded)
+            last = self._last = key, (_with_mentioned(menu, context.levels) if self.grounded else menu, context)
         return last[1]
 
 

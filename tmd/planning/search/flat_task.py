@@ -23,7 +23,7 @@ WORD = 62
 
 Ints = list[int]
 FEW = 4
-"""How many words of a set there must be for each bit that it is quicker to take its bits one by one."""
+"""Words of a set for each of its bits from which on it is quicker to take the bits one by one."""
 MANY = 32
 """Number of bits from which it is quicker to unpack a set than to take its bits one by one."""
 
@@ -34,7 +34,7 @@ class Tables(NamedTuple):
     Attributes:
         words: Words of a state.
         atoms: Fluent atoms.
-        operators: Operators; index ``operators`` stands for the free operators of the relaxation.
+        operators: Operators; index ``operators`` means the free operators of the relaxation.
         facts: Literals and clause facts.
         step: What a step counts for beside its cost; a unit of cost counts for as much as ``step`` steps.
         cost: Cost of each operator in search units, then 0 for the free ones, then all costs again for the

@@ -1,7 +1,7 @@
 """The search for any plan, a part of the search kernel: where the cheapest one takes too long to find.
 
 Greedy best-first search, then weighted A*, as LAMA does it (Richter and Westphal, JAIR 2010): a state is looked at
-when its turn comes, and stands in line with the landmark-cut value of the state before it. There are two lines. One
+when its turn comes, and waits in line under the landmark-cut value of the state before it. There are two lines. One
 holds every successor, the other only those by operators of a cut, which are preferred: each time a state nearer to
 the goal than all before is found, the second line goes first for a while.
 

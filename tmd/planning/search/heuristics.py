@@ -80,7 +80,7 @@ TRUE, GOAL = 0, 1
 class Relaxed(NamedTuple):
     """The part of the relaxation that matters for one goal and one bound, numbered afresh.
 
-    ``literal`` gives the fact of the tables that each fact stands for. The relaxed operators of operator ``o``
+    ``literal`` gives the fact of the tables that each fact is. The relaxed operators of operator ``o``
     are ``group[group_start[o]:group_start[o + 1]]``.
     """
 

@@ -29,7 +29,7 @@ PATIENCE = 100
 """Generated states after which ``auto`` goes over to numba. Loading it takes a second."""
 
 QUESTION = 5
-"""What a question counts for, in generated states."""
+"""Cost of a question, in generated states."""
 
 GOALS_KEPT = 256
 """Goals whose relaxations a search keeps."""

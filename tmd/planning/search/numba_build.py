@@ -77,13 +77,13 @@ def compiled() -> Functions:
 class _Announcement:
     """A message, printed once, that numba compiles the kernel; loading compiled code is not an event."""
 
-    said = False
+    printed = False
 
     def notify(self, event: Any) -> None:  # noqa: ANN401 - numba has no types
         """Handle an event of numba."""
         function = event.data["dispatcher"].py_func
-        if event.is_start and not self.said and function.__module__.startswith("tmd.planning."):
-            self.said = True
+        if event.is_start and not self.printed and function.__module__.startswith("tmd.planning."):
+            self.printed = True
             print("compiling the search for this machine, once; this takes about half a minute …", file=sys.stderr)
 
 
