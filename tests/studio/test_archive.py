@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from tmd import files as atomic
 from tmd.check.checker import Checker
 from tmd.diagnostics import OutputError, TmdError
-from tmd.lock import try_lock
+from tmd.files import try_lock
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive, demonstration
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
