@@ -14,6 +14,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from tmd.diagnostics import Location, TmdError
+from tmd.json_record import expectation
 from tmd.pddl.reading.syntax import Report, nearest, read_text
 from tmd.yaml_nodes import Loader, YamlMark, compose, from_yaml
 
@@ -116,7 +117,10 @@ class YamlSource:
         path = tuple(part for part in fault["loc"] if isinstance(part, str | int))
         where = ".".join(map(str, path)) or "the file"
         if fault["type"] != "extra_forbidden":
-            return self.error(path, f"{where}: {_expectation(fault)}", _HINTS.get(fault["type"]))
+            said = expectation(fault, "a mapping")
+            if fault["type"] == "string_pattern_mismatch":
+                said = "should be a colour" if "#" in fault["ctx"]["pattern"] else "should be a name"
+            return self.error(path, f"{where}: {said}", _HINTS.get(fault["type"]))
         missing = [str(f["loc"][-1]) for f in faults if f["type"] == "missing" and f["loc"][:-1] == path[:-1]]
         hint = nearest(str(path[-1]), missing, what="missing")
         return self.error(path, f"unknown key '{where}'", hint, "unknown-key")
@@ -129,16 +133,6 @@ class YamlSource:
         return Location(str(self.path), line, column)
 
 
-_EXPECTATIONS = {
-    "missing": "the key is missing",
-    "string_type": "should be text",
-    "list_type": "should be a list",
-    "tuple_type": "should be a list",
-    "dict_type": "should be a mapping",
-    "model_type": "should be a mapping",
-    "model_attributes_type": "should be a mapping",
-    "mapping_type": "should be a mapping",
-}
 _MAPPING = "write `key: value`, a line each, further in than the line above"
 _HINTS = {
     "missing": "see docs/domains.md for what belongs there",
@@ -151,14 +145,6 @@ _HINTS = {
     "mapping_type": _MAPPING,
     "string_pattern_mismatch": "a name has small letters, digits and _, a letter first; a colour is like '#a0c4ff'",
 }
-
-
-def _expectation(fault: ErrorDetails) -> str:
-    """Return the fault of a value in words of YAML instead of pydantic's."""
-    if fault["type"] == "string_pattern_mismatch":
-        return "should be a colour" if "#" in fault.get("ctx", {}).get("pattern", "") else "should be a name"
-    said = " ".join(fault["msg"].removeprefix("Value error, ").split())
-    return _EXPECTATIONS.get(fault["type"], said.replace("Input should", "should").replace("String should", "should"))
 
 
 def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mark] | None:
