@@ -18,7 +18,7 @@ class JsonRecord(BaseModel):
     """Part of a JSON format.
 
     A key with a default is left out where there is nothing to say, or where a file is older than the key; every other
-    key is always there. There are no other keys. Keys stand in the order of the fields.
+    key is always there. There are no other keys. Keys have the order of the fields.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
@@ -87,10 +87,10 @@ class JsonRecord(BaseModel):
         if version and cls.REMAKE:
             hint = f"it was written by {version} version of tmd: {cls.REMAKE}"
         place = ".".join(map(str, first["loc"]))
-        told = f"not {cls.WHAT}: {f'{place}: ' if place else ''}{expectation(first, 'a JSON object')}"
+        fault = f"not {cls.WHAT}: {f'{place}: ' if place else ''}{expectation(first, 'a JSON object')}"
         if line is None:
-            return TmdError(f"{file} is {told}", hint=hint)
-        return TmdError(f"this is {told}", location=Location(file, line, 1), hint=hint)
+            return TmdError(f"{file} is {fault}", hint=hint)
+        return TmdError(f"this is {fault}", location=Location(file, line, 1), hint=hint)
 
 
 _EXPECTATIONS = {

@@ -172,18 +172,23 @@ class _Line:
             entry = _Entry.model_validate(value)
         except ValidationError as error:
             fault = error.errors(include_url=False, include_input=False)[0]
-            key = "".join(f"{part}: " for part in (".".join(map(str, fault["loc"])),) if part)
-            hint = _SEGMENT if fault["loc"][:1] == ("segments",) else _LINE
-            said = expectation(fault, "a JSON object")
-            raise self.error(f"this is not a demonstration: {key}{said}", hint, fault["loc"]) from None
+            key = ".".join(map(str, fault["loc"]))
+            said = f"{f'{key}: ' if key else ''}{expectation(fault, 'a JSON object')}"
+            hint = _SEGMENT if key.startswith("segments") else _LINE
+            raise self.error(f"this is not a demonstration: {said}", hint, fault["loc"]) from None
         segments = tuple(self._segments(entry))
-        said = entry.model_dump(include={"id", "task", "environment", "text", "who", "when", "goal"})
         return Demonstration(
-            **said,
-            segments=segments,
-            end_state=tuple(entry.end_state),
-            proposed=self._corrected(entry, segments),
-            location=Location(str(self.path), self.number, 1),
+            entry.id,
+            entry.task,
+            entry.environment,
+            entry.text,
+            segments,
+            tuple(entry.end_state),
+            self._corrected(entry, segments),
+            entry.who,
+            entry.when,
+            entry.goal,
+            Location(str(self.path), self.number, 1),
         )
 
     def _corrected(self, entry: _Entry, segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:

@@ -1,6 +1,6 @@
-"""YAML that remembers where everything stands: a fault is reported with file, line and column.
+"""YAML files as pydantic models: a fault is reported with file, line and column.
 
-What is accepted as YAML is :mod:`tmd.yaml_nodes`' affair.
+:mod:`tmd.yaml_nodes` says what is accepted as YAML.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from pydantic_core import ErrorDetails
 from tmd.diagnostics import Location, TmdError
 from tmd.json_record import expectation
 from tmd.pddl.reading.syntax import Report, nearest, read_text
-from tmd.yaml_nodes import Loader, YamlMark, compose, from_yaml
+from tmd.yaml_nodes import Loader, compose, from_yaml
 
 P = ParamSpec("P")
 S = TypeVar("S")
@@ -52,21 +52,16 @@ class YamlSource:
             raise TmdError(
                 f"{self.path}: the file is empty", code="empty-file", hint="see docs/domains.md for what belongs in it"
             )
+        loader = Loader("")  # constructs the values of the nodes, without reading the text again
         try:
-            return model.model_validate(self._data())
-        except yaml.MarkedYAMLError as error:
+            return model.model_validate(loader.construct_document(self._root))
+        except yaml.YAMLError as error:
             raise from_yaml(error, self.text, str(self.path)) from None
         except ValidationError as error:
             first, *others = self._from_model(error)
             for other in others if self.report is not None else ():
                 self.fault(other)
             raise first from None
-
-    def _data(self) -> object:
-        """Return the data of the nodes, without reading the text again."""
-        loader = Loader("")
-        try:
-            return loader.construct_document(self._root)
         finally:
             loader.dispose()
 
@@ -75,7 +70,8 @@ class YamlSource:
     ) -> TmdError:
         """Return an error at the node that ``path`` (keys and indices from the root) leads to."""
         location = self.locate(path)
-        return TmdError(message, location=location, hint=hint, source=self._line(location.line), code=code)
+        source = self._lines[location.line - 1] if location.line <= len(self._lines) else None
+        return TmdError(message, location=location, hint=hint, source=source, code=code)
 
     def fault(self, error: TmdError) -> None:
         """Raise ``error``, or report it and return."""
@@ -101,9 +97,10 @@ class YamlSource:
             if step is None:
                 break
             node, mark = step
-        if mark is None:
-            mark = node.start_mark if node is not None else None
-        return self._place(mark)
+        if mark is None and node is not None:
+            mark = node.start_mark
+        line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
+        return Location(str(self.path), line, column)
 
     def _from_model(self, error: ValidationError) -> list[TmdError]:
         """Return the faults; an unknown key goes before the key that is missed because of it."""
@@ -124,13 +121,6 @@ class YamlSource:
         missing = [str(f["loc"][-1]) for f in faults if f["type"] == "missing" and f["loc"][:-1] == path[:-1]]
         hint = nearest(str(path[-1]), missing, what="missing")
         return self.error(path, f"unknown key '{where}'", hint, "unknown-key")
-
-    def _line(self, number: int) -> str | None:
-        return self._lines[number - 1] if 0 < number <= len(self._lines) else None
-
-    def _place(self, mark: YamlMark | None) -> Location:
-        line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
-        return Location(str(self.path), line, column)
 
 
 _MAPPING = "write `key: value`, a line each, further in than the line above"
