@@ -14,7 +14,7 @@ from radon.complexity import cc_visit
 PACKAGE = Path(__file__).parents[1] / "tmd"
 LAYERS = (
     ("diagnostics",),
-    ("files", "lock", "yaml_nodes", "json_record"),
+    ("files", "yaml_nodes", "json_record"),
     ("pddl", "language"),
     ("world", "planning", "format"),
     ("library", "datasets", "robot"),

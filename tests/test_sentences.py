@@ -71,13 +71,17 @@ GOOD = HAND % ("a", "Hand me the book.", '"(holding pr2 book1)"')
 @pytest.mark.parametrize(
     ("line", "column", "message"),
     [
-        ("{", 2, "the line is not valid JSON"),
-        ("[1]", 1, "a sentence test is a JSON object"),
-        ('{"id": "b"}', 1, "the key 'domain' is missing or is not a text"),
-        (HAND % ("b", "Take it.", "7"), 1, "the key 'goal' is missing, or is neither a text nor null"),
-        (GOOD.replace(', "goal": "(holding pr2 book1)"', ""), 1, "the key 'goal' is missing"),
+        ("{", 2, "this is not valid JSON"),
+        ("[1]", 1, "this is not a sentence test: should be a JSON object"),
+        ('{"id": "b"}', 1, "this is not a sentence test: domain: the key is missing"),
+        (HAND % ("b", "Take it.", "7"), 1, "this is not a sentence test: goal: should be text"),
+        (
+            GOOD.replace(', "goal": "(holding pr2 book1)"', ""),
+            1,
+            "this is not a sentence test: goal: the key is missing",
+        ),
         (GOOD, 1, "the id 'a' stands in this file twice"),
-        ("[" * 100_000, 1, "the line is nested too deeply"),
+        ("[" * 100_000, 1, "too many levels"),
     ],
 )
 def test_a_fault_of_a_file_has_its_place(tmp_path: Path, line: str, column: int, message: str) -> None:

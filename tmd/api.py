@@ -44,6 +44,7 @@ if TYPE_CHECKING:
     from tmd.world.scaffold import Scaffold
     from tmd.world.sentence_file import read_sentences as read_sentences
 
+# What takes long to import, or belongs to few, with the modules that are imported when it is first used.
 _LATER = {
     "CheckReport": "tmd.check.report",
     "ExperimentConfig": "tmd.evaluation.runs.config",
@@ -57,7 +58,6 @@ _LATER = {
     "read_sentences": "tmd.world.sentence_file",
     "run_experiment": "tmd.robot_trials.experiment",
 }
-"""What takes long to import, or belongs to few, with the modules that are imported when it is first used."""
 
 __all__ = [
     "CheckReport",

@@ -22,9 +22,9 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS
 from tmd.readers.interface import Reader
-from tmd.world.corpus import Corpus
+from tmd.world.corpus import Corpus, is_environment_file
 from tmd.world.folder import DomainFolder
-from tmd.world.world import World, make_world
+from tmd.world.world import World
 
 if TYPE_CHECKING:
     from tmd.evaluation.sentence_tests import SentenceResult
@@ -35,13 +35,12 @@ if TYPE_CHECKING:
     from tmd.studio.server import Server
     from tmd.world.sentence_file import SentenceTest
 
+# The readers by name.
 RULES, LLM = READERS = ("rules", "llm")
-"""The readers by name."""
+# The weights that :meth:`DomainKit.learn` saved.
 LEARNED = "learned"
-"""The weights that :meth:`DomainKit.learn` saved."""
-_FILES = (".yaml", ".yml", ".pddl")
+# The name of a bundled environment, an environment file (YAML) or PDDL problem, or what was made of one before.
 Place: TypeAlias = str | Path | World
-"""The name of a bundled environment, an environment file (YAML) or PDDL problem, or what was made of one before."""
 
 
 class DomainKit:
@@ -215,7 +214,7 @@ class DomainKit:
         from tmd.robot_trials.plan_runner import PlanRunner, StepRecorder
         from tmd.world.environment import load_room
 
-        file = self._file(environment)
+        file = self._corpus.file(environment)
         room, problem = load_room(file), self.problem(environment)
         text = plan.parsed.text if isinstance(plan, Grounded) else ""
         orders = orders_of(plan) if isinstance(plan, Grounded) else list(map(Order, plan))
@@ -240,7 +239,7 @@ class DomainKit:
             gui=gui,
         ) as runner:
             run = runner.run(orders, lambda _: (recorder,), room.name, text)
-        given = str(file) if Path(environment).suffix in _FILES else None
+        given = str(file) if is_environment_file(environment) else None
         asked = runner.request(orders, text or None, environment_file=given, grounding=None)
         return RecordedRun(run.execution, RunRecord.of(asked, recorder.steps, run.execution, run.sim_steps))
 
@@ -263,7 +262,7 @@ class DomainKit:
         from tmd.world.environment import load_room
 
         return survey_scene(
-            load_room(self._file(environment)),
+            load_room(self._corpus.file(environment)),
             self._corpus.folder,
             reach=reach,
             seed=seed,
@@ -373,7 +372,7 @@ class DomainKit:
         from tmd.studio.server import Server
         from tmd.studio.studio import open_studio
 
-        path = None if environment is None else self._file(environment)
+        path = None if environment is None else self._corpus.file(environment)
         return Server(open_studio(self._corpus, path, self._learned), host, port)
 
     @cached_property
@@ -392,17 +391,8 @@ class DomainKit:
             )
         return self._knowledge.weights
 
-    def _file(self, environment: str | Path) -> Path:
-        path = Path(environment)
-        return path if path.suffix in _FILES else self._corpus.file(str(environment))
-
     def _world(self, environment: Place) -> World:
-        if isinstance(environment, World):
-            return environment
-        if Path(environment).suffix not in _FILES:
-            return self._corpus.world(str(environment))
-        problem = self._corpus.read(Path(environment))
-        return make_world(problem.name, problem, self._corpus.lexicon)
+        return environment if isinstance(environment, World) else self._corpus.world(environment)
 
 
 @cache

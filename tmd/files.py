@@ -1,6 +1,6 @@
-"""Atomic writing of files: a reader never meets half a file, even if the writer is killed.
+"""Files: reading within a limit of size, atomic writing, locks.
 
-Reading is limited in size.
+A reader never meets half a file, even if the writer is killed. A lock ends with its process.
 """
 
 from __future__ import annotations
@@ -8,15 +8,19 @@ from __future__ import annotations
 import errno
 import os
 import stat
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO
+from typing import IO, TYPE_CHECKING
 from zlib import crc32
 
 from tmd.diagnostics import OutputError
 
+if TYPE_CHECKING:
+    from filelock import FileLock
+
+# Maximum size of a file that is read: a device may have no end.
 MAX_BYTES = 100_000_000
-"""Maximum size of a file that is read: a device may have no end."""
 _PIECE = 1 << 20
 
 
@@ -139,6 +143,52 @@ def check_writable(path: str | Path) -> None:
         reason = "Permission denied"
     if reason:
         raise OutputError(f"{target} cannot be written: {reason}", hint="name a file that you may write")
+
+
+def try_lock(path: Path, wait: float = 0.0) -> FileLock | None:
+    """Return the lock on a file; ``None`` where another thread or process still holds it after ``wait`` seconds.
+
+    The file is empty and stays. The lock is held until it is released, or the process ends.
+
+    Raises:
+        OutputError: The file cannot be made or locked.
+    """
+    from filelock import FileLock, Timeout  # slow to load
+
+    # a soft lock would outlive a process that was killed
+    lock = FileLock(path, wait, thread_local=False, poll_interval=0.01, fallback_to_soft=False)
+    try:
+        lock.acquire()
+    except Timeout:
+        return None
+    except OSError as error:
+        raise OutputError(
+            f"{path} cannot be locked: {error.strerror or error}",
+            hint="use a directory of this machine that exists and that you may write to",
+        ) from error
+    return lock
+
+
+@contextmanager
+def locked(path: Path, *, wait: float) -> Iterator[None]:
+    """Hold the lock on a file.
+
+    Args:
+        path: The file.
+        wait: Seconds after which no more attempts are made.
+
+    Raises:
+        OutputError: Somebody else holds it all that time, or the file cannot be made.
+    """
+    lock = try_lock(path, wait)
+    if lock is None:
+        raise OutputError(
+            f"{path.parent} is in use: somebody else has been writing there for {wait:g} seconds", hint="try again"
+        )
+    try:
+        yield
+    finally:
+        lock.release()
 
 
 def draft_of(target: Path) -> Path:

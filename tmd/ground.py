@@ -37,8 +37,8 @@ from tmd.readers.interface import Dialogue, Question, Reader
 from tmd.readers.rules import RuleReader
 from tmd.world.world import World
 
+# Asks the user a question; returns the number of the option, or ``None`` where there is no answer.
 Ask = Callable[[Question], int | None]
-"""Asks the user a question; returns the number of the option, or ``None`` where there is no answer."""
 
 
 def ground(

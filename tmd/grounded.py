@@ -16,10 +16,10 @@ from tmd.pddl.validator import Verdict
 from tmd.readers.interface import Dialogue, Question, Usage
 from tmd.world.world import World
 
+# Maximum number of verbs that are suggested for an unknown one.
 _VERBS = 8
-"""How many verbs are named instead of an unknown one."""
+# Maximum number of different reasons that are shown.
 _SHOWN = 3
-"""How many different reasons are told."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +76,9 @@ class Grounded:
         """The words that could not be used, or only by a guess, and what else to know of the reading; a line each."""
         guessed = [*self._likened()] if self.config.guess or not self.config.goals else []
         if self.refused is not None or any(plan.goals for plan in self.plans):
-            told = [*self._left_out(), *(guessed if self.plans else ())]
+            lines = [*self._left_out(), *(guessed if self.plans else ())]
         else:
-            told = [
+            lines = [
                 *(f"no demonstration has the verb '{_plain(verb)}' ({self._other(verb)})" for verb in self.unseen),
                 *(
                     f"nothing here is called '{_plain(noun)}'; what a plan does instead is a guess, so read it first"
@@ -87,8 +87,7 @@ class Grounded:
                 *guessed,
             ]
         asked = [f"{q.text} Option {q.taken + 1} is taken."] if (q := self.question) is not None else []
-        told = [*self.dialogue.notes, *asked, *told]
-        return tuple(dict.fromkeys(told))
+        return tuple(dict.fromkeys((*self.dialogue.notes, *asked, *lines)))
 
     @property
     def reason(self) -> str:
@@ -143,9 +142,9 @@ class Grounded:
         for each in self.rejected:
             if each.clause == clause:
                 counts[each.reason] = counts.get(each.reason, 0) + 1
-        told = sorted(counts, key=lambda reason: (-counts[reason], reason))
-        more = f"; and {len(told) - _SHOWN} other reasons" if len(told) > _SHOWN else ""
-        return "; ".join(told[:_SHOWN]) + more
+        reasons = sorted(counts, key=lambda reason: (-counts[reason], reason))
+        more = f"; and {len(reasons) - _SHOWN} other reasons" if len(reasons) > _SHOWN else ""
+        return "; ".join(reasons[:_SHOWN]) + more
 
     def _other(self, verb: str) -> str:
         """Return a verb to use instead: one that is written alike, or else the most frequent ones."""

@@ -6,52 +6,53 @@ import json
 from typing import Any, ClassVar, Self
 
 from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic_core import ErrorDetails
 
 from tmd.diagnostics import Location, TmdError
 
+# Energies and factors are rounded to this many decimals, so that the last bits of a sum do not show.
 DIGITS = 6
-"""Energies and factors are rounded to this many decimals, so that the last bits of a sum do not show."""
 
 
 class JsonRecord(BaseModel):
     """Part of a JSON format.
 
     A key with a default is left out where there is nothing to say, or where a file is older than the key; every other
-    key is always there. There are no other keys. Keys stand in the order of the fields.
+    key is always there. There are no other keys. Keys have the order of the fields.
     """
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
+    # The name of a whole file, or of a line of it: *a prediction of tmd experiment*.
     WHAT: ClassVar[str] = "a record of tmd"
-    """What a whole file, or a line of it, is: *a prediction of tmd experiment*."""
+    # The hint for one of another version; empty where people write it.
     REMAKE: ClassVar[str] = "make it again"
-    """What to do about one of another version."""
+    # The hint for one that is damaged; the same if empty.
     REPAIR: ClassVar[str] = ""
-    """What to do about one that is damaged; the same if empty."""
 
     def to_value(self) -> dict[str, Any]:
-        """The record as JSON holds it."""
+        """Return the record as JSON holds it."""
         return self.model_dump(mode="json", exclude_unset=True)
 
     def given(self) -> dict[str, Any]:
-        """The fields that have something to say, as they are: what :meth:`to_value` shows."""
+        """Return the fields that :meth:`to_value` shows, as they are."""
         return {name: value for name, value in self if name in self.model_fields_set}
 
     def to_line(self) -> str:
-        """The record as a line of JSON Lines."""
+        """Return the record as a line of JSON Lines."""
         return json.dumps(self.to_value(), ensure_ascii=False) + "\n"
 
     @classmethod
     def from_value(cls, value: object, file: str, line: int | None = None) -> Self:
-        """The record in a JSON value.
+        """Return the record in a JSON value.
 
         Args:
-            value: What was read.
+            value: The value.
             file: Its file, for messages.
             line: Its line, where the file is JSON Lines.
 
         Raises:
-            TmdError: A key is missing, unknown or of the wrong kind: which, what is expected and what to do.
+            TmdError: A key is missing, unknown or of the wrong kind.
         """
         try:
             return cls.model_validate(value)
@@ -60,7 +61,7 @@ class JsonRecord(BaseModel):
 
     @classmethod
     def from_text(cls, text: str, file: str, line: int | None = None) -> Self:
-        """The record in a text, as :meth:`from_value`.
+        """Return the record in a text, as :meth:`from_value`.
 
         Raises:
             TmdError: It is not JSON, or not this record.
@@ -69,7 +70,7 @@ class JsonRecord(BaseModel):
 
     @classmethod
     def from_lines(cls, text: str, file: str) -> list[Self]:
-        """The records of a JSON Lines file; blank lines are passed over.
+        """Return the records of a JSON Lines file; blank lines are skipped.
 
         Raises:
             TmdError: A line is not JSON, or not this record; with its place.
@@ -79,31 +80,45 @@ class JsonRecord(BaseModel):
 
     @classmethod
     def _fault(cls, error: ValidationError, file: str, line: int | None) -> TmdError:
-        """The first thing that is wrong."""
+        """Return the first fault."""
         first = error.errors(include_url=False, include_input=False)[0]
         version = {"missing": "an older", "extra_forbidden": "another"}.get(first["type"])
-        hint = f"it was written by {version} version of tmd: {cls.REMAKE}" if version else cls.REPAIR or cls.REMAKE
+        hint = cls.REPAIR or cls.REMAKE
+        if version and cls.REMAKE:
+            hint = f"it was written by {version} version of tmd: {cls.REMAKE}"
         place = ".".join(map(str, first["loc"]))
-        told = f"not {cls.WHAT}: {f'{place}: ' if place else ''}{_expectation(first['type'], first['msg'])}"
+        fault = f"not {cls.WHAT}: {f'{place}: ' if place else ''}{expectation(first, 'a JSON object')}"
         if line is None:
-            return TmdError(f"{file} is {told}", hint=hint)
-        return TmdError(f"this is {told}", location=Location(file, line, 1), hint=hint)
+            return TmdError(f"{file} is {fault}", hint=hint)
+        return TmdError(f"this is {fault}", location=Location(file, line, 1), hint=hint)
 
 
 _EXPECTATIONS = {
     "missing": "the key is missing",
     "extra_forbidden": "there is no such key",
-    "model_type": "should be a JSON object",
+    "string_type": "should be text",
+    "list_type": "should be a list",
+    "tuple_type": "should be a list",
 }
+_MAPPINGS = frozenset({"dict_type", "mapping_type", "model_type", "model_attributes_type"})
 
 
-def _expectation(kind: str, message: str) -> str:
-    plain = " ".join(message.removeprefix("Value error, ").split())
-    return _EXPECTATIONS.get(kind) or plain.replace("Input should", "should").replace("valid tuple", "list")
+def expectation(fault: ErrorDetails, mapping: str) -> str:
+    """Return the fault that pydantic found in a value, in words of the file format instead of Python's.
+
+    Args:
+        fault: The fault.
+        mapping: The name of a mapping in the format.
+    """
+    if fault["type"] in _MAPPINGS:
+        return f"should be {mapping}"
+    plain = " ".join(fault["msg"].removeprefix("Value error, ").split()).replace("valid tuple", "list")
+    plain = plain.replace("Input should", "should").replace("String should", "should")
+    return _EXPECTATIONS.get(fault["type"], plain)
 
 
 def json_value(text: str, file: str, line: int | None = None, hint: str | None = None) -> Any:  # noqa: ANN401 - any
-    """The JSON value in a text.
+    """Return the JSON value in a text.
 
     Args:
         text: The text.
@@ -117,13 +132,15 @@ def json_value(text: str, file: str, line: int | None = None, hint: str | None =
     try:
         return json.loads(text)
     except json.JSONDecodeError as error:
-        place = Location(file, line or error.lineno, error.colno)
-        raise TmdError(f"this is not valid JSON: {error.msg}", location=place, hint=hint) from None
-    except (ValueError, RecursionError):
-        place = Location(file, line or 1, 1)
-        raise TmdError("this is JSON with too many levels or digits", location=place, hint=hint) from None
+        place, source = Location(file, line or error.lineno, error.colno), None if line is None else text
+        message = f"this is not valid JSON: {error.msg}"
+        raise TmdError(message, location=place, hint=hint, source=source, code="json-syntax") from None
+    except (ValueError, RecursionError) as error:
+        code = "nested-too-deeply" if isinstance(error, RecursionError) else "json-syntax"
+        message = "this is JSON with too many levels or digits"
+        raise TmdError(message, location=Location(file, line or 1, 1), hint=hint, code=code) from None
 
 
 def rounded(value: float) -> float:
-    """A number as it is printed; there is no negative zero."""
+    """Return a number as it is printed; there is no negative zero."""
     return round(value, DIGITS) + 0.0

@@ -1,6 +1,6 @@
 """The knowledge learned of a domain, and the directories that keep it: that of `tmd learn`, and the user's cache.
 
-``library.json``, ``policy.json`` and ``policy.npy`` hold what was learned, ``weights.txt`` the learned weights if there
+``library.json``, ``policy.json`` and ``policy.bin`` hold what was learned, ``weights.txt`` the learned weights if there
 are any. ``learned.json`` is written last and has checksums: of what everything was made from, and of the other files.
 Where one of them does not fit, nothing of the directory is used.
 
@@ -11,7 +11,6 @@ What nobody saved is learned when it is first asked for, and kept in the user's 
 from __future__ import annotations
 
 import hashlib
-import io
 import json
 import os
 import shutil
@@ -109,9 +108,14 @@ def record_value(record: Any) -> Any:  # noqa: ANN401 - any dataclass, and any v
 
 def library_to_json(library: Library) -> dict[str, Any]:
     """Return the JSON value that :func:`library_from_json` reads."""
-    profiles = _Profiles()
-    templates = [_template(t, profiles) for verb in library.verbs() for t in library.templates(verb)]
-    found: dict[str, Any] = record_value(LibraryRecord(list(library.unaligned), templates, profiles.all))
+    numbers: dict[tuple[tuple[tuple[str, ...], bool], ...], int] = {}
+
+    def number(profile: Profile) -> int:
+        return numbers.setdefault(tuple(profile.items()), len(numbers))
+
+    templates = [_template(t, number) for verb in library.verbs() for t in library.templates(verb)]
+    profiles: list[list[list[str | bool]]] = [[[*name, holds] for name, holds in profile] for profile in numbers]
+    found: dict[str, Any] = record_value(LibraryRecord(list(library.unaligned), templates, profiles))
     return found
 
 
@@ -119,7 +123,7 @@ def library_from_json(data: bytes, lexicon: Lexicon) -> Library:
     """Return the library.
 
     Raises:
-        KeyError, TypeError, ValueError, IndexError: It is none.
+        KeyError, TypeError, ValueError, IndexError: It is not one.
     """
     record = read_record(LibraryRecord, data)
     profiles = [_profile(lines) for lines in record.profiles]
@@ -129,44 +133,29 @@ def library_from_json(data: bytes, lexicon: Lexicon) -> Library:
     return library
 
 
-class _Profiles:
-    """The distinct profiles, numbered as they come."""
-
-    def __init__(self) -> None:
-        self.all: list[list[Any]] = []
-        self._numbers: dict[tuple[Any, ...], int] = {}
-
-    def number(self, profile: Profile) -> int:
-        key = tuple(profile.items())
-        if key not in self._numbers:
-            self._numbers[key] = len(self.all)
-            self.all.append([[*name, value] for name, value in profile.items()])
-        return self._numbers[key]
-
-
 def _profile(lines: Sequence[Sequence[str | bool]]) -> Profile:
     found: dict[tuple[str, ...], bool] = {}
     for *name, holds in lines:
         if not isinstance(holds, bool) or not all(isinstance(word, str) for word in name):
-            raise TypeError("this is no profile")
+            raise TypeError("this is not a profile")
         found[tuple(map(str, name))] = holds
     return found
 
 
-def _template(template: Template, profiles: _Profiles) -> TemplateRecord:
+def _template(template: Template, number: Callable[[Profile], int]) -> TemplateRecord:
     return TemplateRecord(
         source=template.source,
         clause=template.clause,
         environment=template.environment,
         instructions=[[i.name, *i.args] for i in template.instructions],
         variables={
-            z: (name, template.classes[z], profiles.number(template.profiles[z]), profiles.number(template.ends[z]))
+            z: (name, template.classes[z], number(template.profiles[z]), number(template.ends[z]))
             for z, name in template.grounding.items()
         },
         wanted={z: [list(types) for types in wanted] for z, wanted in template.wanted.items()},
         links=[[a, b, *sorted(names)] for (a, b), names in template.links.items()],
         mentions=dict(template.mentions),
-        subjects=[(kind, profiles.number(profile)) for kind, profile in template.subjects],
+        subjects=[(kind, number(profile)) for kind, profile in template.subjects],
     )
 
 
@@ -175,7 +164,7 @@ def _read_template(data: TemplateRecord, profiles: Sequence[Profile]) -> Templat
     named = {word for _, *args in data.instructions for word in args if word.startswith("?")}
     named |= {*data.wanted, *data.mentions.values(), *(z for link in data.links for z in link[:2])}
     if not named <= variables.keys() or data.wanted.keys() != variables.keys():
-        raise ValueError("a variable stands for nothing")
+        raise ValueError("a variable has no object")
     return Template(
         source=data.source,
         clause=data.clause,
@@ -211,15 +200,15 @@ def reward_to_json(reward: Reward) -> bytes:
     )
 
 
+# A thousand times what training ever gave; sums of such weights are far from overflowing.
 _LARGEST_WEIGHT = 1e6
-"""A thousand times what training ever gave; sums of such weights are far from overflowing."""
 
 
 def reward_from_json(data: bytes, weights: bytes) -> Reward:
-    """Return the same again.
+    """Return the policy that :func:`reward_to_json` wrote.
 
     Raises:
-        ValueError: It is none.
+        ValueError: It is not one.
     """
     record = read_record(PolicyRecord, data)
     needs = {(name, place): earlier for name, place, earlier in record.needs}
@@ -228,33 +217,16 @@ def reward_from_json(data: bytes, weights: bytes) -> Reward:
     )
     if not {name for names in needs.values() for name in names} <= features.actions.keys():
         raise ValueError("an action is needed that none of the sequences has")
-    # what is saved is always of one form: numpy need not find out what an unknown header may mean
-    header = io.BytesIO()
-    np.lib.format.write_array_header_1_0(
-        header, {"descr": "<f8", "fortran_order": False, "shape": (int(features.size),)}
-    )
-    start = header.tell()
-    if weights[:start] != header.getvalue() or len(weights) != start + features.size * _FLOAT:
+    theta = np.frombuffer(weights, "<f8").astype(np.float64)
+    if theta.shape != (features.size,):
         raise ValueError("the weights are of another policy")
-    theta = np.frombuffer(weights, "<f8", offset=start).astype(np.float64)
     if not (np.abs(theta) <= _LARGEST_WEIGHT).all():
         raise ValueError("the weights are no numbers that training gives")
     return Reward(features, theta, record.before, record.after)
 
 
-_FLOAT = 8
-"""The bytes of a number."""
-
-
-def weights_bytes(reward: Reward) -> bytes:
-    """Return the weights as a ``.npy`` file."""
-    buffer = io.BytesIO()
-    np.save(buffer, reward.theta.astype("<f8"), allow_pickle=False)
-    return buffer.getvalue()
-
-
+# Seconds of work before progress is shown.
 _PATIENCE = 2.0
-"""Seconds that nobody minds waiting without a word."""
 
 
 class Progress:
@@ -270,7 +242,7 @@ class Progress:
         self._shown = ""
 
     def tell(self, share: float) -> None:
-        """Say how much is done, from 0 to 1."""
+        """Show the share that is done, from 0 to 1."""
         if sys.stderr is None or time.monotonic() - self._begun < _PATIENCE:
             return
         if sys.stderr.isatty():
@@ -294,8 +266,8 @@ class Progress:
 
 
 _ROOT = Path(__file__).resolve().parent
+# The packages and modules of ``tmd`` whose code decides what is learned from a demonstration.
 _SOURCES = ("pddl", "world", "language", "library", "goals", "inference/policy", "knowledge.py")
-"""The packages and modules of ``tmd`` whose code decides what is learned from a demonstration."""
 _DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
 
 
@@ -334,10 +306,10 @@ def _program() -> str:
     return found.hexdigest()
 
 
+# The seed of the policy is fixed, so that the same demonstrations teach the same.
 _SEED = 0
-"""The policy's own: the same demonstrations teach the same."""
+# The share of the work that the library takes, roughly; the policy is the rest.
 _LIBRARY = 0.15
-"""The share of the work that the library is, roughly; the policy is the rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -357,7 +329,7 @@ class Knowledge:
     goals: GoalTable | None = None
 
 
-def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowledge:
+def study(corpus: Corpus, tell: Callable[[float], None] = lambda share: None) -> Knowledge:
     """Learn library and policy from all demonstrations of a domain.
 
     Args:
@@ -368,38 +340,31 @@ def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowle
         TmdError: A demonstration is wrong, or cannot be executed in its environment.
     """
     demonstrations = corpus.demonstrations()
-    told = tell or _nobody
-    library = learn(_counted(demonstrations, told), corpus.world, corpus.lexicon)
+
+    def counted() -> Iterator[Demonstration]:
+        for number, demonstration in enumerate(demonstrations):
+            tell(_LIBRARY * number / len(demonstrations))
+            yield demonstration
+
+    library = learn(counted(), corpus.world, corpus.lexicon)
     if not len(library):
         return Knowledge(library)
-    random = np.random.default_rng(_SEED)
-
-    def on(share: float) -> None:
-        told(_LIBRARY + (1 - _LIBRARY) * share)
-
     goals = learn_goals(demonstrations, corpus.world, corpus.lexicon)
-    return Knowledge(library, learn_policy(demonstrations, corpus.world, random, tell=on), goals=goals)
+    random = np.random.default_rng(_SEED)
+    reward = learn_policy(
+        demonstrations, corpus.world, random, tell=lambda share: tell(_LIBRARY + (1 - _LIBRARY) * share)
+    )
+    return Knowledge(library, reward, goals=goals)
 
 
-def _counted(demonstrations: Sequence[Demonstration], tell: Callable[[float], None]) -> Iterator[Demonstration]:
-    """Yield the demonstrations; ``tell`` is told how far they are taken."""
-    for number, demonstration in enumerate(demonstrations):
-        tell(_LIBRARY * number / len(demonstrations))
-        yield demonstration
-
-
-def _nobody(share: float) -> None:
-    """Nobody wants to know."""
-
-
+# The directory beside a domain's demonstrations, and its files.
 FOLDER = "learned"
-"""Where it is kept beside a domain's demonstrations."""
-MANIFEST, LIBRARY, POLICY, THETA, WEIGHTS = "learned.json", "library.json", "policy.json", "policy.npy", "weights.txt"
+MANIFEST, LIBRARY, POLICY, THETA, WEIGHTS = "learned.json", "library.json", "policy.json", "policy.bin", "weights.txt"
 GOALS = "goals.json"
+# The number of directories of the cache that are kept for each domain: those that were used last.
 _KEPT = 3
-"""Directories of the cache that are kept for each domain: those that were used last."""
+# The number of digits of a digest that name a directory of the cache.
 _DIGITS = 16
-"""The digits of a digest that name a directory of the cache."""
 
 
 def place(corpus: Corpus, root: Path | None = None) -> Path:
@@ -423,7 +388,7 @@ def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str |
     files = {LIBRARY: _json(library_to_json(knowledge.library))}
     if knowledge.reward is not None:
         files[POLICY] = reward_to_json(knowledge.reward)
-        files[THETA] = weights_bytes(knowledge.reward)
+        files[THETA] = knowledge.reward.theta.astype("<f8").tobytes()
     if knowledge.goals is not None:
         files[GOALS] = (json.dumps(table_to_json(knowledge.goals), ensure_ascii=False, indent=1) + "\n").encode()
     if knowledge.weights is not None:
@@ -463,18 +428,16 @@ def known(corpus: Corpus, root: Path | None = None, tell: Callable[[float], None
     Args:
         corpus: The domain.
         root: Where ``tmd learn --out`` saved; beside the demonstrations where none is given.
-        tell: Is told which share of the learning is done; without it, learning that takes long is told of on standard
-            error.
+        tell: Called with the share of the learning that is done; without it, learning that takes long is reported on
+            standard error.
 
     Raises:
         TmdError: Nothing was saved that still holds, and a demonstration is wrong.
     """
-    return recall(corpus, place(corpus, root)) or _from_cache(corpus, digest(corpus), tell)
-
-
-def _from_cache(corpus: Corpus, made_from: str, tell: Callable[[float], None] | None) -> Knowledge:
-    """Return the cached knowledge, or else learn it now and cache it."""
-    cache = cache_directory("learned")
+    saved = recall(corpus, place(corpus, root))
+    if saved is not None:
+        return saved
+    made_from, cache = digest(corpus), cache_directory("learned")
     kept = cache / corpus.folder.name / made_from[:_DIGITS] if cache is not None else None
     found = recall(corpus, kept) if kept is not None else None
     if found is None:

@@ -1,4 +1,4 @@
-"""YAML as nodes that know where they stand: the one reader of YAML text, within bounds of size, depth and number.
+"""The reader of YAML text: nodes with their places, within bounds of size, depth and number.
 
 Only plain data is accepted: no aliases (an alias can blow a small file up), no key twice, no list or mapping as a key.
 ``on``, ``off``, ``yes`` and ``no`` are words, as in YAML 1.2, because they are words of our domains.
@@ -7,26 +7,18 @@ Only plain data is accepted: no aliases (an alias can blow a small file up), no 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NoReturn, Protocol
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
 from tmd.diagnostics import Location, TmdError
 
+# Longer texts are refused: no environment or class file comes near.
 MAX_CHARACTERS = 10_000_000
-"""Longer texts are refused: no environment or class file comes near."""
+# Lists and mappings inside one another; our formats need five.
 MAX_LEVELS = 50
-"""Lists and mappings inside one another; our formats need five."""
+# Values and keys of one file, read in 3 s; an environment of ten thousand objects has 100,000.
 MAX_NODES = 500_000
-"""Values and keys of one file, read in 3 s; an environment of ten thousand objects has 100,000."""
-
-
-class YamlMark(Protocol):
-    """A place as both of PyYAML's parsers give it: counted from 0."""
-
-    line: int
-    column: int
 
 
 if TYPE_CHECKING:
@@ -39,7 +31,7 @@ class Loader(_Base):
     """The safe loader with YAML 1.2's idea of a truth value."""
 
     def construct_object(self, node: yaml.Node, deep: bool = False) -> Any:  # noqa: ANN401 - any value of YAML
-        """The value of a node; one that Python cannot hold (the 30th of February, 5,000 digits) is a fault of it."""
+        """Return the value of a node; one that Python cannot hold (the 30th of February, 5,000 digits) is a fault."""
         try:
             return super().construct_object(node, deep=deep)
         except ValueError as error:
@@ -56,7 +48,7 @@ Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(?:true|fal
 
 
 def compose(text: str, file: str) -> yaml.Node | None:
-    """The root node of a text; ``None`` where it has nothing but comments.
+    """Return the root node of a text; ``None`` where it has nothing but comments.
 
     Args:
         text: The text.
@@ -65,118 +57,95 @@ def compose(text: str, file: str) -> yaml.Node | None:
     Raises:
         TmdError: It is not YAML of the accepted kind, or beyond the bounds; with its place.
     """
-    reader = _Reader(text, file)
     if len(text) > MAX_CHARACTERS:
         hint = "this is not a file of tmd"
         raise TmdError(f"{file}: larger than {MAX_CHARACTERS // 1_000_000} MB", hint=hint, code="too-large")
+    look_over(text, file, aliases=False)
     try:
-        reader.look_over(aliases=False)
         root = yaml.compose(text, Loader=Loader)
-    except yaml.MarkedYAMLError as error:
-        raise reader.from_yaml(error) from None
     except yaml.YAMLError as error:
-        raise reader.unreadable(error) from None
-    reader.refuse_keys(root)
+        raise from_yaml(error, text, file) from None
+    _refuse_keys(root, text, file)
     return root
 
 
-def look_over(text: str, file: str) -> None:
-    """Refuse a text that is deeper or has more values than anything of ours; it may have aliases.
+def look_over(text: str, file: str, *, aliases: bool = True) -> None:
+    """Refuse a text that is deeper or has more values than any file of ours.
+
+    Args:
+        text: The text.
+        file: Names it in errors.
+        aliases: Whether it may have aliases.
 
     Raises:
         TmdError: It is, or it is not YAML; with its place.
     """
-    reader = _Reader(text, file)
+    depth = nodes = 0
     try:
-        reader.look_over(aliases=True)
-    except yaml.MarkedYAMLError as error:
-        raise reader.from_yaml(error) from None
+        for event in yaml.parse(text, Loader=Loader):
+            nodes += isinstance(event, yaml.NodeEvent)
+            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
+            if isinstance(event, yaml.AliasEvent) and not aliases:
+                fault = "aliases are not accepted", "yaml-alias", "write the value out"
+            elif depth > MAX_LEVELS:
+                message = f"nested more than {MAX_LEVELS} levels deep"
+                fault = message, "nested-too-deeply", "a YAML file here needs five levels"
+            elif nodes > MAX_NODES:
+                fault = f"more than {MAX_NODES:,} values", "too-large", "this is not a file of tmd"
+            else:
+                continue
+            raise _fault(event.start_mark, *fault, text, file)
     except yaml.YAMLError as error:
-        raise reader.unreadable(error) from None
+        raise from_yaml(error, text, file) from None
 
 
-def from_yaml(error: yaml.MarkedYAMLError, text: str, file: str) -> TmdError:
+def from_yaml(error: yaml.YAMLError, text: str, file: str) -> TmdError:
     """Return the fault that PyYAML found in a text, with its place."""
-    return _Reader(text, file).from_yaml(error)
+    if isinstance(error, yaml.MarkedYAMLError):
+        problem = (error.problem or error.context or "not YAML").replace("\n", " ")
+        code = next((code for words, code in _CODES.items() if words in problem), "yaml-syntax")
+        mark = error.problem_mark or error.context_mark
+        return _fault(mark, f"not YAML: {problem}", code, _REWRITE if code == "yaml-syntax" else _PLAIN, text, file)
+    number = getattr(error, "character", None)
+    if not isinstance(number, int):
+        return _fault(None, f"not YAML: {' '.join(str(error).split())}", "yaml-syntax", _REWRITE, text, file)
+    # a character that YAML does not allow, without its place
+    message = f"not YAML: the character U+{number:04X} is not allowed"
+    before = text.partition(chr(number))[0].splitlines() or [""]
+    return _fault((len(before) - 1, len(before[-1])), message, "yaml-syntax", "remove it", text, file)
 
 
 _REWRITE = "indent with blanks, close every bracket, and put text with : # [ or { into quotes"
 _PLAIN = "write plain values: text, numbers, [ ] and { }, a few levels of them"
+# Problems of PyYAML and libyaml with a code other than that of a syntax error.
 _CODES = {"could not determine a constructor": "yaml-tag", "maximum nesting depth": "nested-too-deeply"}
-"""What is a kind of its own among the problems that PyYAML and libyaml tell."""
 
 
-@dataclass(slots=True)
-class _Mark:
-    """A place, counted from 0."""
+def _fault(mark: object, message: str, code: str, hint: str, text: str, file: str) -> TmdError:
+    """Return a fault at a mark of PyYAML or libyaml, at a line and column counted from 0, or else at the beginning."""
+    line, column = mark if isinstance(mark, tuple) else (getattr(mark, "line", 0), getattr(mark, "column", 0))
+    lines = text.splitlines()
+    source = lines[line] if line < len(lines) else None
+    return TmdError(message, location=Location(file, line + 1, column + 1), hint=hint, source=source, code=code)
 
-    line: int
-    column: int
 
-
-class _Reader:
-    """A text and its name, to point into it."""
-
-    def __init__(self, text: str, file: str) -> None:
-        self.text = text
-        self.file = file
-
-    def error(self, mark: YamlMark | None, message: str, code: str, hint: str | None = None) -> TmdError:
-        line, column = (mark.line, mark.column) if mark is not None else (0, 0)
-        lines = self.text.splitlines()
-        source = lines[line] if line < len(lines) else None
-        return TmdError(
-            message, location=Location(self.file, line + 1, column + 1), hint=hint, source=source, code=code
-        )
-
-    def fail(self, mark: YamlMark | None, message: str, code: str, hint: str | None = None) -> NoReturn:
-        raise self.error(mark, message, code, hint)
-
-    def from_yaml(self, error: yaml.MarkedYAMLError) -> TmdError:
-        problem = (error.problem or error.context or "not YAML").replace("\n", " ")
-        code = next((code for words, code in _CODES.items() if words in problem), "yaml-syntax")
-        mark = error.problem_mark or error.context_mark
-        return self.error(mark, f"not YAML: {problem}", code, _REWRITE if code == "yaml-syntax" else _PLAIN)
-
-    def unreadable(self, error: yaml.YAMLError) -> TmdError:
-        """Return the fault of a problem without a place: a character that YAML does not allow."""
-        number = getattr(error, "character", None)
-        if not isinstance(number, int):
-            return self.error(None, f"not YAML: {' '.join(str(error).split())}", "yaml-syntax", _REWRITE)
-        before = self.text.partition(chr(number))[0].splitlines()
-        mark = _Mark(max(len(before) - 1, 0), len(before[-1]) if before else 0)
-        return self.error(mark, f"not YAML: the character U+{number:04X} is not allowed", "yaml-syntax", "remove it")
-
-    def look_over(self, aliases: bool) -> None:
-        depth = nodes = 0
-        for event in yaml.parse(self.text, Loader=Loader):
-            if isinstance(event, yaml.AliasEvent) and not aliases:
-                self.fail(event.start_mark, "aliases are not accepted", "yaml-alias", "write the value out")
-            nodes += isinstance(event, yaml.NodeEvent)
-            depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-            if depth > MAX_LEVELS:
-                message = f"nested more than {MAX_LEVELS} levels deep"
-                self.fail(event.start_mark, message, "nested-too-deeply", "a YAML file here needs five levels")
-            if nodes > MAX_NODES:
-                self.fail(event.start_mark, f"more than {MAX_NODES:,} values", "too-large", "this is not a file of tmd")
-
-    def refuse_keys(self, root: yaml.Node | None) -> None:
-        """Refuse keys that stand twice, or that are no words."""
-        waiting: list[yaml.Node] = [root] if root is not None else []
-        while waiting:
-            node = waiting.pop()
-            if isinstance(node, yaml.SequenceNode):
-                waiting.extend(node.value)
-            if isinstance(node, yaml.MappingNode):
-                seen: dict[str, int] = {}
-                for key, value in node.value:
-                    if not isinstance(key, yaml.ScalarNode):
-                        message = f"a {'list' if isinstance(key, yaml.SequenceNode) else 'mapping'} cannot be a key"
-                        hint = "write a word before the colon; text with brackets or braces goes into quotes"
-                        self.fail(key.start_mark, message, "bad-value", hint)
-                    if key.value in seen:
-                        message = f"the key '{key.value}' stands here twice"
-                        hint = f"remove one of the two; the first is in line {seen[key.value]}"
-                        self.fail(key.start_mark, message, "duplicate-key", hint)
-                    seen[key.value] = key.start_mark.line + 1
-                    waiting.append(value)
+def _refuse_keys(root: yaml.Node | None, text: str, file: str) -> None:
+    """Refuse keys that stand twice, or that are not words."""
+    waiting: list[yaml.Node] = [root] if root is not None else []
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, yaml.SequenceNode):
+            waiting.extend(node.value)
+        if isinstance(node, yaml.MappingNode):
+            seen: dict[str, int] = {}
+            for key, value in node.value:
+                if not isinstance(key, yaml.ScalarNode):
+                    message = f"a {'list' if isinstance(key, yaml.SequenceNode) else 'mapping'} cannot be a key"
+                    hint = "write a word before the colon; text with brackets or braces goes into quotes"
+                    raise _fault(key.start_mark, message, "bad-value", hint, text, file)
+                if key.value in seen:
+                    message = f"the key '{key.value}' stands here twice"
+                    hint = f"remove one of the two; the first is in line {seen[key.value]}"
+                    raise _fault(key.start_mark, message, "duplicate-key", hint, text, file)
+                seen[key.value] = key.start_mark.line + 1
+                waiting.append(value)

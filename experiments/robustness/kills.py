@@ -62,7 +62,7 @@ import sys
 signal.signal(signal.SIGINT, lambda *_: os._exit(130))  # as tmd: no traceback
 from pathlib import Path
 from tmd.diagnostics import TmdError
-from tmd.lock import locked
+from tmd.files import locked
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import Session

@@ -89,7 +89,7 @@ def test_what_was_made_from_something_else_is_not_used(
     assert recall(lab, place(lab)) is None
 
 
-@pytest.mark.parametrize("file", ["library.json", "policy.json", "policy.npy", MANIFEST])
+@pytest.mark.parametrize("file", ["library.json", "policy.json", "policy.bin", MANIFEST])
 def test_what_is_damaged_is_not_used(file: str, lab: Corpus, knowledge: Knowledge) -> None:
     save(knowledge, lab, place(lab))
     path = place(lab) / file

@@ -154,8 +154,7 @@ WRONG = {
     "a policy of words": ("policy.json", b'"longest":', b'"longest":"9","was":'),
     "an action that is none": ("policy.json", b'"needs":', b'"needs":[["keep",0,["fly"]]],"was":'),
     "no number": ("policy.json", b'"before":', b'"before":1e999,"was":'),
-    "a header that numpy cannot parse": ("policy.npy", b"{'descr'", b"{'descr("),
-    "weights that overflow": ("policy.npy", b"", b""),
+    "weights that overflow": ("policy.bin", b"", b""),
 }
 
 

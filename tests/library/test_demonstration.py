@@ -42,14 +42,14 @@ def test_segments_are_found_in_the_text_in_order(tmp_path: Path) -> None:
 
 
 MISTAKES = [
-    ({"text": None}, "'text' is not a string"),
-    ({"segments": None}, "'segments' is not a list"),
+    ({"text": None}, "text: should be text"),
+    ({"segments": None}, "segments: should be a list"),
     ({"segments": [{"text": "Take that", "instructions": []}]}, "does not stand in the text"),
-    ({"segments": [{"instructions": []}]}, "segment 1 has no 'text'"),
-    ({"segments": [{"text": "Take it", "instructions": "wait()"}]}, "not a list of strings"),
-    ({"segments": [{"text": "Take it", "instructions": ["grasp(mug1"]}]}, "segment 1: 'grasp(mug1'"),
+    ({"segments": [{"instructions": []}]}, "segments.0.text: the key is missing"),
+    ({"segments": [{"text": "Take it", "instructions": "wait()"}]}, "segments.0.instructions: should be a list"),
+    ({"segments": [{"text": "Take it", "instructions": ["grasp(mug1"]}]}, "'grasp(mug1': "),
     ({"segments": list(reversed(GOOD["segments"]))}, "does not stand in the text after"),
-    ({"end_state": "(hot mug1)"}, "'end_state' is not a list"),
+    ({"end_state": "(hot mug1)"}, "end_state: should be a list"),
 ]
 
 

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from tmd.library.library import run
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.task import Cube
 from tmd.planning.gap_filler import eliminate
 from tmd.world.corpus import Corpus
+from tmd.world.world import run
 
 
 def test_a_plan_is_left_with_what_it_needs(kitchen: Corpus) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from tmd.language import parse
 from tmd.language.clause import Clause
-from tmd.library.library import align, learn, run
+from tmd.library.library import align, learn
 from tmd.library.template import Instantiation, Template, generalise, instantiate, replace
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
@@ -18,7 +18,7 @@ from tmd.world.compile import compile_problem
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Segment
 from tmd.world.environment import load_environment
-from tmd.world.world import World, make_world
+from tmd.world.world import World, make_world, run
 
 
 def clause(text: str, corpus: Corpus) -> Clause:

@@ -5,11 +5,12 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.library.library import run, tidy
+from tmd.library.library import tidy
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.validator import validate
 from tmd.world.corpus import Corpus
+from tmd.world.world import run
 
 TAKE = ("find(mug1)", "moveto(mug1)", "grasp(mug1)")
 STEPS = (*TAKE, "moveto(sink1)", "keep(mug1, sink1, in)", "release(mug1)", "turn(sink1_handle, high)", "wait()")

@@ -97,8 +97,11 @@ CONTENTS = {
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [
-        (("test", "--cases", "bad.sentences.jsonl"), r"bad\.sentences\.jsonl:1:10: the line is not valid JSON"),
-        (("view", "demonstrations.jsonl"), r"demonstrations\.jsonl:1:8: 'id' is not a string"),
+        (("test", "--cases", "bad.sentences.jsonl"), r"bad\.sentences\.jsonl:1:10: this is not valid JSON"),
+        (
+            ("view", "demonstrations.jsonl"),
+            r"demonstrations\.jsonl:1:8: this is not a demonstration: id: should be text",
+        ),
         (("validate", "04_tea", PROBLEM, "bad.plan"), r'bad\.plan:1:8: "cup\?" is not a name'),
         (("view", "bad.plan"), r"for the plan bad\.plan give one of --problem and --environment"),
         (("ground", "--environment", "room.xml", "--text", "x"), r"not grounded in single rooms of VEIL-500"),

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from tmd import files as atomic
 from tmd.check.checker import Checker
 from tmd.diagnostics import OutputError, TmdError
-from tmd.lock import try_lock
+from tmd.files import try_lock
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive, demonstration
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
@@ -127,10 +127,10 @@ def test_a_correction_keeps_the_plan_that_was_proposed(table: Corpus) -> None:
     assert faults(table, file) == []
     data = json.loads(file.read_text())
     for change, why in [
-        ({"proposed": 3}, "'proposed' is not a list of strings"),
+        ({"proposed": 3}, "proposed: should be a list"),
         ({"proposed": PLAN[:1]}, "'proposed' is not what its segments have"),
-        ({"proposed": None}, "'proposed' is not a list"),
-        ({"who": 7}, "'who' is not a string"),
+        ({"proposed": None}, "a segment has 'proposed', and the demonstration has not"),
+        ({"who": 7}, "who: should be text"),
         (
             {"proposed": PLAN[1:2], "segments": [{**data["segments"][0], "proposed": PLAN[1:2]}]},
             "the plan that 'corrected-corner1-01' corrects cannot be executed in corner1: segment 1, step 1",

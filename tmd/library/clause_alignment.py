@@ -14,12 +14,12 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.world.world import Mentions, Profiles
 
+# What it costs to cut between two instructions that share an object.
 _SAME_THING = 0.5
-"""What it costs to cut between two instructions that share an object."""
+# What a mention of another part of the same whole counts, and one of the whole.
 _SIBLING, _WHOLE = 0.8, 0.6
-"""What a mention of another part of the same whole counts, and one of the whole."""
+# What it costs to leave a clause without instructions.
 _NOTHING_LEFT = 0.25
-"""What it costs to leave a clause without instructions."""
 
 
 def split(

@@ -15,7 +15,7 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.world.demonstration import Demonstration, Segment
 from tmd.world.verb_clause import VerbClause
-from tmd.world.world import Profile, World
+from tmd.world.world import Profile, World, run
 
 
 @dataclass(slots=True, eq=False, weakref_slot=True)
@@ -282,15 +282,6 @@ def _overlap(clause: Clause, segment: Segment) -> int:
 
 def _touches(clause: Clause, segment: Segment) -> bool:
     return clause.span.start < segment.end and segment.start < clause.span.end
-
-
-def run(world: World, state: int, instructions: Iterable[Instruction]) -> int:
-    """Return the state after ``instructions``; one that can never apply here changes nothing."""
-    for instruction in instructions:
-        operator = world.task.by_instruction.get(instruction)
-        if operator is not None:
-            state = operator.apply(state)
-    return state
 
 
 def tidy(instructions: Sequence[Instruction], world: World, state: Bits) -> tuple[Instruction, ...]:

@@ -108,7 +108,7 @@ def _meant(clause: Clause, names: Mapping[str, str], mentions: Mentions, state: 
 
 
 def _wanted(instructions: Sequence[Instruction], variable: str, profiles: Profiles) -> tuple[tuple[str, ...], ...]:
-    """Return the types of every parameter that ``variable`` stands for in ``instructions``, each once."""
+    """Return the types of every parameter that ``variable`` fills in ``instructions``, each once."""
     schemas = {action.name: action for action in profiles.task.problem.domain.actions}
     found: dict[tuple[str, ...], None] = {}
     for instruction in instructions:

@@ -8,7 +8,7 @@ the request: no words, no grammar.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 from tmd.diagnostics import Refusal as Refusal  # part of the interface
@@ -155,6 +155,17 @@ class Usage:
     corrections: int = 0
     digests: tuple[str, ...] = ()
     thoughts: str = ""
+
+    def plus(self, other: Usage) -> Usage:
+        """Return the effort with that for further replies of the same model."""
+        return replace(
+            self,
+            prompt_tokens=self.prompt_tokens + other.prompt_tokens,
+            completion_tokens=self.completion_tokens + other.completion_tokens,
+            seconds=self.seconds + other.seconds,
+            cached=self.cached + other.cached,
+            digests=self.digests + other.digests,
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,8 @@ from tmd.readers.interface import Step
 
 USE: str = the_word("verbs", "using")
 _ENDS = frozenset(".!?;")
+# A first clause that so many others follow may be a heading: *tidy the floor. The toy goes on the shelf, …*
 _FEWEST = 2
-"""A first clause that so many others follow may be a heading: *tidy the floor. The toy goes on the shelf, …*"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +26,7 @@ class RuleStep(Step):
         otherwise: Whether it is done where the guards of the step before it did not hold.
         optional: Whether it may be left out where it is not understood: *when they are done*.
         awaited: Whether it is waited for, not asked for: *until it boils*.
-        loose: Whether it may be left out for whatever reason: a heading, or what something is done for.
+        loose: Whether it may be left out for any reason: a heading, or a purpose.
     """
 
     clause: Clause
@@ -70,8 +70,8 @@ def _with_instruments(parsed: Parsed) -> tuple[Clause, ...]:
 
 
 def _takes_tool(clause: Clause) -> bool:
-    told = any(is_relation(r.relation, "instrument") for r in clause.relations)
-    return clause.mood is Mood.DO and clause.verb != USE and bool(clause.direct) and not told
+    named = any(is_relation(r.relation, "instrument") for r in clause.relations)
+    return clause.mood is Mood.DO and clause.verb != USE and bool(clause.direct) and not named
 
 
 def _same_sentence(parsed: Parsed, one: Clause, other: Clause) -> bool:

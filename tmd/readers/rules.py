@@ -153,9 +153,7 @@ class RuleDialogue(Dialogue):
         if isinstance(guarded, Refusal):
             return guarded
         due, remembered = guarded
-        progress = replace(memory, memory=remembered)
-        if step.otherwise or step.guards:
-            progress = replace(progress, guard=due if not step.otherwise else progress.guard)
+        progress = _Progress(remembered, due if step.guards and not step.otherwise else memory.guard)
         if not due:
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return StepGoals((), progress, note)

@@ -7,7 +7,7 @@ A part is itself of a class, so a stove says only that it has four burners and w
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -19,42 +19,42 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.world.shape import NAME, Shape
 from tmd.world.yaml_positions import YamlSource
 
+# The vertex of the whole object.
 ROOT = "root"
-"""The vertex that stands for the whole object."""
+# In a fact of a class: the vertex itself.
 SELF = "self"
-"""In a fact of a class: the vertex itself."""
 MAX_DEPTH = 32
 
+# ``true``/``false`` for ``(p x)``; a name or names for ``(p x name)``.
 StateValue: TypeAlias = bool | str | list[str]
-"""``true``/``false`` for ``(p x)``; a name or names for ``(p x name)``."""
 
 
-class PartEntry(BaseModel):
-    """One part of a class, as ``objects.yaml`` says it."""
+class _VertexEntry(BaseModel):
+    """The keys of parts and classes in ``objects.yaml``."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid")
-    class_name: str = Field(alias="class", pattern=NAME)
     facts: list[str] = []
     init: list[str] = []
     states: dict[str, StateValue] = {}
     shape: Shape | None = None
 
 
-class ClassEntry(BaseModel):
-    """One class, as ``objects.yaml`` says it."""
+class PartEntry(_VertexEntry):
+    """One part of a class, as ``objects.yaml`` has it."""
 
-    model_config = ConfigDict(defer_build=True, extra="forbid")
+    class_name: str = Field(alias="class", pattern=NAME)
+
+
+class ClassEntry(_VertexEntry):
+    """One class, as ``objects.yaml`` has it."""
+
     parent: str | None = Field(default=None, pattern=NAME)
-    facts: list[str] = []
-    init: list[str] = []
-    states: dict[str, StateValue] = {}
     parts: dict[str, PartEntry] = {}
     edges: list[str] = []
-    shape: Shape | None = None
 
 
 class ObjectsFile(BaseModel):
-    """The whole of ``objects.yaml``."""
+    """The content of ``objects.yaml``."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid")
     substances: dict[str, str] = {}
@@ -133,9 +133,7 @@ class Classes:
         """
         if name not in self._resolved:
             if name not in self.entries.classes and name not in self._types:
-                raise self.source.error(
-                    ("classes",), f"there is no class '{name}'", self.suggest(name), "unknown-class"
-                )
+                raise self._unknown(("classes",), f"there is no class '{name}'", name)
             self._resolved[name] = self._resolve(name)
         return self._resolved[name]
 
@@ -147,9 +145,9 @@ class Classes:
         """
         return above in self.line(name)
 
-    def suggest(self, name: str) -> str | None:
-        """Return a hint with the class names nearest to ``name``."""
-        return nearest(name, [*self.entries.classes, *self._types])
+    def _unknown(self, path: Sequence[str], message: str, name: str) -> TmdError:
+        """Return the fault of a name that is not that of a class, with the nearest one."""
+        return self.source.error(path, message, nearest(name, [*self.entries.classes, *self._types]), "unknown-class")
 
     def _check_name(self, name: str) -> None:
         if not re.match(NAME, name) or name in (ROOT, SELF):
@@ -180,12 +178,8 @@ class Classes:
                 message = f"class '{name}' is its own ancestor"
                 raise self.source.error(("classes", name), message, "change a parent", "class-cycle")
             if parent not in self.entries.classes and parent not in self._types and parent != OBJECT:
-                raise self.source.error(
-                    ("classes", line[-1], "parent"),
-                    f"there is no class or type '{parent}'",
-                    self.suggest(parent),
-                    "unknown-class",
-                )
+                message = f"there is no class or type '{parent}'"
+                raise self._unknown(("classes", line[-1], "parent"), message, parent)
             line.append(parent)
         return line
 
@@ -216,22 +210,14 @@ class Classes:
 
     def _part(self, owner: str, part: str, said: PartEntry) -> Vertex:
         self._check_name(part)
-        if said.class_name not in self.entries.classes:
-            raise self.source.error(
-                ("classes", owner, "parts", part),
-                f"there is no class '{said.class_name}'",
-                self.suggest(said.class_name),
-                "unknown-class",
-            )
-        if self.line(said.class_name) and owner in self.line(said.class_name):
-            raise self.source.error(
-                ("classes", owner, "parts", part), f"'{owner}' cannot be its own part", code="class-cycle"
-            )
-        own = self.get(said.class_name)
+        path, name = ("classes", owner, "parts", part), said.class_name
+        if name not in self.entries.classes:
+            raise self._unknown(path, f"there is no class '{name}'", name)
+        if owner in self.line(name):
+            raise self.source.error(path, f"'{owner}' cannot be its own part", code="class-cycle")
+        own = self.get(name)
         if len(own.vertices) > 1:
-            raise self.source.error(
-                ("classes", owner, "parts", part), f"'{said.class_name}' has parts; a part cannot have any"
-            )
+            raise self.source.error(path, f"'{name}' has parts; a part cannot have any")
         base = own.vertices[ROOT]
         return Vertex(
             part,
@@ -243,31 +229,17 @@ class Classes:
         )
 
     def _edge(self, owner: str, index: int, edge: str, parts: Mapping[str, Vertex]) -> tuple[str, ...]:
-        words = _words(edge)
+        words, path = _words(edge), ("classes", owner, "edges", index)
         if len(words) < 3:
-            raise self.source.error(
-                ("classes", owner, "edges", index), f"'{edge}' is not an edge", "write `tail predicate head`"
-            )
+            raise self.source.error(path, f"'{edge}' is not an edge", "write `tail predicate head`")
         tail, predicate, head, *more = words
         for vertex in (tail, head):
             if vertex != ROOT and vertex not in parts:
-                raise self.source.error(
-                    ("classes", owner, "edges", index),
-                    f"'{owner}' has no part '{vertex}'",
-                    nearest(vertex, [ROOT, *parts]),
-                    "unknown-part",
-                )
+                hint = nearest(vertex, [ROOT, *parts])
+                raise self.source.error(path, f"'{owner}' has no part '{vertex}'", hint, "unknown-part")
         return (predicate, tail, head, *more)
 
 
 def _words(fact: str) -> tuple[str, ...]:
     """Return ``allows self on`` (brackets may stand around it) as a tuple."""
     return tuple(fact.strip().strip("()").split())
-
-
-def no_classes(name: str) -> TmdError:
-    """Return the error for an environment of a domain that has no object graphs."""
-    return TmdError(
-        f"domain '{name}' has no objects.yaml, so it has no environments in YAML",
-        hint="give a PDDL problem instead",
-    )

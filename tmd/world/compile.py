@@ -32,10 +32,10 @@ from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 from tmd.world.yaml_positions import YamlSource
 
+# Compiled for every part where the domain declares it: ``(part_of part object)``.
 PART_OF = "part_of"
-"""Compiled for every part where the domain declares it: ``(part_of part object)``."""
+# ``at: on counter1`` compiles to ``(at object counter1 on)``.
 AT = "at"
-"""What ``at: on counter1`` compiles to: ``(at object counter1 on)``."""
 _HEADER = "; Compiled from instructions.pddl and objects.yaml; change those and run `tmd compile`.\n;\n"
 _DERIVE = "derive"
 _RULE = "a rule is an effect, such as (when (on ?x table1) (near ?x))"
@@ -105,6 +105,7 @@ class _Compiler:
 
     def __init__(self, environment: Environment, folder: DomainFolder) -> None:
         self.environment = environment
+        self.source = environment.source
         self.folder = folder
         self.domain = folder.domain
         self.predicates = {p.name: p for p in self.domain.predicates}
@@ -112,42 +113,39 @@ class _Compiler:
         self.unclear: set[str] = set()
         if environment.domain != folder.name:
             message = f"this environment is of domain '{environment.domain}', not '{folder.name}'"
-            environment.source.fault(environment.source.error(("domain",), message, None, "domain-mismatch"))
+            self._fault(("domain",), message, None, "domain-mismatch")
 
     def problem(self) -> Problem:
         objects = tuple(self._objects())
         shell = Problem(self.environment.name, self.domain, objects)
         self.universe = universe(shell)
-        source = self.environment.source
         for name, entry in self.environment.objects.items():
             if entry.class_name in self.folder.classes.entries.classes:
-                source.recover(None, self._object, name, self.folder.classes.get(entry.class_name))
-            source.recover(None, self._where, name, entry.at)
+                self.source.recover(None, self._object, name, self.folder.classes.get(entry.class_name))
+            self.source.recover(None, self._where, name, entry.at)
         self._stated()
         init = frozenset(self.init)
         return replace(shell, init=derive(replace(shell, init=init), self.folder, init))
 
+    def _fault(self, path: Sequence[str], message: str, hint: str | None, code: str) -> None:
+        self.source.fault(self.source.error(path, message, hint, code))
+
     def _objects(self) -> Iterable[TypedName]:
         constants = {c.name for c in self.domain.constants}
+        classes = self.folder.classes.entries.classes
         names: set[str] = set()
         for name, entry in self.environment.objects.items():
-            where = ("objects", name)
-            if entry.class_name not in self.folder.classes.entries.classes:
-                fault = self.environment.source.error(
-                    (*where, "class"),
-                    f"'{name}' is of class '{entry.class_name}', which objects.yaml does not have",
-                    nearest(entry.class_name, sorted(self.folder.classes.entries.classes)),
-                    "unknown-class",
-                )
-                self.environment.source.fault(fault)
+            if entry.class_name not in classes:
+                message = f"'{name}' is of class '{entry.class_name}', which objects.yaml does not have"
+                hint = nearest(entry.class_name, sorted(classes))
+                self._fault(("objects", name, "class"), message, hint, "unknown-class")
                 self.unclear.add(name)
                 continue
             for vertex in self.folder.classes.get(entry.class_name).vertices.values():
                 full = _vertex(name, vertex.name)
                 if full in names or full in constants:
                     message = f"there are two objects named '{full}'"
-                    fault = self.environment.source.error(where, message, "rename one of them", "duplicate-name")
-                    self.environment.source.fault(fault)
+                    self._fault(("objects", name), message, "rename one of them", "duplicate-name")
                 names.add(full)
                 yield TypedName(full, (vertex.class_name,))
 
@@ -155,13 +153,9 @@ class _Compiler:
         entry = self.environment.objects[name]
         for part in entry.parts:
             if part not in graph.vertices or part == ROOT:
-                fault = self.environment.source.error(
-                    ("objects", name, "parts", part),
-                    f"'{name}' ({graph.name}) has no part '{part}'",
-                    nearest(part, [p for p in graph.vertices if p != ROOT]),
-                    "unknown-part",
-                )
-                self.environment.source.fault(fault)
+                hint = nearest(part, [p for p in graph.vertices if p != ROOT])
+                message = f"'{name}' ({graph.name}) has no part '{part}'"
+                self._fault(("objects", name, "parts", part), message, hint, "unknown-part")
         for vertex in graph.vertices.values():
             is_root = vertex.name == ROOT
             said = entry.states if is_root else entry.parts.get(vertex.name, {})
@@ -169,7 +163,9 @@ class _Compiler:
             for fact in (*vertex.facts, *vertex.init):
                 self._add(self._bind(fact, name, vertex.name), ("objects", name))
             for state in said:
-                self.environment.source.recover(None, self._known_state, state, vertex.states, (*place, state), name)
+                if state not in vertex.states and state not in self.predicates:
+                    hint = nearest(state, sorted({*vertex.states, *self.predicates}))
+                    self._fault((*place, state), f"'{name}' has no state '{state}'", hint, "unknown-state")
             for state, value in {**vertex.states, **said}.items():
                 if state in vertex.states or state in self.predicates:
                     self._set(_vertex(name, vertex.name), state, value, (*place, state))
@@ -178,23 +174,11 @@ class _Compiler:
         for edge in graph.edges:
             self._add(self._bind(edge, name, ROOT), ("objects", name))
 
-    def _known_state(self, state: str, declared: Iterable[str], path: Sequence[str], name: str) -> None:
-        if state not in declared and state not in self.predicates:
-            raise self.environment.source.error(
-                path,
-                f"'{name}' has no state '{state}'",
-                nearest(state, sorted({*declared, *self.predicates})),
-                "unknown-state",
-            )
-
     def _bind(self, fact: Sequence[str], name: str, vertex: str) -> tuple[str, ...]:
         """Return a fact of a class with its names replaced: ``self``, ``root`` and the object's parts."""
         parts = self.folder.classes.get(self.environment.objects[name].class_name).vertices
-        bound = [fact[0]]
-        for term in fact[1:]:
-            own = vertex if term == SELF else term
-            bound.append(_vertex(name, own) if own in parts else term)
-        return tuple(bound)
+        own = (vertex if term == SELF else term for term in fact[1:])
+        return fact[0], *(_vertex(name, term) if term in parts else term for term in own)
 
     def _set(self, vertex: str, state: str, value: StateValue, path: Sequence[str]) -> None:
         if value is False:
@@ -209,7 +193,7 @@ class _Compiler:
         path = ("objects", name, "at")
         words = at.split()
         if len(words) != 2:
-            raise self.environment.source.error(path, f"'{at}' is no place", "write `RELATION OBJECT`")
+            raise self.source.error(path, f"'{at}' is no place", "write `RELATION OBJECT`")
         self._add((AT, name, words[1], words[0]), path)
 
     def _stated(self) -> None:
@@ -222,7 +206,7 @@ class _Compiler:
 
     def _add(self, words: Sequence[str], path: Sequence[str | int], source: YamlSource | None = None) -> None:
         """Add one atom after checking it; ``path`` leads to it in ``source``, by default the environment's file."""
-        self.environment.source.recover(None, self._add_checked, words, path, source or self.environment.source)
+        self.source.recover(None, self._add_checked, words, path, source or self.source)
 
     def _add_checked(self, words: Sequence[str], path: Sequence[str | int], source: YamlSource) -> None:
         """Add one atom after checking predicate, arity, names and types."""

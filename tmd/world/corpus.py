@@ -7,7 +7,6 @@ from functools import cached_property
 from pathlib import Path
 
 from tmd.diagnostics import TmdError
-from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.reading.reader import read_problem
@@ -17,7 +16,7 @@ from tmd.world.compile import compile_problem
 from tmd.world.demonstration import Demonstration, check_goal, read_demonstrations, step_fault
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
-from tmd.world.world import World, make_world
+from tmd.world.world import World, make_world, run
 
 
 class Corpus:
@@ -36,31 +35,41 @@ class Corpus:
         self._worlds: dict[str, World] = {}
         self._demonstrations: dict[str, list[Demonstration]] = {}
 
-    @cached_property
+    @property
     def lexicon(self) -> Lexicon:
         """The built-in words with those of the domain."""
-        return read_lexicon(self.folder.lexicon_path, self.folder.kinds)
+        return self.folder.lexicon
 
     def environments(self) -> list[str]:
         """Return the names of the environments, sorted."""
         return sorted(self._files)
 
-    def world(self, name: str) -> World:
-        """Return the environment ``name``, ground; made once.
+    def world(self, environment: str | Path) -> World:
+        """Return an environment, ground.
+
+        Args:
+            environment: Its name, or its file. Those with a name are made once.
 
         Raises:
             TmdError: There is none, or it is wrong.
         """
+        if is_environment_file(environment):
+            problem = self.read(Path(environment))
+            return make_world(problem.name, problem, self.lexicon)
+        name = str(environment)
         if name not in self._worlds:
             self._worlds[name] = make_world(name, self.read(self.file(name)), self.lexicon)
         return self._worlds[name]
 
-    def file(self, name: str) -> Path:
-        """Return the file of an environment.
+    def file(self, environment: str | Path) -> Path:
+        """Return the file of an environment that is given by its name or file.
 
         Raises:
-            TmdError: There is none.
+            TmdError: There is none of that name.
         """
+        if is_environment_file(environment):
+            return Path(environment)
+        name = str(environment)
         if name not in self._files:
             raise TmdError(
                 f"there is no environment '{name}' in {self.directory / 'environments'}",
@@ -121,6 +130,11 @@ class Corpus:
         return self._demonstrations[task]
 
 
+def is_environment_file(environment: str | Path) -> bool:
+    """Return whether an environment is given by its file, not by its name."""
+    return Path(environment).suffix in (".yaml", ".yml", ".pddl")
+
+
 def replay(demonstration: Demonstration, problem: Problem, key: str = "instructions") -> list[State]:
     """Return the states before the first and after each instruction.
 
@@ -145,18 +159,15 @@ def replay(demonstration: Demonstration, problem: Problem, key: str = "instructi
 
 def final_state(demonstration: Demonstration, world: World) -> State:
     """Return the state after all instructions of a demonstration that can be executed."""
-    state = world.task.init
-    for instruction in demonstration.instructions:
-        state = world.task.by_instruction[instruction].apply(state)
-    return world.task.decode(state)
+    return world.task.decode(run(world, world.task.init, demonstration.instructions))
 
 
+# The hint for a demonstration that cannot be executed.
 CHANGED = "fix the demonstration, or the domain or environment if they are what changed"
-"""What to do about a demonstration that cannot be executed."""
 
 
 def check_executable(demonstration: Demonstration, world: World) -> None:
-    """Make sure that a demonstration can be done in its environment: what cannot teaches nothing true.
+    """Make sure that a demonstration can be executed in its environment.
 
     Raises:
         TmdError: An instruction is not executable; with its place, and the first broken precondition.

@@ -21,13 +21,15 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import yaml
+from pydantic import BaseModel, ValidationError
 
 from tmd.diagnostics import Location, TmdError
+from tmd.json_record import expectation, json_value
 from tmd.pddl.model import Formula, Instruction, Problem, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
@@ -35,9 +37,8 @@ from tmd.pddl.reading.syntax import read_text, split_lines
 from tmd.pddl.semantics import first_false
 
 _KEYS = ("id", "task", "environment", "text", "segments")
-_LINE = f"a demonstration is a JSON object on one line, with {', '.join(_KEYS)}"
+_LINE = f"a demonstration is a JSON object on one line, with {', '.join(_KEYS)}; text in quotes, lists in [ ]"
 _SEGMENT = 'write [{"text": "Take the cup", "instructions": ["grasp(cup1)"]}, …]'
-_QUOTES = "text stands in quotes, a list in [ ]"
 _ENDS = "\x85\u2028\u2029"
 
 
@@ -110,7 +111,7 @@ def read_demonstrations(path: Path) -> list[Demonstration]:
         reader = _Line(path, number, line)
         demonstration = reader.read()
         if demonstration.id in seen:
-            raise reader.error(f"the id '{demonstration.id}' stands in this file twice", at=("id",))
+            raise reader.error(f"the id '{demonstration.id}' stands in this file twice", None, ("id",))
         seen.add(demonstration.id)
         found.append(demonstration)
     return found
@@ -125,8 +126,31 @@ def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
     return _Line(path, number, line).read()
 
 
+# Keys and indices that lead from a demonstration as JSON to a value in it.
 _Path = tuple[str | int, ...]
-"""Keys and indices that lead from a demonstration as JSON to a value in it."""
+
+
+class _Segment(BaseModel):
+    """A segment as the file has it."""
+
+    text: str
+    instructions: list[str]
+    proposed: list[str] | None = None
+
+
+class _Entry(BaseModel):
+    """A demonstration as the file has it; other keys are ignored."""
+
+    id: str
+    task: str
+    environment: str
+    text: str
+    segments: list[_Segment]
+    end_state: list[str] = []
+    proposed: list[str] | None = None
+    who: str | None = None
+    when: str | None = None
+    goal: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,74 +161,44 @@ class _Line:
     number: int
     line: str
 
-    def error(
-        self,
-        message: str,
-        hint: str | None = None,
-        at: _Path = (),
-        offset: int = 0,
-        code: str = "bad-demonstration",
-    ) -> TmdError:
-        """Return a fault of the value that ``at`` leads to, or of its character ``offset``."""
-        place = Location(str(self.path), self.number, _column(self.line, at, offset))
-        return TmdError(message, location=place, hint=hint, source=self.line, code=code)
+    def error(self, message: str, hint: str | None = None, at: _Path = ()) -> TmdError:
+        """Return a fault of the value that ``at`` leads to."""
+        place = Location(str(self.path), self.number, _column(self.line, at))
+        return TmdError(message, location=place, hint=hint, source=self.line, code="bad-demonstration")
 
     def read(self) -> Demonstration:
+        value = json_value(self.line, str(self.path), self.number, _LINE)
         try:
-            data = json.loads(self.line)
-        except json.JSONDecodeError as error:
-            place = Location(str(self.path), self.number, error.colno)
-            raise TmdError(
-                f"not JSON: {error.msg}", location=place, source=self.line, hint=_LINE, code="json-syntax"
-            ) from None
-        except RecursionError:
-            place = Location(str(self.path), self.number, 1)
-            message = "not a demonstration: nested too deeply"
-            raise TmdError(message, location=place, hint=_LINE, code="nested-too-deeply") from None
-        except ValueError:  # Python reads no number of more than 4,300 digits
-            place = Location(str(self.path), self.number, 1)
-            message = "not a demonstration: a number has too many digits"
-            raise TmdError(message, location=place, hint=_LINE, code="json-syntax") from None
-        if not isinstance(data, dict):
-            raise self.error("a demonstration is a JSON object", _LINE)
-        for key in _KEYS:
-            if key not in data:
-                raise self.error(f"the key '{key}' is missing", f"a demonstration has {', '.join(_KEYS)}")
-        for key in _KEYS[:4]:
-            if not isinstance(data[key], str):
-                raise self.error(f"'{key}' is not a string", _QUOTES, (key,))
-        end_state = data.get("end_state", [])
-        if not isinstance(end_state, list) or not all(isinstance(item, str) for item in end_state):
-            raise self.error("'end_state' is not a list of strings", _QUOTES, ("end_state",))
-        segments = tuple(self._segments(data["text"], data["segments"]))
+            entry = _Entry.model_validate(value)
+        except ValidationError as error:
+            fault = error.errors(include_url=False, include_input=False)[0]
+            key = ".".join(map(str, fault["loc"]))
+            said = f"{f'{key}: ' if key else ''}{expectation(fault, 'a JSON object')}"
+            hint = _SEGMENT if key.startswith("segments") else _LINE
+            raise self.error(f"this is not a demonstration: {said}", hint, fault["loc"]) from None
+        segments = tuple(self._segments(entry))
         return Demonstration(
-            data["id"],
-            data["task"],
-            data["environment"],
-            data["text"],
+            entry.id,
+            entry.task,
+            entry.environment,
+            entry.text,
             segments,
-            tuple(end_state),
-            self._corrected(data, segments),
-            self._said(data, "who"),
-            self._said(data, "when"),
-            self._said(data, "goal"),
+            tuple(entry.end_state),
+            self._corrected(entry, segments),
+            entry.who,
+            entry.when,
+            entry.goal,
             Location(str(self.path), self.number, 1),
         )
 
-    def _said(self, data: dict[str, object], key: str) -> str | None:
-        value = data.get(key)
-        if value is not None and not isinstance(value, str):
-            raise self.error(f"'{key}' is not a string", _QUOTES, (key,))
-        return value
-
-    def _corrected(self, data: dict[str, object], segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
+    def _corrected(self, entry: _Entry, segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
         """Return the plan that was corrected; its segments must be that plan as well."""
         parts = [segment.proposed for segment in segments]
-        if "proposed" not in data:
+        if entry.proposed is None:
             if any(part is not None for part in parts):
                 raise self.error("a segment has 'proposed', and the demonstration has not", "give the whole plan")
             return None
-        whole = tuple(self._instructions("the demonstration", data["proposed"], ("proposed",)))
+        whole = self._instructions(entry.proposed, ("proposed",))
         if any(part is None for part in parts) or whole != tuple(i for part in parts for i in part or ()):
             raise self.error(
                 "'proposed' is not what its segments have one after the other",
@@ -213,36 +207,31 @@ class _Line:
             )
         return whole
 
-    def _segments(self, text: str, segments: object) -> Iterator[Segment]:
-        if not isinstance(segments, list):
-            raise self.error("'segments' is not a list", _SEGMENT, ("segments",))
-        after = 0
-        for index, segment in enumerate(segments):
-            where, at = f"segment {index + 1}", ("segments", index)
-            if not isinstance(segment, dict) or not isinstance(segment.get("text"), str):
-                raise self.error(f"{where} has no 'text'", _SEGMENT, at)
-            start = text.find(segment["text"], after)
+    def _segments(self, entry: _Entry) -> Iterator[Segment]:
+        end = 0
+        for index, segment in enumerate(entry.segments):
+            at = ("segments", index)
+            start = entry.text.find(segment.text, end)
             if start < 0:
                 raise self.error(
-                    f"{where}: '{segment['text']}' does not stand in the text after the segment before it",
+                    f"segment {index + 1}: '{segment.text}' does not stand in the text after the segment before it",
                     "segments are pieces of the text, letter by letter and in its order",
                     (*at, "text"),
                 )
-            after = start + len(segment["text"])
-            instructions = tuple(self._instructions(where, segment.get("instructions"), (*at, "instructions")))
+            end = start + len(segment.text)
             proposed = None
-            if "proposed" in segment:
-                proposed = tuple(self._instructions(where, segment["proposed"], (*at, "proposed")))
-            yield Segment(start, after, instructions, proposed)
+            if segment.proposed is not None:
+                proposed = self._instructions(segment.proposed, (*at, "proposed"))
+            yield Segment(start, end, self._instructions(segment.instructions, (*at, "instructions")), proposed)
 
-    def _instructions(self, where: str, lines: object, at: _Path) -> Iterator[Instruction]:
-        if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
-            raise self.error(f"{where}: '{at[-1]}' is not a list of strings", _QUOTES, at)
+    def _instructions(self, lines: Sequence[str], at: _Path) -> tuple[Instruction, ...]:
+        found = []
         for number, line in enumerate(lines):
             try:
-                yield parse_instruction(line)
+                found.append(parse_instruction(line))
             except TmdError as error:
-                raise self.error(f"{where}: '{line}': {error.message}", error.hint, (*at, number)) from None
+                raise self.error(f"'{line}': {error.message}", error.hint, (*at, number)) from None
+        return tuple(found)
 
 
 def step_fault(demonstration: Demonstration, number: int, fault: TmdError, key: str = "instructions") -> TmdError:
@@ -265,8 +254,8 @@ def step_fault(demonstration: Demonstration, number: int, fault: TmdError, key: 
     return TmdError(message, location=place, hint=fault.hint, source=line, code="not-executable")
 
 
+# The kind of fault of a goal that does not hold when all instructions are done.
 NOT_REACHED = "goal-not-reached"
-"""The kind of fault of a goal that does not hold when all instructions are done."""
 _TEXT = "goal"
 _HIGH, _LOW = r"\\u[dD][89abAB][\da-fA-F]{2}", r"\\u[dD][c-fC-F][\da-fA-F]{2}"
 _CHARACTER = re.compile(rf"{_HIGH}{_LOW}|\\u[\da-fA-F]{{4}}|\\.|.", re.DOTALL)

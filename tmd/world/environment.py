@@ -42,7 +42,7 @@ Corner: TypeAlias = tuple[Metres, Metres]
 
 
 class ObjectEntry(BaseModel):
-    """One object, as an environment file says it."""
+    """One object, as an environment file has it."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid")
     class_name: str = Field(alias="class", pattern=NAME)
@@ -54,7 +54,7 @@ class ObjectEntry(BaseModel):
 
 
 class EnvironmentFile(BaseModel):
-    """The whole of an environment file."""
+    """The content of an environment file."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid")
     name: str = Field(pattern=NAME)

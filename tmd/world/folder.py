@@ -3,6 +3,8 @@
 A domain is a folder ``<domains>/<name>/``. It holds ``domain.pddl`` and, where the domain has object graphs,
 ``objects.yaml`` and ``instructions.pddl`` from which ``domain.pddl`` is compiled; ``lexicon.yaml`` for its words.
 Its environments, problems and demonstrations lie in ``<problems>/<name>/``.
+
+Every command imports this module, so functions import what is slow to load.
 """
 
 from __future__ import annotations
@@ -10,14 +12,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
 from tmd.files import bundled
 from tmd.pddl.model import Domain
 from tmd.pddl.reading.reader import read_domain
 from tmd.pddl.reading.syntax import nearest
-from tmd.world.classes import Classes, no_classes
-from tmd.world.yaml_positions import YamlSource
+
+if TYPE_CHECKING:
+    from tmd.language.lexicon.lexicon import Lexicon
+    from tmd.world.classes import Classes
 
 
 @dataclass(frozen=True)
@@ -47,12 +52,16 @@ class DomainFolder:
         Raises:
             TmdError: It is missing or wrong.
         """
+        from tmd.world.classes import Classes
+        from tmd.world.yaml_positions import YamlSource
+
         path = self.path / "objects.yaml"
         if not path.is_file():
-            raise no_classes(self.name)
-        source = YamlSource(path)
-        types = {t.name: t.parent for t in read_domain(self.instructions_path).types}
-        return Classes(source, types)
+            raise TmdError(
+                f"domain '{self.name}' has no objects.yaml, so it has no environments in YAML",
+                hint="give a PDDL problem instead",
+            )
+        return Classes(YamlSource(path), {t.name: t.parent for t in read_domain(self.instructions_path).types})
 
     @property
     def instructions_path(self) -> Path:
@@ -66,6 +75,17 @@ class DomainFolder:
         return path if path.is_file() else None
 
     @cached_property
+    def lexicon(self) -> Lexicon:
+        """The built-in words with those of the domain.
+
+        Raises:
+            TmdError: ``lexicon.yaml`` or ``domain.pddl`` is wrong.
+        """
+        from tmd.language.lexicon.file import read_lexicon
+
+        return read_lexicon(self.lexicon_path, self.kinds)
+
+    @cached_property
     def kinds(self) -> tuple[str, ...]:
         """The names of the domain's types and constants.
 
@@ -76,10 +96,10 @@ class DomainFolder:
 
 
 def find_roots(kind: str, given: Path | None = None) -> list[Path]:
-    """Return the directories of ``domains`` or ``problems``, the first to be asked first.
+    """Return the directories of ``domains`` or ``problems``, in the order in which they are searched.
 
-    ``given`` alone; or ``./<kind>``, the copy in the installed package, the copy beside the package (a checkout), as
-    far as they are there.
+    That is ``given`` alone; or ``./<kind>``, the copy in the installed package, the copy beside the package (a
+    checkout), as far as they exist.
 
     Raises:
         TmdError: There is none.
@@ -88,9 +108,8 @@ def find_roots(kind: str, given: Path | None = None) -> list[Path]:
         if not given.is_dir():
             raise TmdError(f"{given}: no such directory", hint=f"--{kind} takes the directory of all {kind}")
         return [given]
-    candidates = (Path(kind), *bundled(kind))
     found: dict[Path, Path] = {}
-    for candidate in candidates:
+    for candidate in (Path(kind), *bundled(kind)):
         if candidate.is_dir():
             found.setdefault(candidate.resolve(), candidate)
     if not found:

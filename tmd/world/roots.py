@@ -1,20 +1,25 @@
-"""The directories of domains and problems, and the meaning of names for what is in them."""
+"""The directories of domains and problems, and the meaning of names for what is in them.
+
+Every command imports this module, so functions import what is slow to load.
+"""
 
 from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import TYPE_CHECKING
 
 from tmd.diagnostics import Location, TmdError
+from tmd.pddl.model import Domain, Problem
+from tmd.pddl.reading.reader import read_domain, read_problem
+from tmd.pddl.reading.syntax import Group, Word, nearest, parse, read_text
+from tmd.world.folder import DomainFolder, find_domain, find_problems, find_roots
 
 if TYPE_CHECKING:
     from tmd.language.lexicon.lexicon import Lexicon
-    from tmd.pddl.model import Domain, Problem
     from tmd.world.corpus import Corpus
     from tmd.world.environment import Environment
-    from tmd.world.folder import DomainFolder
     from tmd.world.world import World
 
 
@@ -31,8 +36,6 @@ class Roots:
         Raises:
             TmdError: There is none.
         """
-        from tmd.world.folder import find_domain
-
         path = Path(name)
         if _is_path(name) and path.is_dir():
             return find_domain(path.resolve().name, path.resolve().parent)
@@ -44,21 +47,15 @@ class Roots:
         Raises:
             TmdError: There is none, or it has no object graphs.
         """
-        from tmd.world.folder import DomainFolder, find_roots
-
         roots = [] if _is_path(name) else find_roots("domains", self.domains)
         path = next((root / name for root in roots if (root / name).is_dir()), Path(name))
         folder = DomainFolder(path.resolve() if name in (".", "..") else path)
         if not folder.instructions_path.is_file():
-            self._nothing_to_compile(name)
+            raise TmdError(
+                f"there is nothing to compile in {self.folder(name).path}",
+                hint="a domain with object graphs has instructions.pddl and objects.yaml",
+            )
         return folder
-
-    def _nothing_to_compile(self, name: str) -> NoReturn:
-        folder = self.folder(name)
-        raise TmdError(
-            f"there is nothing to compile in {folder.path}",
-            hint="a domain with object graphs has instructions.pddl and objects.yaml",
-        )
 
     def corpus(self, folder: DomainFolder) -> Corpus:
         """Return the bundled environments and demonstrations of a domain.
@@ -67,7 +64,6 @@ class Roots:
             TmdError: There is no directory of problems.
         """
         from tmd.world.corpus import Corpus
-        from tmd.world.folder import find_problems
 
         return Corpus(folder, find_problems(folder.name, self.problems))
 
@@ -77,10 +73,7 @@ class Roots:
         Raises:
             TmdError: There is no such domain, or its file of words is wrong.
         """
-        from tmd.language.lexicon.file import read_lexicon
-
-        folder = self.folder(name)
-        return read_lexicon(folder.lexicon_path, folder.kinds)
+        return self.folder(name).lexicon
 
     def domain(self, name: str) -> Domain:
         """Return the PDDL domain in a file, in a directory, or of a bundled name.
@@ -88,12 +81,7 @@ class Roots:
         Raises:
             TmdError: There is none, or it is wrong.
         """
-        from tmd.pddl.reading.reader import read_domain
-
-        path = Path(name)
-        if not path.is_dir() and (path.suffix or _is_path(name) or path.is_file()):
-            return read_domain(path)
-        return self.folder(name).domain
+        return read_domain(self.pddl_file(name))
 
     def problem(self, path: Path, domain: str | None = None) -> Problem:
         """Return a PDDL problem with its domain.
@@ -105,9 +93,6 @@ class Roots:
         Raises:
             TmdError: One of them is missing or wrong.
         """
-        from tmd.pddl.reading.reader import read_problem
-        from tmd.pddl.reading.syntax import read_text
-
         if domain is not None:
             return read_problem(path, self.domain(domain))
         text = read_text(path)
@@ -140,7 +125,7 @@ class Roots:
             TmdError: There is none.
         """
         path = Path(name)
-        if not path.is_dir() and (path.suffix or _is_path(name) or path.is_file()):
+        if not path.is_dir() and _is_file(name):
             return path
         return self.folder(name).path / "domain.pddl"
 
@@ -151,14 +136,8 @@ class Roots:
             TmdError: There is none, or several domains have one.
         """
         path = Path(name)
-        if path.is_file() or path.suffix or _is_path(name):
+        if _is_file(name):
             return path
-        return self._bundled(name, domain)
-
-    def _bundled(self, name: str, domain: str | None) -> Path:
-        from tmd.pddl.reading.syntax import nearest
-        from tmd.world.folder import find_roots
-
         places: dict[str, Path] = {}
         for root in find_roots("problems", self.problems):
             for directory in sorted(root.glob(f"{domain or '*'}/environments")):
@@ -191,28 +170,22 @@ class Roots:
         from tmd.world.world import make_world
 
         path = self.environment(environment, domain)
-        if path.suffix == ".pddl":
-            return self._pddl_world(path, domain)
         if path.suffix == ".xml":
             raise TmdError(
                 f"{path}: texts are not grounded in single rooms of VEIL-500",
                 hint="tmd experiment --data veil500 grounds all of its texts",
             )
+        if path.suffix == ".pddl":
+            if domain is None and path.parent.name != "environments":
+                raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
+            corpus = self.corpus(self.folder(domain or path.parent.parent.name))
+            problem = corpus.read(path)
+            return corpus, make_world(path.stem if domain is None else problem.name, problem, corpus.lexicon)
         read = load_environment(path)
         corpus = self.corpus(self.folder(domain or read.domain))
         if path == corpus.directory / "environments" / f"{read.name}.yaml":
             return corpus, corpus.world(read.name)
         return corpus, make_world(read.name, compile_problem(read, corpus.folder), corpus.lexicon)
-
-    def _pddl_world(self, path: Path, domain: str | None) -> tuple[Corpus, World]:
-        from tmd.pddl.reading.reader import read_problem
-        from tmd.world.world import make_world
-
-        if domain is None and path.parent.name != "environments":
-            raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
-        corpus = self.corpus(self.folder(domain or path.parent.parent.name))
-        problem = read_problem(path, corpus.folder.domain)
-        return corpus, make_world(path.stem if domain is None else problem.name, problem, corpus.lexicon)
 
     def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:
         """Return an environment of which the robot's scene can be built, and its domain.
@@ -230,15 +203,18 @@ def _is_path(name: str) -> bool:
     return "/" in name or "\\" in name or name in (".", "..")
 
 
-def _domain_name(text: str, path: Path) -> str:
-    from tmd.pddl.reading.syntax import Group, Word, parse
+def _is_file(name: str) -> bool:
+    """Return whether a name is that of a file, there or not, and not that of something bundled."""
+    path = Path(name)
+    return path.is_file() or bool(path.suffix) or _is_path(name)
 
-    for group in parse(text, str(path)).groups:
-        for part in group.parts:
-            if isinstance(part, Group) and part.head == ":domain" and len(part.parts) == 2:
-                name = part.parts[1]
-                if isinstance(name, Word):
-                    return name.text
+
+def _domain_name(text: str, path: Path) -> str:
+    """Return the name of the domain of a problem."""
+    parts = (part for group in parse(text, str(path)).groups for part in group.parts if isinstance(part, Group))
+    for part in parts:
+        if part.head == ":domain" and len(part.parts) == 2 and isinstance(part.parts[1], Word):
+            return part.parts[1].text
     raise TmdError(
         "this problem does not say of which domain it is",
         location=Location(str(path), 1, 1),

@@ -1,7 +1,7 @@
-"""A new domain, begun as a copy of a bundled one under a new name: folder, environments, problem, demonstrations.
+"""Start a new domain as a copy of a bundled one under a new name: folder, environments, problem, demonstrations.
 
-The copy answers at once, so that its author changes what works, a line at a time. Environments are called after the
-new domain (``yard1`` becomes ``mine1``), so that their names are its own. Its sentence tests are a few that it passes.
+The copy works at once, so that its author can change it line by line. Its environments are named after the new domain
+(``yard1`` becomes ``mine1``). It has a few sentence tests, which it passes.
 """
 
 from __future__ import annotations
@@ -18,9 +18,10 @@ from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.world.folder import find_domain, find_problems
 from tmd.world.shape import NAME
 
+# What a new domain can be begun from: plain PDDL, or classes with parts.
 STARTS: Mapping[str, str] = {"plain": "01_blocks", "graph": "03_drawer"}
-"""What a new domain can be begun from: plain PDDL, or classes with parts."""
 _SENTENCES = "requests.sentences.jsonl"
+# Sentence tests in the last environment of the copy, with their goals; ``None``: nothing here is called that.
 _ASKED: Mapping[str, tuple[tuple[str, str | None], ...]] = {
     "plain": (
         ("Put the red block on the green block.", "(on red_block green_block)"),
@@ -33,9 +34,7 @@ _ASKED: Mapping[str, tuple[tuple[str, str | None], ...]] = {
         ("Take the spoon.", None),
     ),
 }
-"""Sentence tests in the last environment of the copy, with their goals; ``None``: nothing here is called that."""
 _SUFFIXES = (".pddl", ".yaml", ".jsonl", ".nl")
-_DOMAIN_NAME = re.compile(r"\(define\s+\(domain\s+([^\s()]+)\s*\)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,16 +96,12 @@ def _texts(name: str, start: str, folder: Path, place: Path) -> dict[Path, str]:
     """Return the text of every file of the copy."""
     source = find_domain(STARTS[start])
     shown = find_problems(STARTS[start])
-    own = _DOMAIN_NAME.search(read_text(source.path / "domain.pddl"))
+    own = source.domain.name
     environments = sorted(path.stem for path in (shown / "environments").iterdir())
     words = {environment: name + environment.lstrip("abcdefghijklmnopqrstuvwxyz_") for environment in environments}
 
     def renamed(text: str) -> str:
-        text = (
-            re.sub(rf"\(domain {own[1]}\)|\(:domain {own[1]}\)", lambda m: m[0].replace(own[1], name), text)
-            if own
-            else text
-        )
+        text = re.sub(rf"\((:?domain) {own}\)", rf"(\1 {name})", text)
         text = re.sub(rf"^domain: {STARTS[start]}$", f"domain: {name}", text, flags=re.MULTILINE)
         return re.sub("|".join(rf"(?<![a-z]){e}\b" for e in words), lambda m: words[m[0]], text)
 

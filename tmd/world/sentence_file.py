@@ -10,15 +10,17 @@ A file of them is JSON Lines, ``*.sentences.jsonl`` beside the problems of a dom
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+from pydantic import ConfigDict
 
 from tmd.diagnostics import Location, TmdError
+from tmd.json_record import JsonRecord
 from tmd.pddl.reading.syntax import read_text, split_lines
 
 SUFFIX = ".sentences.jsonl"
-_TEXTS = ("id", "domain", "environment", "text")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,28 +71,23 @@ def domain_sentences(directory: Path) -> list[SentenceTest]:
     return [test for path in paths for test in read_sentences(path)]
 
 
-_FORM = 'write {"id": …, "domain": …, "environment": …, "text": …, "goal": "(…)" or null}'
+class _Line(JsonRecord):
+    """A sentence test as the file has it; other keys are ignored."""
+
+    model_config = ConfigDict(extra="ignore")
+    WHAT = "a sentence test"
+    REMAKE = ""
+    REPAIR = 'write {"id": …, "domain": …, "environment": …, "text": …, "goal": "(…)" or null}'
+
+    id: str
+    domain: str
+    environment: str
+    text: str
+    goal: str | None
+    kind: Any = None
 
 
 def _read_line(line: str, place: Location) -> SentenceTest:
-    try:
-        data = json.loads(line)
-    except json.JSONDecodeError as error:
-        where = Location(place.file, place.line, error.colno)
-        raise TmdError(f"the line is not valid JSON: {error.msg}", location=where, hint=_FORM, source=line) from None
-    except RecursionError:
-        raise TmdError("the line is nested too deeply", location=place, hint=_FORM) from None
-    except ValueError:  # Python reads no number of more than 4,300 digits
-        raise TmdError("a number of the line has too many digits", location=place, hint=_FORM) from None
-    if not isinstance(data, dict):
-        raise TmdError("a sentence test is a JSON object", location=place, hint=_FORM)
-    for key in _TEXTS:
-        if not isinstance(data.get(key), str):
-            raise TmdError(f"the key '{key}' is missing or is not a text", location=place, hint=_FORM)
-    goal = data.get("goal", 0)
-    if goal is not None and not isinstance(goal, str):
-        raise TmdError("the key 'goal' is missing, or is neither a text nor null", location=place, hint=_FORM)
-    kinds = data.get("kind", [])
-    listed = tuple(k for k in kinds if isinstance(k, str)) if isinstance(kinds, list) else ()
-    name, domain, environment, text = (data[key] for key in _TEXTS)
-    return SentenceTest(name, domain, environment, text, goal, listed, place)
+    said = _Line.from_text(line, place.file, place.line)
+    kinds = tuple(k for k in said.kind if isinstance(k, str)) if isinstance(said.kind, list) else ()
+    return SentenceTest(said.id, said.domain, said.environment, said.text, said.goal, kinds, place)

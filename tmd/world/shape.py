@@ -14,18 +14,18 @@ from pydantic_core import PydanticCustomError
 
 NAME = r"^[a-z][a-z0-9_]*$"
 COLOUR = r"^([a-z][a-z_]*|#[0-9a-f]{6})$"
+# Metres.
 Length: TypeAlias = Annotated[float, Field(gt=0.0, le=10.0)]
-"""Metres."""
 Number: TypeAlias = Annotated[float, Field(ge=-1000.0, le=1000.0)]
+# Metres, or a direction of any length.
 Point: TypeAlias = tuple[Number, Number, Number]
-"""Metres, or a direction of any length."""
 HandleKind: TypeAlias = Literal["door", "flap", "drawer", "lid", "slide", "knob", "button"]
+# The keys that each of the three takes; what stands in none is for all of them, or for both files.
 _KEYS = {
     "kind": {"kind", "size", "settings", "accent"},
     "mesh": {"mesh", "scale", "turn", "holds", "solid"},
     "urdf": {"urdf", "size", "origin", "parts", "handles", "lamps", "contents"},
 }
-"""The keys that each of the three takes; what stands in none is for all of them, or for both files."""
 _FILES = {"regions", "grasps"}
 
 

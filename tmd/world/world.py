@@ -1,11 +1,10 @@
-"""One environment, ready for grounding: the ground task, what a state says of each object, and which nouns name it.
+"""An environment, ready for grounding: the ground task, profiles of its objects, and the nouns that name them.
 
-What a state says of one object: the vertex labels of its object graph, as comparable profiles.
-
-A profile maps a *state name* to whether it holds. A state name is an atom about the object with the object taken
-out: ``(contains mug1 water)`` is ``("contains", "water")`` of ``mug1``. The states of an object's parts belong to
-its profile too, under the part's name. What never changes (an affordance, say) is part of the profile where it
-holds. Atoms that relate two objects are not states; nor are the robot's own.
+A profile has the labels of the vertices of an object's graph in a state. It maps a *state name* to whether it holds. A
+state name is an atom about the object with the object taken out: ``(contains mug1 water)`` is ``("contains", "water")``
+of ``mug1``. The states of an object's parts belong to its profile too, under the part's name. What never changes (an
+affordance, say) is part of the profile where it holds. Atoms that relate two objects are not states; nor are the
+robot's own.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ from functools import cached_property
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground_task import ground
-from tmd.pddl.model import TRUE, GroundAtom, Problem, Universe, hierarchy, universe
+from tmd.pddl.model import TRUE, GroundAtom, Instruction, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
 from tmd.world.compile import PART_OF as PART_OF  # goals and studio need it as well
 from tmd.world.verb_clause import VerbClause
@@ -37,7 +36,7 @@ class World:
 def make_world(name: str, problem: Problem, lexicon: Lexicon, kinds: Mapping[str, str] | None = None) -> World:
     """Ground ``problem`` and prepare its objects and nouns.
 
-    What is wanted of an environment is said: the goal and the metric of ``problem`` are dropped.
+    The goal and the metric of ``problem`` are dropped, because the request says what is wanted.
 
     Args:
         name: The environment's name.
@@ -51,10 +50,19 @@ def make_world(name: str, problem: Problem, lexicon: Lexicon, kinds: Mapping[str
     return World(name, task, universe(problem), profiles, Mentions(profiles, lexicon, kinds))
 
 
+def run(world: World, state: Bits, instructions: Iterable[Instruction]) -> Bits:
+    """Return the state after ``instructions``; one that can never apply here changes nothing."""
+    for instruction in instructions:
+        operator = world.task.by_instruction.get(instruction)
+        if operator is not None:
+            state = operator.apply(state)
+    return state
+
+
+# How a :class:`Match` was found: the object contains what the noun names.
 CONTAINED = "contained"
-"""How a :class:`Match` was found: the object contains what the noun names."""
+# A container is a weaker reading than the thing itself.
 _CONTAINED_SHARE = 0.9
-"""A container is a weaker reading than the thing itself."""
 
 
 class Mentions:
@@ -71,8 +79,8 @@ class Mentions:
         self.lexicon = lexicon
         problem = profiles.task.problem
         types = hierarchy(problem.domain)
+        # the classes that the domain knows, with objects here or without
         self.classes = frozenset(t.name for t in problem.domain.types)
-        """The classes that the domain knows, be there something of them here or not."""
         self.types: Mapping[str, tuple[str, ...]] = {o.name: types.ancestors(o.types[0]) for o in problem.all_objects()}
         own = {name: types[0] for name, types in self.types.items()}
         self.kinds: Mapping[str, str] = own | {name: kind for name, kind in (kinds or {}).items() if name in own}
@@ -102,7 +110,7 @@ class Mentions:
         return [match.name for match in self.ranked(noun) if match.name in self.profiles.constants]
 
     def ranked(self, noun: str) -> tuple[Match, ...]:
-        """Return the objects and constants that ``noun`` may name, likeliest first, whatever contains them."""
+        """Return the objects and constants that ``noun`` may name, likeliest first, without what contains them."""
         if noun not in self._known:
             self._known[noun] = tuple(rank(noun, self._candidates, self.lexicon))
         return self._known[noun]
@@ -235,7 +243,7 @@ class Profiles:
 
     @cached_property
     def _changing(self) -> frozenset[str]:
-        """The predicates that stand in some action's effect."""
+        """The predicates in the effects of actions."""
         return frozenset(effect.atom.predicate for a in self.task.problem.domain.actions for effect in a.effects)
 
     def _by_object(self, atoms: Iterable[GroundAtom]) -> dict[str, list[tuple[GroundAtom, tuple[str, ...]]]]:

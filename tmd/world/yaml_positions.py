@@ -1,6 +1,6 @@
-"""YAML that remembers where everything stands: a fault is reported with file, line and column.
+"""YAML files as pydantic models: a fault is reported with file, line and column.
 
-What is accepted as YAML is :mod:`tmd.yaml_nodes`' affair.
+:mod:`tmd.yaml_nodes` says what is accepted as YAML.
 """
 
 from __future__ import annotations
@@ -14,8 +14,9 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from tmd.diagnostics import Location, TmdError
+from tmd.json_record import expectation
 from tmd.pddl.reading.syntax import Report, nearest, read_text
-from tmd.yaml_nodes import Loader, YamlMark, compose, from_yaml
+from tmd.yaml_nodes import Loader, compose, from_yaml
 
 P = ParamSpec("P")
 S = TypeVar("S")
@@ -51,21 +52,16 @@ class YamlSource:
             raise TmdError(
                 f"{self.path}: the file is empty", code="empty-file", hint="see docs/domains.md for what belongs in it"
             )
+        loader = Loader("")  # constructs the values of the nodes, without reading the text again
         try:
-            return model.model_validate(self._data())
-        except yaml.MarkedYAMLError as error:
+            return model.model_validate(loader.construct_document(self._root))
+        except yaml.YAMLError as error:
             raise from_yaml(error, self.text, str(self.path)) from None
         except ValidationError as error:
             first, *others = self._from_model(error)
             for other in others if self.report is not None else ():
                 self.fault(other)
             raise first from None
-
-    def _data(self) -> object:
-        """Return the data of the nodes, without reading the text again."""
-        loader = Loader("")
-        try:
-            return loader.construct_document(self._root)
         finally:
             loader.dispose()
 
@@ -74,7 +70,8 @@ class YamlSource:
     ) -> TmdError:
         """Return an error at the node that ``path`` (keys and indices from the root) leads to."""
         location = self.locate(path)
-        return TmdError(message, location=location, hint=hint, source=self._line(location.line), code=code)
+        source = self._lines[location.line - 1] if location.line <= len(self._lines) else None
+        return TmdError(message, location=location, hint=hint, source=source, code=code)
 
     def fault(self, error: TmdError) -> None:
         """Raise ``error``, or report it and return."""
@@ -100,9 +97,10 @@ class YamlSource:
             if step is None:
                 break
             node, mark = step
-        if mark is None:
-            mark = node.start_mark if node is not None else None
-        return self._place(mark)
+        if mark is None and node is not None:
+            mark = node.start_mark
+        line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
+        return Location(str(self.path), line, column)
 
     def _from_model(self, error: ValidationError) -> list[TmdError]:
         """Return the faults; an unknown key goes before the key that is missed because of it."""
@@ -116,29 +114,15 @@ class YamlSource:
         path = tuple(part for part in fault["loc"] if isinstance(part, str | int))
         where = ".".join(map(str, path)) or "the file"
         if fault["type"] != "extra_forbidden":
-            return self.error(path, f"{where}: {_expectation(fault)}", _HINTS.get(fault["type"]))
+            said = expectation(fault, "a mapping")
+            if fault["type"] == "string_pattern_mismatch":
+                said = "should be a colour" if "#" in fault["ctx"]["pattern"] else "should be a name"
+            return self.error(path, f"{where}: {said}", _HINTS.get(fault["type"]))
         missing = [str(f["loc"][-1]) for f in faults if f["type"] == "missing" and f["loc"][:-1] == path[:-1]]
         hint = nearest(str(path[-1]), missing, what="missing")
         return self.error(path, f"unknown key '{where}'", hint, "unknown-key")
 
-    def _line(self, number: int) -> str | None:
-        return self._lines[number - 1] if 0 < number <= len(self._lines) else None
 
-    def _place(self, mark: YamlMark | None) -> Location:
-        line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
-        return Location(str(self.path), line, column)
-
-
-_EXPECTATIONS = {
-    "missing": "the key is missing",
-    "string_type": "should be text",
-    "list_type": "should be a list",
-    "tuple_type": "should be a list",
-    "dict_type": "should be a mapping",
-    "model_type": "should be a mapping",
-    "model_attributes_type": "should be a mapping",
-    "mapping_type": "should be a mapping",
-}
 _MAPPING = "write `key: value`, a line each, further in than the line above"
 _HINTS = {
     "missing": "see docs/domains.md for what belongs there",
@@ -151,14 +135,6 @@ _HINTS = {
     "mapping_type": _MAPPING,
     "string_pattern_mismatch": "a name has small letters, digits and _, a letter first; a colour is like '#a0c4ff'",
 }
-
-
-def _expectation(fault: ErrorDetails) -> str:
-    """Return the fault of a value in words of YAML instead of pydantic's."""
-    if fault["type"] == "string_pattern_mismatch":
-        return "should be a colour" if "#" in fault.get("ctx", {}).get("pattern", "") else "should be a name"
-    said = " ".join(fault["msg"].removeprefix("Value error, ").split())
-    return _EXPECTATIONS.get(fault["type"], said.replace("Input should", "should").replace("String should", "should"))
 
 
 def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mark] | None:

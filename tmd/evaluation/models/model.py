@@ -18,11 +18,11 @@ from tmd.evaluation.runs.dataset import Dataset, Example
 from tmd.inference.energy import clause_distance, environment_distance
 from tmd.language import parse
 from tmd.language.clause import Clause
-from tmd.library.library import Library, run
+from tmd.library.library import Library
 from tmd.library.template import Instantiation, instantiate
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.syntax import nearest
-from tmd.world.world import World
+from tmd.world.world import World, run
 
 
 class Model(Protocol):

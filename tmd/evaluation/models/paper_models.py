@@ -26,12 +26,12 @@ from tmd.inference.ranking import RankedPlan
 from tmd.inference.weight_learning import Journal, Learned, learn_weights
 from tmd.language import parse
 from tmd.language.clause import Clause, Parsed
-from tmd.library.library import Library, learn, run, whole
+from tmd.library.library import Library, learn, whole
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.result import Planner
 from tmd.readers.interface import Dialogue
 from tmd.world.corpus import Corpus
-from tmd.world.world import World
+from tmd.world.world import World, run
 
 _SPOKEN = ("clause_distance", "parameter_cardinality", "inconsistent_end", "objects_not_touched")
 """The factors that read the clause."""

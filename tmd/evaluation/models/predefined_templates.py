@@ -38,12 +38,11 @@ from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import WORDNET
-from tmd.library.library import run
 from tmd.library.template import replace
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.task import Bits
 from tmd.world.folder import find_domain
-from tmd.world.world import CONTAINED, World
+from tmd.world.world import CONTAINED, World, run
 
 _LOOSE = (CONTAINED, WORDNET)
 """How a noun means an object only if the library's own words say nothing."""

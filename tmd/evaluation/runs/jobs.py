@@ -23,11 +23,10 @@ from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, Example, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
-from tmd.files import make_directory, write_text
+from tmd.files import make_directory, try_lock, write_text
 from tmd.json_record import DIGITS
 from tmd.language.clause import Span
 from tmd.language.syntax.tokens import Kind, tokenise
-from tmd.lock import try_lock
 from tmd.pddl.model import Instruction
 from tmd.records.fit import CurvePoint, Fit, WorldFit
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord

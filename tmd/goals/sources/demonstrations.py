@@ -32,14 +32,14 @@ from tmd.goals.words import CONTRARY, is_noun, is_pronoun, is_verb, results, tab
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.language.lexicon.nouns import NAME, Match, words_in_name
-from tmd.library.library import lessons, run
+from tmd.library.library import lessons
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import FALSE
 from tmd.pddl.model import OBJECT, Domain, GroundAtom, Instruction, Predicate
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_formula
 from tmd.world.demonstration import Demonstration
-from tmd.world.world import World
+from tmd.world.world import World, run
 
 FEWEST = 3
 """Clauses that a literal must have been possible in."""

@@ -20,11 +20,11 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
 from tmd.readers.interface import CandidateGoal, PlanConstraints, Question, QuestionOption, Step
-from tmd.readers.llm.reply import Reply, ReplyConstraint, ReplyQuestion, ReplyRefusalKind, ReplyStep
+from tmd.readers.llm.reply import Reply, ReplyConstraint, ReplyQuestion, ReplyRefusalKind, ReplyStep, printable
 from tmd.world.world import World
 
+# The source of goals that a language model proposed.
 SOURCE = "model"
-"""The source of goals that a language model proposed."""
 _MOST_STEPS = 40
 _MOST_OPTIONS = 4
 _MOST_NOUNS = 40
@@ -91,7 +91,7 @@ class ReplyChecker:
         self.faults: list[str] = []
 
     def read(self, reply: Reply) -> ModelReading | list[str]:
-        """Return the reading, or everything that is wrong with it, in words for the model."""
+        """Return the reading, or all its faults, in words for the model."""
         self.faults = []
         thoughts = _short(reply.thoughts)
         if reply.refusal is not None:
@@ -140,12 +140,9 @@ class ReplyChecker:
 
     def _via(self, step: ReplyStep, place: str) -> tuple[Formula, ...]:
         """Return the conditions to pass through on the way to the goal of a step."""
-        found = []
-        for number, text in enumerate(step.via):
-            formula = self._reachable(text, f"{place}.via[{number}]")
-            if formula is not None and self._cubes(formula, f"{place}.via[{number}]"):
-                found.append(formula)
-        return tuple(found)
+        places = [(f"{place}.via[{number}]", text) for number, text in enumerate(step.via)]
+        found = [(self._formula(text, where, reachable=True), where) for where, text in places]
+        return tuple(formula for formula, where in found if self._cubes(formula, where))
 
     def _step(
         self,
@@ -153,37 +150,39 @@ class ReplyChecker:
         number: int,
         clause: Clause,
         via: tuple[Formula, ...],
-        options: Sequence[CandidateGoal],
+        options: tuple[CandidateGoal, ...],
     ) -> ModelStep:
         step, place = steps[number], f"steps[{number}]"
-        when = None if step.when is None else self._condition(step.when, f"{place}.when")
+        when = None if step.when is None else self._formula(step.when, f"{place}.when")
         before = steps[number - 1] if number else None
         if step.otherwise and (before is None or (before.when is None and not before.otherwise)):
             self.faults.append(f"{place}.otherwise: the step before it has no condition")
         # a goal behind a guard need not be reachable: it is never asked for where the guard fails
-        guarded = step.when is not None or step.otherwise
-        read = self._condition if guarded else self._reachable
-        formula = read(step.goal, f"{place}.goal")
-        goal = None if formula is None else self._candidate(formula, via, f"{place}.goal")
-        candidates = tuple(options) or ((goal,) if goal is not None else ())
+        goal = self._goal(step.goal, f"{place}.goal", via, reachable=step.when is None and not step.otherwise)
         return ModelStep(
-            clause, number, direct=clause.direct, candidates=candidates, when=when, otherwise=step.otherwise
+            clause,
+            number,
+            direct=clause.direct,
+            candidates=options or (goal,),
+            when=when,
+            otherwise=step.otherwise,
         )
 
     def _final(self, text: str, number: int) -> ModelStep:
-        formula = self._reachable(text, "final")
-        goal = None if formula is None else self._candidate(formula, (), "final")
-        return ModelStep(
-            Clause("be", text="in the end"), number, main=False, candidates=() if goal is None else (goal,)
-        )
+        goal = self._goal(text, "final", reachable=True)
+        return ModelStep(Clause("be", text="in the end"), number, main=False, candidates=(goal,))
 
-    def _candidate(
-        self, formula: Formula, via: Sequence[Formula], place: str, prior: float = 0.0
-    ) -> CandidateGoal | None:
-        cubes = self._cubes(formula, place)
-        if not cubes and formula != FALSE:
-            return None
-        return CandidateGoal(formula, cubes, prior, tuple(via), source=SOURCE)
+    def _goal(
+        self,
+        text: str,
+        place: str,
+        via: tuple[Formula, ...] = (),
+        *,
+        prior: float = 0.0,
+        reachable: bool = False,
+    ) -> CandidateGoal:
+        formula = self._formula(text, place, reachable=reachable)
+        return CandidateGoal(formula, self._cubes(formula, place), prior, via, source=SOURCE)
 
     def _cubes(self, formula: Formula, place: str) -> tuple[Cube, ...]:
         """Return the cases of a condition; without any, that is a fault, unless the condition is plainly false."""
@@ -211,28 +210,29 @@ class ReplyChecker:
                 avoided.append(replace(shown, verb="touch", objects=tuple(dict.fromkeys(constraint.untouched))))
             if constraint.never is not None:
                 avoided.append(replace(shown, condition=" ".join(constraint.never.split())))
-                formula = self._condition(constraint.never, f"{place}.never")
-                if formula == TRUE:
-                    self.faults.append(f"{place}.never: it always holds, so no plan can avoid it")
-                elif formula is not None and formula != FALSE:
-                    never.append(formula)
-                    self._few_cases(formula, f"{place}.never")
+                never += self._never(constraint.never, f"{place}.never")
             elif not constraint.untouched:
                 self.faults.append(f"{place}: it forbids nothing; give never or untouched")
             for name in constraint.untouched:
                 if name in objects:
                     untouched.update((name, *(part for _, part in self.world.profiles.parts.get(name, ()))))
                 else:
-                    hint = nearest(name, objects)
-                    self.faults.append(f"{place}.untouched: there is no object '{_short(name)}'" + _in_brackets(hint))
+                    hint = f" ({close})" if (close := nearest(name, objects)) else ""
+                    self.faults.append(f"{place}.untouched: there is no object '{_short(name)}'{hint}")
         return PlanConstraints(tuple(never), untouched=frozenset(untouched)), tuple(avoided)
 
-    def _few_cases(self, formula: Formula, place: str) -> None:
-        """Report a prohibition with too many cases: none of them may be left out."""
+    def _never(self, text: str, place: str) -> list[Formula]:
+        """Return a prohibition, if it forbids anything; none of its cases may be left out, so they must be few."""
+        formula = self._formula(text, place)
+        if formula == TRUE:
+            self.faults.append(f"{place}: it always holds, so no plan can avoid it")
+        if formula in (TRUE, FALSE):
+            return []
         try:
             ground_condition(self.task, formula)
         except TmdError as error:
             self.faults.append(f"{place}: {error.message}")
+        return [formula]
 
     def _question(
         self, given: Sequence[ReplyQuestion], vias: Sequence[tuple[Formula, ...]]
@@ -246,35 +246,32 @@ class ReplyChecker:
             return None, {}
         candidates: dict[Formula, tuple[str, CandidateGoal]] = {}
         for number, option in enumerate(asked.options):
-            place = f"questions[0].options[{number}].goal"
-            formula = self._condition(option.goal, place)
             prior = -(number + 1) * math.log(2)  # the model names the likeliest first, and no numbers
-            candidate = None if formula is None else self._candidate(formula, vias[asked.step], place, prior)
-            if candidate is not None:
-                candidates.setdefault(candidate.formula, (_short(option.answer), candidate))
+            goal = self._goal(option.goal, f"questions[0].options[{number}].goal", vias[asked.step], prior=prior)
+            candidates.setdefault(goal.formula, (_short(option.answer), goal))
         if len(candidates) < 2:
             self.faults.append("questions[0]: its options do not have two different goals; ask nothing then")
             return None, {}
         options = tuple(QuestionOption(answer, formula) for formula, (answer, _) in candidates.items())
-        goals = tuple(candidate for _, candidate in candidates.values())
+        goals = tuple(goal for _, goal in candidates.values())
         return Question(_short(asked.text), asked.step, options), {asked.step: goals}
 
     # ------------------------------------------------------------------ formulas
 
-    def _condition(self, text: str, place: str) -> Formula | None:
-        """Return a condition over ground atoms that may change; ``None`` where it is wrong."""
-        try:
-            return instantiated(self.task, with_goal(self.task.problem, text, place).goal)
-        except TmdError as error:
-            self.faults.append(_fault(error, place))
-            return None
+    def _formula(self, text: str, place: str, *, reachable: bool = False) -> Formula:
+        """Return a condition over ground atoms that may change; false where it is wrong, which is a fault.
 
-    def _reachable(self, text: str, place: str) -> Formula | None:
-        """Return a condition that may come to hold; ``None`` where it is wrong or cannot."""
-        formula = self._condition(text, place)
-        if formula == FALSE:
+        With ``reachable``, it is a fault as well if the condition can never hold.
+        """
+        try:
+            formula = instantiated(self.task, with_goal(self.task.problem, text, place).goal)
+        except TmdError as error:
+            hint = f" ({error.hint})" if error.hint else ""
+            where = f"{place}, column {error.location.column}" if error.location is not None else place
+            self.faults.append(_short(f"{where}: {error.message}{hint}"))
+            return FALSE
+        if reachable and formula == FALSE:
             self.faults.append(f"{place}: it can never hold here: {self._why_never(text, place)}")
-            return None
         return formula
 
     def _why_never(self, text: str, place: str) -> str:
@@ -326,17 +323,6 @@ def _turns(text: str) -> bool:
     return any(word.lower().replace("\u2019", "'") in section("turning") for word in _WORD.findall(text))
 
 
-def _fault(error: TmdError, place: str) -> str:
-    hint = f" ({error.hint})" if error.hint else ""
-    where = f"{place}, column {error.location.column}" if error.location is not None else place
-    return _short(f"{where}: {error.message}{hint}")
-
-
-def _in_brackets(hint: str | None) -> str:
-    return f" ({hint})" if hint else ""
-
-
 def _short(text: str) -> str:
     """Return words of a model on one line, at most 300 characters."""
-    line = "".join(sign if sign.isprintable() else " " for sign in text)
-    return " ".join(line.split())[:300]
+    return printable(text)[:300]

@@ -11,33 +11,39 @@ import os
 import re
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from concurrent.futures import Future
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
+from pydantic import BaseModel
+
 from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError
 from tmd.files import cache_directory, make_directory, read_bytes, write_bytes
+from tmd.readers.interface import Usage
+from tmd.readers.llm.reply import printable
 
 if TYPE_CHECKING:
     from openai import OpenAI
 
 Messages: TypeAlias = Sequence[Mapping[str, str]]
 CacheMode: TypeAlias = Literal["on", "off", "only"]
+# The environment variables for key, address and model.
 KEY, URL, MODEL = "OPENAI_API_KEY", "OPENAI_BASE_URL", "OPENAI_MODEL"
-"""The environment variables for key, address and model."""
+# The key that is sent to servers that need none.
 _NO_KEY = "none"
-"""The key that is sent to servers that need none."""
 _RETRIES = 2
+# The longest time-out, in seconds.
 LONGEST = 86_400.0
-"""The longest time-out, in seconds."""
 _ADDRESS = re.compile(r"https?://(\[[\da-f:]+\]|[\w.-]+)(:\d{1,5})?(/[!-~]*)?", re.ASCII | re.IGNORECASE)
 _SECRET = re.compile(r"[!-~]+")
 _WAIT = re.compile(r"\d{1,6}")
+# Parameters that some models refuse; a request is repeated without them.
 _MAY_BE_REFUSED = ("response_format", "seed", "temperature")
-"""Parameters that some models refuse; a request is repeated without them."""
 
 
 class ModelError(TmdError):
@@ -109,25 +115,13 @@ class ModelSettings:
         return ModelSettings(model, url, key or _NO_KEY, self.cache, self.timeout, self.seed)
 
 
-@dataclass(frozen=True, slots=True)
-class Completion:
-    """One reply.
+class _Kept(BaseModel):
+    """A reply as the cache keeps it."""
 
-    Attributes:
-        text: The reply.
-        digest: The digest of model, messages and schema.
-        prompt_tokens: As the server counts them.
-        completion_tokens: Likewise.
-        seconds: Time spent waiting; 0 for a cached reply.
-        cached: Whether it comes from the cache.
-    """
-
-    text: str
-    digest: str
-    prompt_tokens: int = 0
-    completion_tokens: int = 0
-    seconds: float = 0.0
-    cached: bool = False
+    model: str
+    reply: str
+    prompt_tokens: int
+    completion_tokens: int
 
 
 class ModelClient:
@@ -150,30 +144,31 @@ class ModelClient:
         """The name of the model."""
         return self.settings.model or ""
 
-    def complete(self, messages: Messages, name: str, schema: Mapping[str, Any]) -> Completion:
-        """Return the reply to ``messages``, which should follow ``schema``.
+    def complete(self, messages: Messages, name: str, schema: Mapping[str, Any]) -> tuple[str, Usage]:
+        """Return the reply to ``messages``, which should follow ``schema``, and the effort that it took.
 
         Raises:
             ModelError: The server cannot be reached, refuses, or sends no text; or there is no cached reply where only
                 such are wanted.
             MissingToolError: The package ``openai`` is not installed.
         """
-        digest = self._digest(messages, schema)
-        if self.settings.cache != "off" and (kept := _recall(digest)) is not None:
-            return kept
+        asked = {"model": self.model, "messages": list(messages), "schema": schema}
+        digest = hashlib.sha256(json.dumps(asked, sort_keys=True, ensure_ascii=False).encode()).hexdigest()
+        usage = Usage(self.model, digests=(digest,))
+        folder = None if self.settings.cache == "off" else cache_directory("llm")
+        path = None if folder is None else folder / digest[:2] / f"{digest}.json"
+        if path is not None and (kept := _recall(path)) is not None:
+            sent, received = kept.prompt_tokens, kept.completion_tokens
+            return _encodable(kept.reply), replace(usage, prompt_tokens=sent, completion_tokens=received, cached=1)
         if self.settings.cache == "only":
             message = f"the model '{self.model}' has no cached reply to this request ({digest[:12]})"
             raise ModelError(message, hint="run once without --llm-cache only")
         began = time.monotonic()
-        text, used = self._ask(messages, name, schema)
-        found = Completion(text, digest, *used, round(time.monotonic() - began, 3))
-        if self.settings.cache == "on":
-            _keep(found, self.model)
-        return found
-
-    def _digest(self, messages: Messages, schema: Mapping[str, Any]) -> str:
-        asked = {"model": self.model, "messages": list(messages), "schema": schema}
-        return hashlib.sha256(json.dumps(asked, sort_keys=True, ensure_ascii=False).encode()).hexdigest()
+        text, (sent, received) = self._ask(messages, name, schema)
+        seconds = round(time.monotonic() - began, 3)
+        if path is not None:
+            _keep(path, _Kept(model=self.model, reply=text, prompt_tokens=sent, completion_tokens=received))
+        return text, replace(usage, prompt_tokens=sent, completion_tokens=received, seconds=seconds)
 
     def _ask(self, messages: Messages, name: str, schema: Mapping[str, Any]) -> tuple[str, tuple[int, int]]:
         if find_spec("openai") is None:
@@ -224,23 +219,19 @@ class ModelClient:
         return _encodable(text), (sent, received)
 
     def _status_error(self, status: int, message: str, headers: Mapping[str, str]) -> ModelError:
-        place, told = self._place(), self._scrubbed(message)
-        if status == 401:
-            if self.settings.key == _NO_KEY:
-                return ModelError(f"{place} wants a key (401)", hint=f"set ${KEY}")
-            return ModelError(f"{place} refuses the key (401)", hint=f"check ${KEY}")
-        if status == 404:
-            return ModelError(
-                f"{place} knows no model '{self.model}' (404)",
-                hint="check the name of the model and the address of the server",
-            )
-        if status == 429:
-            wait = headers.get("retry-after", "")
-            again = f"; it asks to wait {wait} s" if _WAIT.fullmatch(wait) else ""
-            message = f"{place} has no room for this request now (429){again}"
-            return ModelError(message, hint="try again later", passing=True)
-        hint = "look at the server's log" if status >= 500 else None
-        return ModelError(f"{place} answers with status {status}: {told}", hint=hint, passing=status >= 500)
+        place, wait = self._place(), headers.get("retry-after", "")
+        again = f"; it asks to wait {wait} s" if _WAIT.fullmatch(wait) else ""
+        key = ("wants a key", f"set ${KEY}") if self.settings.key == _NO_KEY else ("refuses the key", f"check ${KEY}")
+        model = f"knows no model '{self.model}' (404)", "check the name of the model and the address of the server"
+        other = f"answers with status {status}: {self._scrubbed(message)}", "look at the server's log"
+        known = {
+            401: (f"{key[0]} (401)", key[1]),
+            404: model,
+            429: (f"has no room for this request now (429){again}", "try again later"),
+        }
+        problem, hint = known.get(status, other)
+        passing = status == 429 or status >= 500
+        return ModelError(f"{place} {problem}", hint=hint if status in known or passing else None, passing=passing)
 
     def _place(self) -> str:
         return self.settings.url or "the OpenAI server"
@@ -248,7 +239,7 @@ class ModelClient:
     def _scrubbed(self, text: str) -> str:
         """Return a message on one line, without the key."""
         key = self.settings.key or ""
-        line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+        line = printable(text)
         return (line.replace(key, "***") if len(key) > 4 else line)[:300]
 
 
@@ -259,23 +250,16 @@ def _within(call: Callable[[], Any], seconds: float) -> Any:  # noqa: ANN401 - w
         TimeoutError: There was none in time. A server that sends a byte now and then never exceeds the client's own
             limits.
     """
-    results: list[Any] = []
-    errors: list[BaseException] = []
+    future: Future[Any] = Future()
 
     def run() -> None:
         try:
-            results.append(call())
+            future.set_result(call())
         except BaseException as error:  # for the thread that waits
-            errors.append(error)
+            future.set_exception(error)
 
-    thread = Thread(target=run, daemon=True)
-    thread.start()
-    thread.join(seconds)
-    if errors:
-        raise errors[0]
-    if not results:
-        raise TimeoutError
-    return results[0]
+    Thread(target=run, daemon=True).start()  # an executor would wait for the thread when the program ends
+    return future.result(seconds)
 
 
 def _encodable(text: str) -> str:
@@ -293,35 +277,16 @@ def _refused_parameter(status: int, message: str, options: Mapping[str, Any]) ->
     return named or schema
 
 
-def _file(digest: str) -> Path | None:
-    folder = cache_directory("llm")
-    return None if folder is None else folder / digest[:2] / f"{digest}.json"
-
-
-def _recall(digest: str) -> Completion | None:
-    path = _file(digest)
-    if path is None:
-        return None
+def _recall(path: Path) -> _Kept | None:
+    """Return a reply of the cache; ``None`` where there is none, or it is damaged."""
     try:
-        kept = json.loads(read_bytes(path))
-        counts = int(kept["prompt_tokens"]), int(kept["completion_tokens"])
-        return Completion(_encodable(str(kept["reply"])), digest, *counts, cached=True)
-    except (OSError, ValueError, KeyError, TypeError, OverflowError, RecursionError):
+        return _Kept.model_validate_json(read_bytes(path))
+    except (OSError, ValueError):
         return None
 
 
-def _keep(found: Completion, model: str) -> None:
-    path = _file(found.digest)
-    if path is None:
-        return
-    value = {
-        "model": model,
-        "reply": found.text,
-        "prompt_tokens": found.prompt_tokens,
-        "completion_tokens": found.completion_tokens,
-    }
-    try:
+def _keep(path: Path, reply: _Kept) -> None:
+    # a cache that cannot be written costs the next run a question
+    with suppress(OutputError):
         make_directory(path.parent)
-        write_bytes(path, (json.dumps(value, ensure_ascii=False, indent=1) + "\n").encode())
-    except OutputError:
-        return  # a cache that cannot be written costs the next run a question
+        write_bytes(path, (reply.model_dump_json(indent=1) + "\n").encode())

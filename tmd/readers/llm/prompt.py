@@ -19,21 +19,22 @@ from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.pddl.model import ActionSchema, Domain, GroundAtom, Instruction, TypedName, hierarchy, predicates_of
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_effect, format_formula
+from tmd.readers.llm.reply import printable
 from tmd.world.sentence_file import SentenceTest
-from tmd.world.world import World
+from tmd.world.world import World, run
 
 _SECTION = re.compile(r"^\[(\w+)\]\n", re.MULTILINE)
 _WORD = re.compile(r"[^\W\d_]+(?:['\u2019-][^\W\d_]+)*|\d+")
+# Larger environments are cut to the objects that the request may concern.
 _MOST_OBJECTS = 120
-"""Larger environments are cut to the objects that the request may concern."""
 _MOST_ROWS = 12
+# Characters after which a row or an example is left out: nobody learns from it.
 _LONGEST_ROW = 300
-"""Characters after which a row or an example is left out: nobody learns from it."""
+# Maximum number of characters of all rows together.
 _MOST_OF_ROWS = 1_400
-"""Maximum number of characters of all rows together."""
 _FEWEST_EXAMPLES, _MOST_EXAMPLES = 2, 4
+# Beyond this length a prompt has the fewest examples.
 _MOST_CHARACTERS = 20_000
-"""Beyond this length a prompt has the fewest examples."""
 _EXAMPLES = "Requests in other environments, with what holds when all of their steps are done there:"
 
 
@@ -110,16 +111,13 @@ def prompt_for(request: str, world: World, state: Bits, lexicon: Lexicon, exampl
 
 def one_line(text: str) -> str:
     """Return a text on one line, without control characters and without what looks like the end of a request."""
-    line = " ".join("".join(sign if sign.isprintable() else " " for sign in text).split())
-    return re.sub(r"</?\s*request\s*>", " ", line, flags=re.IGNORECASE)
+    return re.sub(r"</?\s*request\s*>", " ", printable(text), flags=re.IGNORECASE)
 
 
 def changes(world: World, plan: Sequence[Instruction]) -> tuple[str, str]:
     """Return the facts that a plan makes true and false, as text."""
     task = world.task
-    end = task.init
-    for instruction in plan:
-        end = task.by_instruction[instruction].apply(end)
+    end = run(world, task.init, plan)
     added, deleted = task.names(end & ~task.init), task.names(task.init & ~end)
     return tuple("; ".join(map(str, atoms)) or "nothing" for atoms in (added, deleted))  # type: ignore[return-value]
 

@@ -18,17 +18,17 @@ from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
 from tmd.readers.interface import Dialogue, Step, StepGoals, Usage
 from tmd.readers.llm.checking import ModelReading, ModelStep, ReplyChecker
-from tmd.readers.llm.client import Completion, ModelClient, ModelSettings
+from tmd.readers.llm.client import ModelClient, ModelSettings
 from tmd.readers.llm.prompt import Prompt, changes, filled, one_line, prompt_for
 from tmd.readers.llm.reply import Judgement, Reply, parse_reply, schema_of
 from tmd.world.corpus import Corpus
 from tmd.world.sentence_file import SUFFIX, SentenceTest, read_sentences
 from tmd.world.world import World
 
+# How often a model may correct its reading of a request.
 MOST_CORRECTIONS = 2
-"""How often a model may correct its reading of a request."""
+# Maximum number of faults that are sent back at a time.
 _MOST_FAULTS = 8
-"""Maximum number of faults that are sent back at a time."""
 
 
 def llm_reader(corpus: Corpus, settings: ModelSettings, *, verify: bool = False) -> LLMReader:
@@ -68,7 +68,7 @@ class LLMReader:
             MissingToolError: The package ``openai`` is not installed.
         """
         prompt = self.prompt(request, world, state)
-        messages = ({"role": "system", "content": prompt.system}, {"role": "user", "content": prompt.user})
+        messages = ({"role": "system", "content": prompt.system}, _user(prompt.user))
         return self._read(request, world, prompt, messages, Usage(self._client.model))
 
     def prompt(self, request: str, world: World, state: Bits) -> Prompt:
@@ -93,10 +93,10 @@ class LLMReader:
             deleted=deleted,
             request=one_line(dialogue.parsed.text),
         )
-        answer = self._client.complete([{"role": "user", "content": text}], "judgement", schema_of(Judgement))
-        dialogue.usage = _with(dialogue.usage, answer)
+        answer, usage = self._client.complete([_user(text)], "judgement", schema_of(Judgement))
+        dialogue.usage = dialogue.usage.plus(usage)
         try:
-            judgement = parse_reply(Judgement, answer.text)
+            judgement = parse_reply(Judgement, answer)
         except TmdError as error:
             dialogue.rejected = True
             return f"the plan could not be verified: {error.message}"
@@ -123,14 +123,14 @@ class LLMReader:
         """Ask, and send faults back until there are none or no more corrections are left."""
         checker = ReplyChecker(request, world)
         while True:
-            answer = self._client.complete(messages, "reading", schema_of(Reply))
-            usage = _with(usage, answer)
-            messages = (*messages, {"role": "assistant", "content": answer.text})
+            answer, effort = self._client.complete(messages, "reading", schema_of(Reply))
+            usage = usage.plus(effort)
             try:
-                found = checker.read(parse_reply(Reply, answer.text))
+                found = checker.read(parse_reply(Reply, answer))
             except TmdError as error:
                 found = [error.message, *([error.hint] if error.hint else [])]
-                messages = (*messages[:-1], {"role": "assistant", "content": answer.text[:2000]})
+                answer = answer[:2000]
+            messages = (*messages, {"role": "assistant", "content": answer})
             if isinstance(found, ModelReading):
                 return LLMDialogue(found, world, prompt, messages, replace(usage, thoughts=found.thoughts))
             if usage.corrections >= MOST_CORRECTIONS:
@@ -205,15 +205,3 @@ class LLMDialogue(Dialogue):
 
 def _user(text: str) -> Mapping[str, str]:
     return {"role": "user", "content": text}
-
-
-def _with(usage: Usage, answer: Completion) -> Usage:
-    """Return the effort with one more reply."""
-    return replace(
-        usage,
-        prompt_tokens=usage.prompt_tokens + answer.prompt_tokens,
-        completion_tokens=usage.completion_tokens + answer.completion_tokens,
-        seconds=usage.seconds + answer.seconds,
-        cached=usage.cached + answer.cached,
-        digests=(*usage.digests, answer.digest),
-    )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from enum import StrEnum
 from functools import cache
@@ -13,8 +12,8 @@ from pydantic import Field, ValidationError
 from tmd.diagnostics import TmdError
 from tmd.json_record import JsonRecord
 
+# Longer replies are refused unread.
 MOST_CHARACTERS = 200_000
-"""Longer replies are refused unread."""
 _Record = TypeVar("_Record", bound=JsonRecord)
 _FENCE = re.compile(r"^\s*```[\w-]*\n(.*?)\n?```\s*$", re.DOTALL)
 
@@ -107,28 +106,22 @@ def parse_reply(record: type[_Record], text: str) -> _Record:
     Raises:
         TmdError: The reply is too long, not JSON, or JSON of another shape; the message is meant for the model.
     """
-    try:
-        return record.model_validate(_json_of(text))
-    except ValidationError as error:
-        first = error.errors(include_url=False, include_input=False)[0]
-        place = ".".join(map(str, first["loc"]))
-        message = " ".join(first["msg"].split())[:200]
-        raise TmdError(f"the reply has another shape: {f'{place}: ' if place else ''}{message}") from None
-
-
-def _json_of(text: str) -> object:
     if len(text) > MOST_CHARACTERS:
         raise TmdError(f"the reply has {len(text):,} characters, more than {MOST_CHARACTERS:,}")
     fenced = _FENCE.match(text)
-    body = (fenced[1] if fenced else text).strip()
-    if not body.startswith("{"):
-        raise TmdError("the reply is not a JSON object", hint="write the object and nothing else")
     try:
-        return json.loads(body)
-    except RecursionError:
-        raise TmdError("the JSON of the reply is nested too deeply") from None
-    except ValueError as error:
-        where = f" (line {error.lineno}, column {error.colno})" if isinstance(error, json.JSONDecodeError) else ""
-        cut = isinstance(error, json.JSONDecodeError) and error.pos >= len(body)
-        what = "the JSON of the reply ends in the middle" if cut else "the reply is not valid JSON"
-        raise TmdError(f"{what}{where}") from None
+        return record.model_validate_json((fenced[1] if fenced else text).strip())
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        message = printable(first["msg"].removeprefix("Invalid JSON: "))[:200]
+        if first["type"] == "json_invalid":
+            raise TmdError(
+                f"the reply is not valid JSON: {message}", hint="write one JSON object and nothing else"
+            ) from None
+        place = ".".join(map(str, first["loc"]))
+        raise TmdError(f"the reply has another shape: {f'{place}: ' if place else ''}{message}") from None
+
+
+def printable(text: str) -> str:
+    """Return a text on one line, without control characters."""
+    return " ".join("".join(sign if sign.isprintable() else " " for sign in text).split())

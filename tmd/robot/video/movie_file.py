@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Self
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
-from tmd.files import check_writable, write_bytes
-from tmd.lock import try_lock
+from tmd.files import check_writable, try_lock, write_bytes
 from tmd.robot.video.captions import Pixels, pillow
 
 if TYPE_CHECKING:
@@ -59,7 +58,8 @@ class MovieFile:
                 _Gif(self._draft, fps) if path.suffix == ".gif" else _Mp4(self._draft, size, fps, small=small)
             )
         except (OSError, MissingToolError) as error:
-            self._lock.release(remove=True)
+            self._draft.unlink(missing_ok=True)
+            self._lock.release()
             raise (self._error(error) if isinstance(error, OSError) else error) from error
 
     def __enter__(self) -> Self:

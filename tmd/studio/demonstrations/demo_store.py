@@ -10,8 +10,7 @@ import re
 from pathlib import Path
 
 from tmd.diagnostics import TmdError
-from tmd.files import make_directory, write_bytes
-from tmd.lock import locked
+from tmd.files import locked, make_directory, write_bytes
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.clause_spans import clean

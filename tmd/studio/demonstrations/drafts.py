@@ -16,13 +16,13 @@ from pathlib import Path
 from typing import Annotated, ClassVar, Literal, TypeAlias, TypeVar
 from zlib import crc32
 
+from filelock import FileLock
 from pydantic import AfterValidator
 
 from tmd.diagnostics import TmdError
-from tmd.files import make_directory, write_text
+from tmd.files import make_directory, try_lock, write_text
 from tmd.json_record import JsonRecord
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.lock import Lock, try_lock
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.correction import Correction
@@ -170,7 +170,7 @@ class Drafts:
 
     def __init__(self, directory: Path) -> None:
         self.directory = directory
-        self._held: dict[str, Lock] = {}
+        self._held: dict[str, FileLock] = {}
         self._guard = threading.RLock()
 
     def enter(self, visitor: str | None = None) -> str:
@@ -201,7 +201,10 @@ class Drafts:
         with self._guard:
             lock = self._held.pop(visitor, None)
             if lock is not None:
-                lock.release(remove=not self.kept(visitor))
+                if not self.kept(visitor):
+                    with suppress(OSError):
+                        self._file(visitor, ".lock").unlink()
+                lock.release()
 
     def keep(self, visitor: str, draft: Draft | CorrectionDraft) -> None:
         """Write a draft, in place of the visitor's last one of the same form.
