@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from tmd.check.checker import Checker
-from tmd.check.codes import SEVERITY, Severity
-from tmd.check.diagnostic import Diagnostic
+from tmd.check.diagnostic import SEVERITY, Diagnostic, Severity
 
 ROOT = Path(__file__).resolve().parents[2]
 TEXT = "Put the red block on the green block."

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from tmd.check.checker import Checker
-from tmd.check.codes import SEVERITY, Severity
-from tmd.check.diagnostic import Diagnostic
+from tmd.check.diagnostic import SEVERITY, Diagnostic, Severity
 from tmd.check.lexicon import check_lexicon
 from tmd.format.yaml_layout import format_yaml
 from tmd.language.lexicon.file import read_lexicon

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from tmd.check.checker import Checker
-from tmd.check.codes import Severity
-from tmd.check.diagnostic import Diagnostic
+from tmd.check.diagnostic import Diagnostic, Severity
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.validator import validate

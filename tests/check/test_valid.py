@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.check.checker import Checker
-from tmd.check.codes import Severity
+from tmd.check.diagnostic import Severity
 from tmd.check.pddl_file import check_domain_text, check_problem_text
 
 CASES = {

@@ -8,7 +8,7 @@ import pytest
 
 import tmd
 from tmd.check.checker import Checker
-from tmd.check.codes import Severity
+from tmd.check.diagnostic import Severity
 from tmd.diagnostics import TmdError
 from tmd.files import bundled
 from tmd.goals.sources.table import GoalTable

@@ -10,8 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tmd.check.codes import SEVERITY, Severity
-from tmd.check.diagnostic import Findings
+from tmd.check.diagnostic import SEVERITY, Findings, Severity
 from tmd.check.lint.problem import lint_together
 from tmd.check.pddl_file import (
     CheckedDomain,

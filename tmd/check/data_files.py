@@ -9,8 +9,7 @@ from difflib import get_close_matches
 from pathlib import Path
 from typing import Protocol
 
-from tmd.check.codes import Severity
-from tmd.check.diagnostic import Diagnostic, Findings
+from tmd.check.diagnostic import Diagnostic, Findings, Severity
 from tmd.check.lint.problem import lint_cases
 from tmd.diagnostics import Location, MissingToolError, TmdError
 from tmd.files import real

@@ -1,12 +1,56 @@
-"""One problem of a file, and the list that collects them."""
+"""The kinds of problems that the checker reports, one problem, and the list that collects them.
+
+The names of the kinds are stable: scripts and editors may rely on them. ``docs/errors.md`` explains each.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Mapping
 from dataclasses import dataclass
+from enum import StrEnum
 
-from tmd.check.codes import SEVERITY, Severity
 from tmd.diagnostics import Location, TmdError
+
+
+class Severity(StrEnum):
+    """An error keeps ``tmd`` from using a file; a warning is worth a look; a note is for who wants to know more."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+
+_ERRORS = (
+    # files
+    "unreadable", "not-text", "not-utf8", "too-large", "control-character", "look-alike", "outside-folder",
+    # form of PDDL
+    "unclosed-parenthesis", "extra-parenthesis", "nested-too-deeply", "empty-file", "syntax",
+    "unknown-section", "unknown-keyword", "duplicate-section", "missing-section", "bad-name",
+    "unknown-requirement", "not-supported", "when-in-condition", "not-an-effect",
+    # YAML, JSON and what they say
+    "yaml-syntax", "yaml-tag", "yaml-alias", "duplicate-key", "unknown-key", "bad-value", "json-syntax",
+    "missing-file", "unknown-class", "class-cycle", "unknown-part", "unknown-state", "unknown-action",
+    "unknown-domain", "unknown-base", "include-cycle", "missing-skill", "missing-role", "stale-domain",
+    "bad-goal", "bad-row", "bad-demonstration", "unknown-environment", "not-executable", "no-room", "overlap",
+    "goal-not-reached",
+    # meaning of PDDL
+    "duplicate-name", "type-cycle", "unknown-type", "unknown-predicate", "unknown-function", "unknown-object",
+    "free-variable", "wrong-arity", "wrong-type", "wrongly-derived", "domain-mismatch", "contradictory-init",
+)  # fmt: skip
+_WARNINGS = (
+    "missing-requirement", "unsupported-requirement", "odd-name", "glued-variable", "type-twice",
+    "undeclared-parent", "variable-twice", "glued-dash", "parent-after-child", "empty-condition",
+    "nested-when", "said-twice", "contradictory-effects", "unused-predicate", "unused-parameter", "no-effect",
+    "never-applies", "never-produced", "too-many-cases", "type-without-objects", "unreachable-goal",
+    "goal-holds", "ambiguous-domain", "unserved-verb", "unknown-target", "unread-noun", "impossible-goal",
+    "idle-phrase", "domain-not-found",
+)  # fmt: skip
+_NOTES = ("synonym-with-goal", "no-goal", "too-many")
+SEVERITY: Mapping[str, Severity] = {
+    **dict.fromkeys(_ERRORS, Severity.ERROR),
+    **dict.fromkeys(_WARNINGS, Severity.WARNING),
+    **dict.fromkeys(_NOTES, Severity.NOTE),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,7 +59,7 @@ class Diagnostic:
 
     Attributes:
         location: Where it is.
-        code: Its kind, one of :mod:`tmd.check.codes`.
+        code: Its kind, one of :data:`SEVERITY`.
         message: What is wrong, in one line.
         hint: What to do about it.
         source: The source line.
@@ -29,7 +73,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """Return whether it is an error, a warning or a note."""
+        """Error, warning or note."""
         return SEVERITY[self.code]
 
 
@@ -44,16 +88,9 @@ class Findings:
 
     def add(self, error: TmdError, place: Location) -> None:
         """Add a fault, at ``place`` if it has no location."""
-        self.put(Diagnostic(error.location or place, error.code or "syntax", error.message, error.hint, error.source))
-
-    def put(self, diagnostic: Diagnostic) -> None:
-        """Take in a problem."""
-        self._found.setdefault((diagnostic.location, diagnostic.code, diagnostic.message), diagnostic)
-
-    def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Take in several problems."""
-        for diagnostic in diagnostics:
-            self.put(diagnostic)
+        location, code = error.location or place, error.code or "syntax"
+        found = Diagnostic(location, code, error.message, error.hint, error.source)
+        self._found.setdefault((location, code, error.message), found)
 
     def sorted(self) -> list[Diagnostic]:
         """Return all of them by file, line and column."""

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from tmd.check.codes import SEVERITY, Severity
+from tmd.check.diagnostic import SEVERITY, Severity
 from tmd.check.lint.domain import lint_domain
 from tmd.check.lint.problem import lint_problem
 from tmd.diagnostics import Location, TmdError

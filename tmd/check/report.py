@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tmd.check.checker import Checker, files_of
-from tmd.check.codes import Severity
-from tmd.check.diagnostic import Diagnostic
+from tmd.check.diagnostic import Diagnostic, Severity
 from tmd.diagnostics import Location, TmdError
 from tmd.files import write_text
 from tmd.pddl.reading.syntax import ODD_BLANK, Group, parse, read_text, split_lines

@@ -30,8 +30,7 @@ from tmd.pddl.model import (
     TypeDeclaration,
     TypedName,
 )
-from tmd.pddl.reading.checking import check_problem
-from tmd.pddl.reading.requirements import used_requirements
+from tmd.pddl.reading.checking import check_problem, used_requirements
 
 # Something of unified-planning, which ships no types.
 _Outside: TypeAlias = Any

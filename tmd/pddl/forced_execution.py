@@ -11,15 +11,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from tmd.pddl.ground_formula import FALSE
 from tmd.pddl.grounding.ground_task import ground, ground_condition
-from tmd.pddl.model import OBJECT, Instruction, Or, Problem, State, TypedName, universe
+from tmd.pddl.model import OBJECT, Instruction, Problem, State, TypedName, universe
 from tmd.pddl.semantics import bind, schema_of
 from tmd.pddl.task import Bits, Cube, Operator, Task
 
 # Names of stand-ins for objects that do not exist begin so; no PDDL name can.
 _GHOST = "?nobody-"
-
-_FALSE = Or()
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +120,7 @@ class ForcedExecution:
             TypedName(name, tuple(name.removeprefix(_GHOST).split("-"))) for name in ghosts
         )
         domain = self.problem.domain
-        blind = replace(domain, actions=tuple(replace(a, precondition=_FALSE) for a in domain.actions))
+        blind = replace(domain, actions=tuple(replace(a, precondition=FALSE) for a in domain.actions))
         problem = replace(self.problem, domain=blind, objects=objects)
         task = ground(problem, forced=sorted({b for b in bound.values() if b}))
         real = ~sum(1 << i for i, atom in enumerate(task.atoms) if any(a in ghosts for a in atom.args))

@@ -5,24 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.derived import unfolded_condition
-from tmd.pddl.grounding.ground_action import Work
-from tmd.pddl.grounding.ground_task import ground_condition
-from tmd.pddl.model import (
-    And,
-    Atom,
-    Equals,
-    Exists,
-    Forall,
-    Formula,
-    GroundAtom,
-    Imply,
-    Not,
-    Or,
-    Universe,
-    universe,
-)
-from tmd.pddl.semantics import Binding, bindings, instantiate, size
+from tmd.pddl.grounding.ground_action import Tree
+from tmd.pddl.grounding.ground_task import expand_condition, ground_condition
+from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or, signed_subformulas, subformulas
 from tmd.pddl.task import Bits, Cube, Task
 
 TRUE, FALSE = And(), Or()
@@ -55,36 +40,18 @@ def instantiated(task: Task, formula: Formula) -> Formula:
     Raises:
         LimitError: The formula is too large.
     """
-    formula = unfolded_condition(formula, task.problem.domain)
-    objects = universe(task.problem)
-    Work().spend(size(formula, objects), "a condition")
-    return _instantiated(formula, {}, task, objects)
+    return _formula(expand_condition(task, formula), task)
 
 
-def _instantiated(formula: Formula, binding: Binding, task: Task, objects: Universe) -> Formula:
-    def inner(part: Formula, further: Binding = binding) -> Formula:
-        return _instantiated(part, further, task, objects)
-
-    match formula:
-        case Atom():
-            atom = instantiate(formula, binding)
-            if atom in task.index:
-                return Atom(atom.predicate, atom.args)
-            return TRUE if atom in task.static else FALSE
-        case Equals(left, right):
-            return TRUE if binding.get(left, left) == binding.get(right, right) else FALSE
-        case Not(part):
-            return negation(inner(part))
-        case And(parts):
-            return conjunction(map(inner, parts))
-        case Or(parts):
-            return disjunction(map(inner, parts))
-        case Imply(left, right):
-            return inner(Or((Not(left), right)))
-        case Forall(parameters, part):
-            return conjunction(inner(part, each) for each in bindings(parameters, objects, binding))
-        case Exists(parameters, part):
-            return disjunction(inner(part, each) for each in bindings(parameters, objects, binding))
+def _formula(tree: Tree, task: Task) -> Formula:
+    """Return the formula that a tree of literals stands for."""
+    if isinstance(tree, int):
+        atom = task.atoms[tree >> 1]
+        found = Atom(atom.predicate, atom.args)
+        return Not(found) if tree & 1 else found
+    word, parts = tree
+    join = conjunction if word == "and" else disjunction
+    return join(_formula(part, task) for part in parts)
 
 
 def holds_in(task: Task, formula: Formula, state: Bits) -> bool:
@@ -102,7 +69,7 @@ def holds_in(task: Task, formula: Formula, state: Bits) -> bool:
 
 
 def negation(formula: Formula) -> Formula:
-    """Negate a ground formula; ``not`` stands at atoms only."""
+    """Negate a ground formula; only atoms are negated in the result."""
     match formula:
         case Atom():
             return Not(formula)
@@ -137,26 +104,13 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
 
 def atoms_of(formula: Formula) -> frozenset[GroundAtom]:
     """Return the atoms of a ground formula."""
-    match formula:
-        case Atom(predicate, terms):
-            return frozenset((GroundAtom(predicate, terms),))
-        case Not(part):
-            return atoms_of(part)
-        case And(parts) | Or(parts):
-            return frozenset[GroundAtom]().union(*(atoms_of(part) for part in parts))
-    raise TypeError(f"not ground: {formula}")
+    atoms = (part for part in subformulas(formula) if isinstance(part, Atom))
+    return frozenset(GroundAtom(atom.predicate, atom.terms) for atom in atoms)
 
 
 def only_negative(formula: Formula) -> bool:
     """Return whether every atom of a ground formula is negated."""
-    match formula:
-        case Atom():
-            return False
-        case Not():
-            return True
-        case And(parts) | Or(parts):
-            return all(only_negative(part) for part in parts)
-    return False
+    return not any(positive and isinstance(part, Atom) for part, positive in signed_subformulas(formula))
 
 
 def fewer(formula: Formula, most: int) -> Formula:

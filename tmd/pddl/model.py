@@ -1,4 +1,4 @@
-"""The nouns of PDDL: typed ADL with conditional and universal effects and action costs; its formulas and its types."""
+"""The model of PDDL: typed ADL with conditional and universal effects and action costs; its formulas and its types."""
 
 from __future__ import annotations
 
@@ -145,6 +145,11 @@ class Exists:
 Formula: TypeAlias = Atom | Equals | Not | And | Or | Imply | Forall | Exists
 
 TRUE = And()
+
+
+def keyword(formula: Formula) -> str:
+    """Return the word of a connective or quantifier in PDDL."""
+    return type(formula).__name__.lower()
 
 
 @dataclass(frozen=True, slots=True)

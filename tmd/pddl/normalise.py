@@ -27,7 +27,7 @@ from tmd.pddl.model import (
     subformulas,
     with_parts,
 )
-from tmd.pddl.reading.requirements import used_requirements
+from tmd.pddl.reading.checking import used_requirements
 
 
 def portable(problem: Problem) -> Problem:

@@ -38,24 +38,6 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.pddl.writer import format_formula
 
-__all__ = [
-    "Binding",
-    "Broken",
-    "action_cost",
-    "applicable",
-    "apply",
-    "bind",
-    "bindings",
-    "cost",
-    "first_broken",
-    "first_false",
-    "holds",
-    "instantiate",
-    "regress",
-    "schema_of",
-    "size",
-]
-
 Binding: TypeAlias = Mapping[str, str]
 """The object that each variable stands for."""
 
@@ -239,7 +221,7 @@ def _stages(effect: Effect) -> tuple[tuple[TypedName | None, tuple[Formula, ...]
 def cost(instruction: Instruction, problem: Problem) -> int:
     """Return the cost of ``instruction``: 1 each, unless the problem minimises total-cost.
 
-    Where it does, an action that says nothing about costs is free, as other planners have it.
+    Where it does, an action without a cost is free, as in other planners.
 
     Raises:
         TmdError: As :func:`bind`, or the problem gives no value for the cost.

@@ -25,13 +25,12 @@ from tmd.pddl.model import (
     Forall,
     Formula,
     GroundAtom,
-    Imply,
-    Not,
-    Or,
     Predicate,
     Problem,
     TypedName,
+    keyword,
     parents_first,
+    parts_of,
 )
 
 _WIDTH = 100
@@ -87,27 +86,13 @@ def format_formula(formula: Formula, binding: Mapping[str, str] | None = None, *
             return str(GroundAtom(formula.predicate, tuple(bound.get(t, t) for t in formula.terms)))
         case Equals(left, right):
             return f"(= {bound.get(left, left)} {bound.get(right, right)})"
-        case Not(part):
-            return f"(not {format_formula(part, bound, typed=typed)})"
-        case And(parts):
-            return _compound("and", parts, bound, typed)
-        case Or(parts):
-            return _compound("or", parts, bound, typed)
-        case Imply(left, right):
-            return _compound("imply", (left, right), bound, typed)
-        case Forall(parameters, part):
-            return f"(forall ({_typed(parameters, typed)}) {_within(parameters, part, bound, typed)})"
-        case Exists(parameters, part):
-            return f"(exists ({_typed(parameters, typed)}) {_within(parameters, part, bound, typed)})"
-
-
-def _compound(word: str, parts: Iterable[Formula], bound: Mapping[str, str], typed: bool) -> str:
-    return f"({' '.join((word, *(format_formula(p, bound, typed=typed) for p in parts)))})"
-
-
-def _within(parameters: Sequence[TypedName], part: Formula, bound: Mapping[str, str], typed: bool) -> str:
-    own = {p.name for p in parameters}
-    return format_formula(part, {n: v for n, v in bound.items() if n not in own}, typed=typed)
+        case Forall(parameters, part) | Exists(parameters, part):
+            own = {p.name for p in parameters}
+            inner = {name: value for name, value in bound.items() if name not in own}
+            words = [f"({_typed(parameters, typed)})", format_formula(part, inner, typed=typed)]
+        case _:
+            words = [format_formula(part, bound, typed=typed) for part in parts_of(formula)]
+    return f"({' '.join((keyword(formula), *words))})"
 
 
 def format_effect(effect: Effect, *, typed: bool = False) -> str:

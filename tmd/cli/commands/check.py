@@ -58,7 +58,7 @@ def command(
 
 def _told(report: CheckReport, *, strict: bool, notes: bool, as_json: bool) -> ExitCode:
     """Print what was found; return how the program ends."""
-    from tmd.check.codes import Severity
+    from tmd.check.diagnostic import Severity
 
     shown = [d for d in report.diagnostics if notes or d.severity is not Severity.NOTE]
     if as_json:

@@ -1,8 +1,8 @@
-"""From a problem to its ground task: every operator that may ever apply, as bit sets.
+"""Grounding of a problem: every operator that may ever apply, as bit sets.
 
 In three steps. Actions are instantiated while relaxed reachability collects the atoms that may hold
-(:mod:`tmd.pddl.grounding.instantiate`). Then what can never apply, and what never changes, is pruned
-(:mod:`tmd.pddl.grounding.ground_task`). At last the atoms that are left are numbered.
+(:mod:`tmd.pddl.grounding.instantiate`). Then what can never apply and what never changes is removed. At last the
+remaining atoms are numbered.
 """
 
 from __future__ import annotations
@@ -81,6 +81,16 @@ def ground_condition(task: Task, formula: Formula, binding: Binding | None = Non
     Raises:
         TmdError: The formula has too many cases.
     """
+    cubes = disjunctive(expand_condition(task, formula, binding), "this formula")
+    return tuple(sorted(_cube(literals) for literals in cubes))
+
+
+def expand_condition(task: Task, formula: Formula, binding: Binding | None = None) -> Tree:
+    """Write a formula over the task's atoms; literal ``2 * n`` is atom ``n``, and ``2 * n + 1`` its negation.
+
+    Raises:
+        LimitError: The formula is too large.
+    """
 
     def lookup(atom: GroundAtom) -> Tree:
         number = task.index.get(atom)
@@ -91,8 +101,7 @@ def ground_condition(task: Task, formula: Formula, binding: Binding | None = Non
     formula = unfolded_condition(formula, task.problem.domain)
     objects = universe(task.problem)
     Work().spend(size(formula, objects), "a condition")
-    tree = expand(formula, binding or {}, objects, lookup)
-    return tuple(sorted(_cube(literals) for literals in disjunctive(tree, "this formula")))
+    return expand(formula, binding or {}, objects, lookup)
 
 
 def _number(problem: Problem, instances: Instances, pruned: Pruned) -> Task:
@@ -105,16 +114,7 @@ def _number(problem: Problem, instances: Instances, pruned: Pruned) -> Task:
     static = frozenset(names[number] for number in pruned.always) | instances.static
     index = {atom: place for place, atom in enumerate(atoms)}
     draft = Task(problem, atoms, static, 0, (), operators, index, {o.instruction: o for o in operators})
-    return Task(
-        problem,
-        atoms,
-        static,
-        draft.encode(problem.init),
-        ground_condition(draft, problem.goal),
-        operators,
-        index,
-        draft.by_instruction,
-    )
+    return replace(draft, init=draft.encode(problem.init), goal=ground_condition(draft, problem.goal))
 
 
 def _cube(literals: Iterable[int]) -> Cube:

@@ -6,7 +6,7 @@ first (semi-naive evaluation), so no binding is tried that could not apply.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -46,6 +46,8 @@ from tmd.pddl.model import (
 from tmd.pddl.semantics import Binding, action_cost, holds, instantiate, size
 
 Row: TypeAlias = tuple[str, ...]
+Variables: TypeAlias = Mapping[str, Sequence[str]]
+"""The objects that each variable may stand for."""
 
 _MOST_ROWS = 500_000
 # Atoms that a check of a static condition looks at, in all rows together: some 30 s.
@@ -80,32 +82,8 @@ class JoinRelation:
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
-    """A test on variables that the join runs as soon as all of them are bound."""
-
-    variables: frozenset[str]
-    test: Callable[[Binding], bool]
-    size: int = 1
-    """How many atoms it looks at, at most."""
-
-
-@dataclass(frozen=True, slots=True)
-class JoinQuery:
-    """A query for values of ``variables`` (each from its list) such that all atoms and checks hold.
-
-    ``atoms`` are matched against ``relations``. ``given`` variables have their values already.
-    """
-
-    variables: Mapping[str, Sequence[str]]
-    atoms: Sequence[Atom]
-    relations: Mapping[str, JoinRelation]
-    checks: Sequence[Check] = ()
-    given: Sequence[str] = ()
-
-
-@dataclass(frozen=True, slots=True)
 class _Match:
-    """Extend a row by what a relation tells."""
+    """Extend a row by the rows of a relation that match it."""
 
     relation: JoinRelation
     places: tuple[int, ...]
@@ -150,24 +128,30 @@ def _too_many_rows() -> LimitError:
 
 @dataclass(frozen=True, slots=True)
 class _Filter:
-    """Drop the rows that fail a check."""
+    """Drop the rows in which a condition on what never changes does not hold."""
 
+    condition: Formula
     slots: tuple[tuple[str, int], ...]
-    test: Callable[[Binding], bool]
-    size: int
+    static: State
+    objects: Universe
 
     def run(self, rows: list[Row]) -> list[Row]:
-        if len(rows) * self.size > _MOST_CHECKED:
+        if len(rows) * size(self.condition, self.objects) > _MOST_CHECKED:
             raise LimitError(
                 f"a condition with quantifiers needs more than {_MOST_CHECKED:,} atoms to be looked at",
                 hint="use types to narrow what its variables range over",
             )
-        return [row for row in rows if self.test({name: row[slot] for name, slot in self.slots})]
+        found = []
+        for row in rows:
+            binding = {name: row[slot] for name, slot in self.slots}
+            if holds(self.condition, self.static, self.objects, binding):
+                found.append(row)
+        return found
 
 
 @dataclass(slots=True)
 class Join:
-    """A query with its order of steps fixed; ``order`` names the columns of its result."""
+    """The steps that bind variables such that conditions hold; ``order`` names the columns of the result."""
 
     order: list[str] = field(default_factory=list)
     steps: list[_Match | _Enumerate | _Filter] = field(default_factory=list)
@@ -180,57 +164,6 @@ class Join:
                 break
             rows = step.run(rows)
         return rows
-
-
-def plan_join(query: JoinQuery) -> Join:
-    """Order the steps: checks as soon as possible, then the atom with the most bound places."""
-    join = Join(list(query.given))
-    waiting = list(query.atoms)
-    checks = list(query.checks)
-    while True:
-        bound = set(join.order)
-        for check in [c for c in checks if c.variables <= bound]:
-            slots = tuple((v, join.order.index(v)) for v in sorted(check.variables))
-            join.steps.append(_Filter(slots, check.test, check.size))
-            checks.remove(check)
-        if waiting:
-            atom = min(waiting, key=lambda a: _effort(a, bound, query))
-            waiting.remove(atom)
-            join.steps.append(_match(atom, query, join.order))
-            continue
-        unbound = [v for v in query.variables if v not in bound]
-        if not unbound:
-            return join
-        join.steps.append(_Enumerate(query.variables[unbound[0]]))
-        join.order.append(unbound[0])
-
-
-def _effort(atom: Atom, bound: set[str], query: JoinQuery) -> tuple[int, int, int]:
-    new = len({t for t in atom.terms if t.startswith("?") and t not in bound})
-    known = len(atom.terms) - new
-    return (min(new, 1), -known, len(query.relations[atom.predicate].rows) or _UNKNOWN)
-
-
-def _match(atom: Atom, query: JoinQuery, order: list[str]) -> _Match:
-    """Return the step for ``atom``; its new variables join ``order``."""
-    places: list[int] = []
-    key: list[int | str] = []
-    new: dict[str, int] = {}
-    same: list[tuple[int, int]] = []
-    for place, term in enumerate(atom.terms):
-        if term in new:
-            same.append((new[term], place))
-        elif term in order:
-            places.append(place)
-            key.append(order.index(term))
-        elif term.startswith("?"):
-            new[term] = place
-        else:
-            places.append(place)
-            key.append(term)
-    order.extend(new)
-    allowed = tuple(frozenset(query.variables[v]) for v in new)
-    return _Match(query.relations[atom.predicate], tuple(places), tuple(key), tuple(new.values()), tuple(same), allowed)
 
 
 @dataclass(frozen=True, slots=True)
@@ -370,36 +303,68 @@ class _Instantiation:
         joins = []
         for atom in fluent:
             given = tuple(dict.fromkeys(t for t in atom.terms if t.startswith("?")))
-            others = tuple(a for a in fluent if a != atom)
-            joins.append(self.join(variables, static, others, given))
+            joins.append(self.join(variables, [*static, *(a for a in fluent if a != atom)], given))
         return _ActionPlan(
             action,
             fluent,
             rest,
-            self.join(variables, static, (), ()),
+            self.join(variables, static, ()),
             tuple(joins),
             tuple(self.effect_plan(e, tuple(variables)) for e in action.effects),
             len(variables) + len(fluent) + size(rest, self.objects) + len(action.effects),
         )
 
-    def join(
-        self,
-        variables: dict[str, tuple[str, ...]],
-        static: Sequence[Formula],
-        fluent: Sequence[Atom],
-        given: Sequence[str],
-    ) -> Join:
-        atoms = [p for p in static if isinstance(p, Atom)]
-        checks = [
-            Check(
-                free_variables(p),
-                lambda binding, p=p: holds(p, self.static, self.objects, binding),  # type: ignore[misc]
-                size(p, self.objects),
-            )
-            for p in static
-            if not isinstance(p, Atom)
-        ]
-        return plan_join(JoinQuery(variables, [*atoms, *fluent], self.relations, checks, given))
+    def join(self, variables: Variables, parts: Sequence[Formula], given: Sequence[str]) -> Join:
+        """Plan the query for values of ``variables`` such that all ``parts`` hold; ``given`` ones are bound before.
+
+        The order is: checks as soon as possible, then the atom with the most bound places.
+        """
+        join = Join(list(given))
+        atoms = [p for p in parts if isinstance(p, Atom)]
+        checks = [(p, free_variables(p)) for p in parts if not isinstance(p, Atom)]
+        while True:
+            bound = set(join.order)
+            for condition, needed in [c for c in checks if c[1] <= bound]:
+                slots = tuple((v, join.order.index(v)) for v in sorted(needed))
+                join.steps.append(_Filter(condition, slots, self.static, self.objects))
+                checks.remove((condition, needed))
+            if atoms:
+                atom = min(atoms, key=lambda a: self.effort(a, bound))
+                atoms.remove(atom)
+                join.steps.append(self.match(atom, variables, join.order))
+                continue
+            unbound = [v for v in variables if v not in bound]
+            if not unbound:
+                return join
+            join.steps.append(_Enumerate(variables[unbound[0]]))
+            join.order.append(unbound[0])
+
+    def effort(self, atom: Atom, bound: set[str]) -> tuple[int, int, int]:
+        new = len({t for t in atom.terms if t.startswith("?") and t not in bound})
+        known = len(atom.terms) - new
+        return (min(new, 1), -known, len(self.relations[atom.predicate].rows) or _UNKNOWN)
+
+    def match(self, atom: Atom, variables: Variables, order: list[str]) -> _Match:
+        """Return the step for ``atom``; its new variables join ``order``."""
+        places: list[int] = []
+        key: list[int | str] = []
+        new: dict[str, int] = {}
+        same: list[tuple[int, int]] = []
+        for place, term in enumerate(atom.terms):
+            if term in new:
+                same.append((new[term], place))
+            elif term in order:
+                places.append(place)
+                key.append(order.index(term))
+            elif term.startswith("?"):
+                new[term] = place
+            else:
+                places.append(place)
+                key.append(term)
+        order.extend(new)
+        allowed = tuple(frozenset(variables[v]) for v in new)
+        relation = self.relations[atom.predicate]
+        return _Match(relation, tuple(places), tuple(key), tuple(new.values()), tuple(same), allowed)
 
     def effect_plan(self, effect: Effect, given: tuple[str, ...]) -> _EffectPlan:
         if not effect.parameters:
@@ -408,7 +373,7 @@ class _Instantiation:
         static = [p for p in parts if self.is_static(p)]
         rest = And(tuple(p for p in parts if not self.is_static(p)))
         variables = {p.name: self.objects.of(p.types) for p in effect.parameters}
-        return _EffectPlan(effect, self.join(variables, static, (), given), rest, signed_atoms(rest))
+        return _EffectPlan(effect, self.join(variables, static, given), rest, signed_atoms(rest))
 
     def instantiate(self, plan: _ActionPlan, order: Sequence[str], rows: Iterable[Row]) -> None:
         """Make the instances for ``rows`` (values in ``order``), each once, and let them take part."""

@@ -1,12 +1,12 @@
-"""The meaning of a domain or problem, checked: every fault at once, each with its place and a hint.
+"""Checks of the meaning of a domain or problem: every fault at once, each with its place and a hint.
 
-Syntax is :mod:`tmd.pddl.reading.reader`'s affair. What is found here: names declared twice or not at all, wrong
-numbers and types of arguments, free variables, and features used without their requirement.
+Found are names that are declared twice or not at all, wrong numbers and types of arguments, free variables, and
+features that are used without their requirement. :mod:`tmd.pddl.reading.reader` checks the syntax.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.derived import strata
@@ -14,6 +14,7 @@ from tmd.pddl.model import (
     MOST_LEVELS,
     OBJECT,
     TOTAL_COST,
+    TRUE,
     ActionSchema,
     Atom,
     Domain,
@@ -22,17 +23,21 @@ from tmd.pddl.model import (
     Exists,
     Forall,
     Formula,
+    Imply,
+    Not,
+    Or,
     Predicate,
     Problem,
     TypedName,
     TypeHierarchy,
+    keyword,
     parts_of,
+    subformulas,
 )
-from tmd.pddl.reading.requirements import missing_requirements
 from tmd.pddl.reading.syntax import Source, nearest
 
 MOST_FAULTS = 250
-"""Number of faults after which the rest of a problem is not looked at: their places and hints take time."""
+"""Number of faults after which the rest of a problem is not checked: their places and hints take time."""
 
 
 def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]:
@@ -74,7 +79,7 @@ def check_condition(
 ) -> list[TmdError]:
     """Return every fault of a condition over ``variables``, which may be of any type.
 
-    An argument of a wider type than the predicate takes is let pass: the condition holds of some of what it stands for.
+    An argument of a wider type than the predicate takes is accepted: the condition may hold of some of its objects.
     """
     check = _Overlapping(domain, domain.constants, source)
     check.formula(condition, dict.fromkeys(variables, ()))
@@ -107,7 +112,7 @@ class _Check:
         """The first type with too many ancestors, which is reported once."""
 
     def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
-        """Note a fault at ``location``."""
+        """Add a fault at ``location``."""
         self.faults.append(TmdError(message, location=location, hint=hint, code=code))
 
     def declarations(self) -> None:
@@ -152,18 +157,16 @@ class _Check:
             self.fault(f'unknown type "{name}"', place, nearest(name, names, what="types"), "unknown-type")
 
     def no_cycle(self, name: str, location: Location | None) -> None:
-        chain: dict[str, None] = {}
-        current: str | None = name
-        while current is not None and current not in chain and len(chain) < MOST_LEVELS:
-            chain[current] = None
-            current = self.hierarchy.parents.get(current)
-        if len(chain) == MOST_LEVELS and self.deepest_type is None:
+        chain = self.hierarchy.ancestors(name)
+        *cycle, _ = chain
+        if cycle and self.hierarchy.parents.get(cycle[-1]) == name:
+            if name not in self.cyclic:
+                self.cyclic.update(cycle)
+                self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name)), "type-cycle")
+        elif len(chain) >= MOST_LEVELS and self.deepest_type is None:
             self.deepest_type = name
             message = f'the type "{name}" has {MOST_LEVELS} ancestors or more'
             self.fault(message, location, "declare fewer levels of types", "nested-too-deeply")
-        if current == name and name not in self.cyclic:
-            self.cyclic.update(chain)
-            self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*chain, name)), "type-cycle")
 
     def one_type(self, declared: TypedName, what: str) -> None:
         for name in declared.types:
@@ -179,7 +182,7 @@ class _Check:
     def parameters(
         self, parameters: Sequence[TypedName], scope: Mapping[str, tuple[str, ...]]
     ) -> dict[str, tuple[str, ...]]:
-        """Return ``scope`` with ``parameters`` in it."""
+        """Check ``parameters``, and return ``scope`` extended by them."""
         inner = dict(scope)
         for parameter in parameters:
             for name in parameter.types:
@@ -325,7 +328,7 @@ class _Check:
         return self.known_objects.get(term)
 
     def objects(self, problem: Problem) -> None:
-        """Return the problem's objects. A constant may be listed again with the same type."""
+        """Check the problem's objects. A constant may be listed again with the same type."""
         self.unique(problem.objects, "object")
         constants = {c.name: c.types for c in problem.domain.constants}
         for declared in problem.objects:
@@ -335,7 +338,7 @@ class _Check:
                 self.fault(message, declared.location, "rename the object", "duplicate-name")
 
     def values(self, problem: Problem) -> None:
-        """Return the values of cost functions, and that there is a cost to minimise."""
+        """Check the values of cost functions, and that there is a cost to minimise."""
         for function in sorted(problem.function_values):
             place = problem.init_locations.get(function)
             self.atom(Atom(function.predicate, function.args, place), {}, self.functions, "function")
@@ -347,7 +350,7 @@ class _Check:
 
 
 class _Overlapping(_Check):
-    """Arguments need only have something in common with what is asked for."""
+    """A check in which an argument fits a parameter if their types overlap."""
 
     def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
         above = self.hierarchy.ancestors
@@ -356,3 +359,132 @@ class _Overlapping(_Check):
 
 def _either(types: Sequence[str]) -> str:
     return f'"{types[0]}"' if len(types) == 1 else f"either {' '.join(types)}"
+
+
+_QUANTIFIED = (":existential-preconditions", ":universal-preconditions")
+_IMPLIED = {
+    ":domain-axioms": (":derived-predicates",),
+    ":fluents": (":action-costs",),
+    ":numeric-fluents": (":action-costs",),
+    ":quantified-preconditions": _QUANTIFIED,
+    ":adl": (
+        ":typing",
+        ":negative-preconditions",
+        ":disjunctive-preconditions",
+        ":equality",
+        ":quantified-preconditions",
+        ":conditional-effects",
+        *_QUANTIFIED,
+    ),
+}
+
+# Needs :negative-preconditions to the letter. Most domains do without, so its lack is not a fault; we write it.
+_OTHER_NOT = '"not" around something else than an atom'
+
+# A requirement, the feature that needs it, and where that stands.
+_Use = tuple[str, str, Location | None]
+
+
+def missing_requirements(domain: Domain, problem: Problem | None = None) -> list[TmdError]:
+    """Return a fault for each requirement that is used and not declared, at its first use.
+
+    Without ``problem`` the domain is checked; with it, the problem, which inherits the requirements of its domain.
+    Those that the domain lacks itself are not repeated.
+    """
+    of_the_domain = {name for name, _, _ in _undeclared(domain, None)} if problem else set[str]()
+    return [
+        TmdError(
+            f"{feature} needs {name}",
+            location=place,
+            hint=f"add {name} to (:requirements ...)",
+            code="missing-requirement",
+        )
+        for name, feature, place in _undeclared(domain, problem)
+        if name not in of_the_domain
+    ]
+
+
+def undeclared_requirements(problem: Problem) -> tuple[str, ...]:
+    """Return the requirements that ``problem`` uses and neither it nor its domain declares."""
+    return tuple(name for name, _, _ in _undeclared(problem.domain, problem))
+
+
+def _undeclared(domain: Domain, problem: Problem | None) -> list[_Use]:
+    declared = set(domain.requirements) | set(problem.requirements if problem else ())
+    for name in tuple(declared):
+        declared.update(_IMPLIED.get(name, ()))
+    first: dict[str, _Use] = {}
+    for use in _problem_uses(problem) if problem else _domain_uses(domain):
+        if use[1] == _OTHER_NOT:
+            continue
+        before = first.get(use[0])
+        if before is None or (use[2] and before[2] and use[2] < before[2]):
+            first[use[0]] = use
+    return [use for use in first.values() if use[0] not in declared]
+
+
+def used_requirements(domain: Domain, problem: Problem | None = None) -> tuple[str, ...]:
+    """Return the requirements that ``domain`` (and ``problem``) use, each once, in the usual order."""
+    used = {requirement for requirement, _, _ in _domain_uses(domain)}
+    if problem:
+        used |= {requirement for requirement, _, _ in _problem_uses(problem)}
+    others = (":conditional-effects", ":action-costs", ":derived-predicates")
+    usual = (":typing", *_IMPLIED[":adl"][1:4], *_QUANTIFIED, *others)
+    return (":strips", *(name for name in usual if name in used))
+
+
+def _domain_uses(domain: Domain) -> Iterator[_Use]:
+    for declared in domain.types:
+        yield ":typing", f'the type "{declared.name}"', declared.location
+    yield from _typed(domain.constants)
+    for signature in (*domain.predicates, *domain.functions):
+        yield from _typed(signature.parameters)
+    for function in domain.functions:
+        yield ":action-costs", f'the function "{function.name}"', function.location
+    for axiom in domain.derived:
+        yield ":derived-predicates", '":derived"', axiom.location
+        yield from _typed(axiom.parameters)
+        yield from _formula_uses(axiom.condition)
+    for action in domain.actions:
+        yield from _typed(action.parameters)
+        yield from _formula_uses(action.precondition)
+        for effect in action.effects:
+            if effect.parameters:
+                yield ":conditional-effects", '"forall" in an effect', effect.location
+            if effect.condition != TRUE:
+                yield ":conditional-effects", '"when"', effect.location
+            yield from _typed(effect.parameters)
+            yield from _formula_uses(effect.condition)
+        if action.cost is not None:
+            place = action.cost.location if isinstance(action.cost, Atom) else action.location
+            yield ":action-costs", '"increase"', place
+
+
+def _problem_uses(problem: Problem) -> Iterator[_Use]:
+    yield from _typed(problem.objects)
+    yield from _formula_uses(problem.goal)
+    if problem.minimize_cost:
+        yield ":action-costs", "the metric", problem.metric_location or problem.location
+
+
+def _typed(names: Iterable[TypedName]) -> Iterator[_Use]:
+    for name in names:
+        if name.types != (OBJECT,):
+            yield ":typing", f'the type of "{name.name}"', name.location
+
+
+def _formula_uses(formula: Formula) -> Iterator[_Use]:
+    for part in subformulas(formula):
+        match part:
+            case Equals():
+                yield ":equality", '"="', part.location
+            case Not(inner):
+                yield ":negative-preconditions", '"not"' if isinstance(inner, Atom) else _OTHER_NOT, part.location
+                if not isinstance(inner, Atom | Equals):
+                    yield ":disjunctive-preconditions", '"not" around a compound condition', part.location
+            case Or() | Imply():
+                yield ":disjunctive-preconditions", f'"{keyword(part)}"', part.location
+            case Forall(parameters) | Exists(parameters):
+                kind = "universal" if isinstance(part, Forall) else "existential"
+                yield f":{kind}-preconditions", f'"{keyword(part)}"', part.location
+                yield from _typed(parameters)

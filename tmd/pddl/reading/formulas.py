@@ -143,7 +143,7 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
         if isinstance(node, Word) and node.text == "-":
             types = _types_after(node, rest, source)
             if not waiting:
-                source.fault(source.error(f"this type belongs to no {what}", node.location))
+                source.fault_at(f"this type belongs to no {what}", node.location)
             found.extend(TypedName(w.text, types, w.location) for w in waiting)
             waiting.clear()
         else:
@@ -170,7 +170,7 @@ def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list
     if not variables:
         return source.recover([], lambda: [read_name(node, source, f"the name of {what}")])
     if isinstance(node, Group):
-        source.fault(source.error(f"expected {what} such as ?x, found a parenthesis", node.location))
+        source.fault_at(f"expected {what} such as ?x, found a parenthesis", node.location)
         return []
     if not _VARIABLE.fullmatch(node.text):
         name = f"?{node.text.lstrip('?')}"

@@ -30,7 +30,7 @@ from tmd.pddl.model import (
     TypedName,
     parents_first,
 )
-from tmd.pddl.reading.checking import check_domain, check_problem
+from tmd.pddl.reading.checking import check_domain, check_problem, undeclared_requirements
 from tmd.pddl.reading.formulas import (
     Effects,
     read_atom,
@@ -42,7 +42,6 @@ from tmd.pddl.reading.formulas import (
     read_typed_list,
     unsupported,
 )
-from tmd.pddl.reading.requirements import undeclared_requirements
 from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, Word, nearest, parse, read_text
 from tmd.pddl.semantics import close
 
@@ -61,7 +60,7 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
     names: list[str] = []
     for node in group.parts[1:]:
         if isinstance(node, Group) or not node.text.startswith(":"):
-            source.fault(source.error("a requirement begins with a colon", node.location))
+            source.fault_at("a requirement begins with a colon", node.location)
             continue
         if node.text in _UNSUPPORTED_REQUIREMENTS:
             what = _UNSUPPORTED_REQUIREMENTS[node.text]
@@ -74,7 +73,7 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
         elif node.text not in REQUIREMENTS:
             message = f'"{node.text}" is not a known requirement'
             hint = nearest(node.text, [*REQUIREMENTS, *_UNSUPPORTED_REQUIREMENTS])
-            source.fault(source.error(message, node.location, hint, "unknown-requirement"))
+            source.fault_at(message, node.location, hint, "unknown-requirement")
             continue
         if node.text not in names:
             names.append(node.text)
@@ -135,7 +134,7 @@ def read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
             found.append(TypeDeclaration(typed.name, typed.types[0], typed.location))
         elif typed.types[0] != OBJECT:
             message = '"object" is the root of all types and has no parent'
-            source.fault(source.error(message, typed.location, code="type-cycle"))
+            source.fault_at(message, typed.location, code="type-cycle")
     declared = _with_undeclared_parents(_each_once(found, source), source)
     if source.report is not None:
         _warn_of_children_first(found, source)
@@ -245,7 +244,7 @@ def read_functions(group: Group, document: Document) -> tuple[Predicate, ...]:
     while nodes:
         node = nodes.pop(0)
         if isinstance(node, Word):
-            source.fault(source.error(f'expected (function ...), found "{node.text}"', node.location))
+            source.fault_at(f'expected (function ...), found "{node.text}"', node.location)
             continue
         found.extend(source.recover((), _read_function, node, document))
         if nodes and isinstance(nodes[0], Word) and nodes[0].text == "-":
@@ -336,11 +335,11 @@ def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Nod
         keyword = nodes.pop(0)
         if isinstance(keyword, Group):
             message = "expected :parameters, :precondition or :effect, found a parenthesis"
-            source.fault(source.error(message, keyword.location, "use (and ...) for several conditions or effects"))
+            source.fault_at(message, keyword.location, "use (and ...) for several conditions or effects")
             continue
         value = nodes[0] if nodes else None
         if value is None or (isinstance(value, Word) and value.text.startswith(":")):
-            source.fault(source.error(f'nothing follows "{keyword.text}"', keyword.location))
+            source.fault_at(f'nothing follows "{keyword.text}"', keyword.location)
             continue
         source.recover(None, _known_part, keyword, action, parts, source)
         meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # its value is not reported as missing as well
@@ -364,13 +363,11 @@ def read_domain_name(group: Group, domain: Domain, source: Source) -> str:
     """Read ``(:domain name)``, which must name ``domain``."""
     name = read_name(only_part(group, source), source, "the name of a domain")
     if name.text != domain.name:
-        source.fault(
-            source.error(
-                f'the problem is of domain "{name.text}", the domain given is "{domain.name}"',
-                name.location,
-                f'did you mean "{domain.name}"?',
-                "domain-mismatch",
-            )
+        source.fault_at(
+            f'the problem is of domain "{name.text}", the domain given is "{domain.name}"',
+            name.location,
+            f'did you mean "{domain.name}"?',
+            "domain-mismatch",
         )
     return name.text
 
@@ -507,7 +504,7 @@ def parse_problem_unchecked(
     for needed in (":domain", ":goal"):
         if needed not in heads:
             message = f"the problem has no ({needed} ...)"
-            source.fault(source.error(message, name.location, "add it", "missing-section"))
+            source.fault_at(message, name.location, "add it", "missing-section")
     problem = Problem(
         name.text,
         domain,
@@ -549,13 +546,11 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     first = document.groups[0]
     document.check_depth()
     if len(document.groups) > 1:
-        source.fault(
-            source.error(
-                f'this parenthesis closes "({first.head}" too early: more text follows',
-                first.end,
-                'a ")" before it is too many',
-                "extra-parenthesis",
-            )
+        source.fault_at(
+            f'this parenthesis closes "({first.head}" too early: more text follows',
+            first.end,
+            'a ")" before it is too many',
+            "extra-parenthesis",
         )
     if first.head != "define" or len(first.parts) < 2:
         raise source.error(f"expected (define ({kind} name) ...)", first.location)
@@ -566,12 +561,10 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     name = read_name(title.parts[1], source, f"the name of a {kind}")
     for section in sections:
         if isinstance(section, Word):
-            source.fault(
-                source.error(
-                    f'"{section.text}" stands outside its section',
-                    section.location,
-                    "a parenthesis before it is too many",
-                )
+            source.fault_at(
+                f'"{section.text}" stands outside its section',
+                section.location,
+                "a parenthesis before it is too many",
             )
     return name, [s for s in sections if isinstance(s, Group)]
 
@@ -612,7 +605,7 @@ class InitReader:
             if atom in self.atoms:
                 message = f"{atom} is said to hold and not to hold"
                 hint = "remove one of the two"
-                self.source.fault(self.source.error(message, self.locations[atom], hint, "contradictory-init"))
+                self.source.fault_at(message, self.locations[atom], hint, "contradictory-init")
         if self.twice:
             atom, place = self.twice[0]
             more = f", and so do {len(self.twice) - 1} more" if len(self.twice) > 1 else ""

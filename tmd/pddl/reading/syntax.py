@@ -86,6 +86,10 @@ class Source:
             raise error
         self.report(error)
 
+    def fault_at(self, message: str, location: Location | None, hint: str | None = None, code: str = "syntax") -> None:
+        """Raise the error of :meth:`error`, or report it and return."""
+        self.fault(self.error(message, location, hint, code))
+
     def warn(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
         """Report a warning; it is dropped where faults are raised."""
         if self.report is not None:
@@ -355,7 +359,7 @@ class _Parser:
 
     def fault(self, message: str, location: Location, hint: str | None, code: str) -> None:
         self.faults += 1
-        self.source.fault(self.source.error(message, location, hint, code))
+        self.source.fault_at(message, location, hint, code)
 
     def look_at_indentation(self, token: str, location: Location) -> None:
         """Return a line that begins left of the group it stands in shows that the group lacks its end."""
