@@ -116,7 +116,7 @@ def _adds_time(problem: Outside, lit: Outside, action: Outside) -> None:
     ("change", "message"),
     [
         (_adds_a_name, "'3 lamps' is not a name in PDDL"),
-        (_adds_a_number, "the effect .* is not supported"),
+        (_adds_a_number, "not supported: numeric fluents"),
         (_adds_a_metric, "the metric .* is not supported"),
         (_adds_time, "has durative actions, which are not supported"),
     ],
