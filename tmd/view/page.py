@@ -21,8 +21,7 @@ from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
 from tmd.view.object_graph import Anatomy, GraphChanges, anatomy, draw
-from tmd.view.pictures import Strip, Tile
-from tmd.view.run_record import Ran
+from tmd.view.pictures import Strip
 from tmd.view.subject import PlannedStep, Said, Subject
 from tmd.view.wording import Wording
 
@@ -43,23 +42,6 @@ class Page:
 
     html: str
     verdict: Verdict
-
-
-@dataclass(frozen=True, slots=True)
-class _Seen:
-    """Executed step of a robot, with its picture."""
-
-    step: RanStep
-    picture: str
-
-
-@dataclass(frozen=True, slots=True)
-class _ClauseRow:
-    number: int
-    notation: str
-    meant: tuple[tuple[str, str, str], ...]
-    notes: tuple[str, ...]
-    unseen: bool
 
 
 def render(subject: Subject) -> Page:
@@ -118,12 +100,21 @@ def _candidates(subject: Subject, verdict: Verdict) -> str:
     return candidates(subject.plans, [verdict.reason, *others], subject.refusals)
 
 
-def _clause_rows(said: Said) -> list[_ClauseRow]:
-    rows = []
+def _clause_rows(said: Said) -> list[dict[str, object]]:
+    """Return the rows of the table of clauses."""
+    rows: list[dict[str, object]] = []
     for number, clause in enumerate(said.parsed.clauses):
         meant = {} if said.meant is None else said.meant[number]
         told = tuple((name, _reading(clause, name), ", ".join(objects)) for name, objects in meant.items())
-        rows.append(_ClauseRow(number + 1, print_clause(clause), told, _notes(clause), clause.verb in said.unseen))
+        rows.append(
+            {
+                "number": number + 1,
+                "notation": print_clause(clause),
+                "meant": told,
+                "notes": _notes(clause),
+                "unseen": clause.verb in said.unseen,
+            }
+        )
     return rows
 
 
@@ -139,14 +130,13 @@ def _notes(clause: Clause) -> tuple[str, ...]:
     return (*quantities, *(f"{word}: {' '.join(value.split())}" for word, value in said if value))
 
 
-def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[_Seen]]:
-    """Map each step of the plan to the executed steps of the robot for it."""
+def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[tuple[RanStep, str]]]:
+    """Map each step of the plan to the executed steps of the robot for it, each with its picture."""
     if subject.ran is None:
         return {}
-    ran: Ran = subject.ran
-    strip = subject.strip
+    ran, strip = subject.ran, subject.strip
     return {
-        step.number: [_Seen(done, _picture(strip, place)) for place, done in ran.of(step.number, len(steps))]
+        step.number: [(done, _picture(strip, place)) for place, done in ran.of(step.number, len(steps))]
         for step in steps
     }
 
@@ -155,12 +145,12 @@ def _picture(strip: Strip | None, place: int) -> str:
     """Return the style that shows one picture of the sheet at any size; empty where there is none."""
     if strip is None or place >= len(strip.tiles):
         return ""
-    tile: Tile = strip.tiles[place]
+    x, y = strip.tiles[place]
     across, down = strip.width - strip.tile_width, strip.height - strip.tile_height
     size = f"{100 * strip.width / strip.tile_width:.4f}% {100 * strip.height / strip.tile_height:.4f}%"
     return (
         f"aspect-ratio:{strip.tile_width}/{strip.tile_height};background-size:{size};"
-        f"background-position:{100 * tile.x / across:.4f}% {100 * tile.y / down:.4f}%"
+        f"background-position:{100 * x / across:.4f}% {100 * y / down:.4f}%"
     )
 
 
