@@ -253,46 +253,32 @@ def restored(problem: Problem, plan: Iterable[Instruction]) -> tuple[Instruction
     ``(grasp-cup1)`` and ``(grasp-cup1-7)`` become ``(grasp cup1)``. An instruction that names an action of the
     problem stays as it is, and so does a name that can be read in no way or in several.
     """
-    names = {action.name: len(action.parameters) for action in problem.domain.actions}
-    objects = {o.name for o in problem.all_objects()}
+    arities = {action.name: len(action.parameters) for action in problem.domain.actions}
+    objects = [o.name for o in problem.all_objects()]
 
     def one(step: Instruction) -> Instruction:
-        if step.name in names or step.args:
+        if step.name in arities or step.args:
             return step
-        readings = {r for text in _endings(step.name) for r in _readings(text, names, objects)}
+        head, _, number = step.name.rpartition("-")
+        readings = {
+            Instruction(action, args)
+            for text in (step.name, head if number.isdecimal() else step.name)
+            for action, arity in arities.items()
+            if text.startswith(action)
+            for args in _arguments(text.removeprefix(action), arity, objects)
+        }
         return readings.pop() if len(readings) == 1 else step
 
     return tuple(one(step) for step in plan)
 
 
-def _endings(name: str) -> Iterable[str]:
-    """Return the name, and the name without the number of a step."""
-    yield name
-    head, _, tail = name.rpartition("-")
-    if head and tail.isdecimal():
-        yield head
-
-
-def _readings(text: str, names: Mapping[str, int], objects: set[str]) -> Iterable[Instruction]:
-    for name, arity in names.items():
-        if text == name and not arity:
-            yield Instruction(name)
-        elif arity and text.startswith(f"{name}-"):
-            for args in _split(text[len(name) + 1 :].split("-"), arity, objects):
-                yield Instruction(name, args)
-
-
-def _split(pieces: Sequence[str], count: int, objects: set[str]) -> Iterable[tuple[str, ...]]:
-    """Return every way to join ``pieces`` by hyphens to ``count`` objects."""
-    if count == 0:
-        if not pieces:
-            yield ()
-        return
-    for end in range(1, len(pieces) - count + 2):
-        first = "-".join(pieces[:end])
-        if first in objects:
-            for rest in _split(pieces[end:], count - 1, objects):
-                yield (first, *rest)
+def _arguments(text: str, count: int, objects: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """Yield every way to read ``text`` as ``count`` objects, each behind a hyphen."""
+    if not count and not text:
+        yield ()
+    for name in objects if count else ():
+        if text.startswith(f"-{name}"):
+            yield from ((name, *rest) for rest in _arguments(text.removeprefix(f"-{name}"), count - 1, objects))
 
 
 def with_flat_types(problem: Problem) -> Problem:
