@@ -10,10 +10,10 @@ import pytest
 from tests.export.conftest import planned_case
 from tmd.diagnostics import TmdError
 from tmd.export.formats import FORMATS
-from tmd.export.from_unified import from_unified_planning
 from tmd.export.planned_problem import Planned
-from tmd.export.to_unified import (
+from tmd.export.unified import (
     format_anml,
+    from_unified_planning,
     plan_from_unified_planning,
     plan_to_unified_planning,
     to_unified_planning,

@@ -95,13 +95,13 @@ def _plansys2(source: Planned) -> Texts:
 
 
 def _anml(source: Planned) -> Texts:
-    from tmd.export.to_unified import format_anml
+    from tmd.export.unified import format_anml
 
     return {"problem.anml": format_anml(source.problem)}
 
 
 def _protobuf(source: Planned) -> Files:
-    from tmd.export.to_unified import messages
+    from tmd.export.unified import messages
 
     problem, plan = messages(source)
     return {"problem.pb": problem, "plan.pb": plan}
