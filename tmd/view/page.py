@@ -15,14 +15,14 @@ from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula
-from tmd.records.run import MARKS, RanStep
+from tmd.records.run import MARKS
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
 from tmd.view.object_graph import Anatomy, GraphChanges, anatomy, draw
 from tmd.view.pictures import Strip
-from tmd.view.subject import PlannedStep, Said, Subject
+from tmd.view.subject import PlannedStep, Subject
 from tmd.view.wording import Wording
 
 # A plan with more steps than this has them folded.
@@ -69,9 +69,10 @@ def render(subject: Subject) -> Page:
             folded=len(steps) > FEW,
             undrawn=next((step.number for step in steps if step.reached and not step.drawn), None),
             sentence="" if said is None else lit_sentence(said.parsed, said.meant, said.unseen),
-            clauses=[] if said is None else _clause_rows(said),
+            notation=print_clause,
+            notes=_notes,
             candidates=_candidates(subject, verdict),
-            seen=_seen(subject, steps),
+            picture=_picture,
             version=__version__,
             style=style() + data("page.css"),
             script=script,
@@ -100,45 +101,11 @@ def _candidates(subject: Subject, verdict: Verdict) -> str:
     return candidates(subject.plans, [verdict.reason, *others], subject.refusals)
 
 
-def _clause_rows(said: Said) -> list[dict[str, object]]:
-    """Return the rows of the table of clauses."""
-    rows: list[dict[str, object]] = []
-    for number, clause in enumerate(said.parsed.clauses):
-        meant = {} if said.meant is None else said.meant[number]
-        told = tuple((name, _reading(clause, name), ", ".join(objects)) for name, objects in meant.items())
-        rows.append(
-            {
-                "number": number + 1,
-                "notation": print_clause(clause),
-                "meant": told,
-                "notes": _notes(clause),
-                "unseen": clause.verb in said.unseen,
-            }
-        )
-    return rows
-
-
-def _reading(clause: Clause, name: str) -> str:
-    """Return the reading of a pronoun, or of an object that was left out."""
-    read = clause.meant(name)
-    return "" if read == (name,) else " + ".join(read)
-
-
 def _notes(clause: Clause) -> tuple[str, ...]:
+    """Return the parts of a clause that have no column in the table of clauses."""
     said = (("condition", clause.condition), ("duration", clause.duration), ("purpose", clause.purpose))
     quantities = [f"{count} {name}" for name, count in clause.quantities.items()]
     return (*quantities, *(f"{word}: {' '.join(value.split())}" for word, value in said if value))
-
-
-def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[tuple[RanStep, str]]]:
-    """Map each step of the plan to the executed steps of the robot for it, each with its picture."""
-    if subject.ran is None:
-        return {}
-    ran, strip = subject.ran, subject.strip
-    return {
-        step.number: [(done, _picture(strip, place)) for place, done in ran.of(step.number, len(steps))]
-        for step in steps
-    }
 
 
 def _picture(strip: Strip | None, place: int) -> str:

@@ -234,24 +234,20 @@ def _ended(end: RunRecord | EndEvent, steps: tuple[RanStep, ...]) -> Ran:
 
 def _strip(asked: ViewRequest, recorded: str | None, count: int) -> Strip | None:
     """Return the filmstrip of a run: the one that was named, else what lies beside the log."""
-    if asked.strip is not None:
-        found = _picture(asked.strip, count)
-        if found is None:
-            raise TmdError(f"{asked.strip} is not a PNG picture", hint="give what tmd run --strip wrote")
-        return found
-    if asked.source == STANDARD:
+    path = asked.strip
+    if path is None and asked.source != STANDARD:
+        names = ([Path(recorded).name] if recorded else []) + [asked.path.with_suffix(".png").name]
+        path = next((asked.path.parent / name for name in names if (asked.path.parent / name).is_file()), None)
+    if path is None:
         return None
-    names = [Path(recorded).name] if recorded else []
-    paths = [asked.path.parent / name for name in names] + [asked.path.with_suffix(".png")]
-    path = next((path for path in paths if path.is_file()), None)
-    return None if path is None else _picture(path, count)
-
-
-def _picture(path: Path, count: int) -> Strip | None:
+    hint = "give what tmd run --strip wrote"
     try:
-        return read_strip(read_bytes(path), count)
+        found = read_strip(read_bytes(path), count)
     except OSError as error:
-        raise TmdError(f"{path} cannot be read: {error.strerror}", hint="give what tmd run --strip wrote") from None
+        raise TmdError(f"{path} cannot be read: {error.strerror}", hint=hint) from None
+    if found is None and asked.strip is not None:
+        raise TmdError(f"{path} is not a PNG picture", hint=hint)
+    return found
 
 
 def _demonstration_found(roots: Roots, asked: ViewRequest, lines: Lines) -> FoundSubject:
@@ -331,20 +327,16 @@ def _scene(
     roots: Roots, asked: ViewRequest, domain: str | None, environment: str, file: str | None
 ) -> tuple[Corpus, World]:
     """Return the environment: the one that was named now, else the file that was named then, else the bundled one."""
-    if asked.environment is not None:
-        return roots.world(asked.environment, asked.domain or _domain_of(asked.environment, domain))
-    if file is not None:
+    place = asked.environment
+    if place is None and file is not None:
         paths = [Path(file), asked.path.parent / Path(file).name]
-        path = next((path for path in paths if path.is_file()), None)
-        if path is None:
+        place = next((str(path) for path in paths if path.is_file()), None)
+        if place is None:
             raise TmdError(f"the environment {file} is not there any more", hint="give it with --environment FILE")
-        return roots.world(str(path), asked.domain or _domain_of(str(path), domain))
-    return roots.world(environment, asked.domain or domain)
-
-
-def _domain_of(environment: str, recorded: str | None) -> str | None:
-    """Return the domain that was recorded, for an environment that does not say its own."""
-    return recorded if environment.endswith(".pddl") else None
+    if place is None:
+        return roots.world(environment, asked.domain or domain)
+    # an environment in PDDL does not name its domain
+    return roots.world(place, asked.domain or (domain if place.endswith(".pddl") else None))
 
 
 _WHERE = "a plan file does not say where it belongs: --problem p.pddl, or --environment kitchen1"
