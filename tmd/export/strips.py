@@ -47,7 +47,7 @@ class Strips:
     Attributes:
         problem: The ground problem, in STRIPS.
         plan: The plan, in its actions; they have no arguments.
-        instructions: The instruction that each of its actions stands for, by the action's name.
+        instructions: The instruction that each of its actions was made of, by the action's name.
     """
 
     problem: Problem
