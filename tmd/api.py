@@ -14,11 +14,15 @@ from typing import TYPE_CHECKING, Any
 from tmd.diagnostics import TmdError
 from tmd.domain_kit import DomainKit
 from tmd.export.end_goal import asked_problem
-from tmd.export.from_unified import from_unified_planning
 from tmd.export.pddl_package import from_pddl, to_pddl
 from tmd.export.planned_problem import planned
 from tmd.export.strips import restored
-from tmd.export.to_unified import plan_from_unified_planning, plan_to_unified_planning, to_unified_planning
+from tmd.export.unified import (
+    from_unified_planning,
+    plan_from_unified_planning,
+    plan_to_unified_planning,
+    to_unified_planning,
+)
 from tmd.grounded import Grounded
 from tmd.language.parser import parse
 from tmd.pddl.model import Instruction, Problem

@@ -10,10 +10,10 @@ import pytest
 from tests.export.conftest import planned_case
 from tmd.diagnostics import TmdError
 from tmd.export.formats import FORMATS
-from tmd.export.from_unified import from_unified_planning
 from tmd.export.planned_problem import Planned
-from tmd.export.to_unified import (
+from tmd.export.unified import (
     format_anml,
+    from_unified_planning,
     plan_from_unified_planning,
     plan_to_unified_planning,
     to_unified_planning,
@@ -116,7 +116,7 @@ def _adds_time(problem: Outside, lit: Outside, action: Outside) -> None:
     ("change", "message"),
     [
         (_adds_a_name, "'3 lamps' is not a name in PDDL"),
-        (_adds_a_number, "the effect .* is not supported"),
+        (_adds_a_number, "not supported: numeric fluents"),
         (_adds_a_metric, "the metric .* is not supported"),
         (_adds_time, "has durative actions, which are not supported"),
     ],

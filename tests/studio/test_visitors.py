@@ -552,7 +552,7 @@ def test_what_has_no_picture_has_its_object_graphs_drawn_and_no_robot(
     served = Server(Studio(blocks, Teacher(blocks)), "127.0.0.1", 0)
     try:
         with Wire(served.url) as visitor:
-            visitor.shows("<svg")
+            visitor.shows('<div class="tmd-graph"')
             visitor.put("Text", served.studio.examples(served.studio.start)[0])
             visitor.press("Plan it")
             visitor.told("Planned in")

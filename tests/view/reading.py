@@ -49,12 +49,12 @@ class Reader(HTMLParser):
         return [attributes for _, attributes in self.elements if name in attributes.get("class", "").split()]
 
 
-def svg(text: str) -> ET.Element:
-    """An SVG as a tree."""
-    return ET.fromstring(text)
+def lists(text: str) -> list[ET.Element]:
+    """The lists of an object graph: of the object, and of each of its parts."""
+    return ET.fromstring(text).findall("ul")
 
 
 def lines(text: str, kind: str | None = None) -> list[str]:
-    """The lines of text in an SVG; those of one class, if asked for."""
-    found = svg(text).iter("text")
+    """The lines of an object graph; those of one class, if asked for."""
+    found = ET.fromstring(text).iter("li")
     return ["".join(element.itertext()) for element in found if kind is None or element.get("class") == kind]

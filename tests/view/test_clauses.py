@@ -133,6 +133,7 @@ def test_what_the_plan_has_nothing_to_do_with_stands_in_brackets(kitchen: World)
     parsed = parse("Fill the cup with water. Stir the mixture. Open the fridge.")
     plan = ["find(cup1)", "moveto(cup1)", "grasp(cup1)", "moveto(fridge1)", "keep(cup1, fridge1_dispenser, in)"]
     served = [[parse_instruction(text) for text in (*plan, "press(fridge1_button)")], []]
-    fill, stir, open_it = meanings_in(parsed.clauses, [*served, [parse_instruction("open(fridge1_door)")]], kitchen)
+    served.append([parse_instruction("open(fridge1_door)")])
+    fill, stir, open_it = meanings_in(parsed.clauses, enumerate(served), kitchen)
     assert fill == {"cup": ("cup1",), "water": ("water",)}
     assert stir == {"mixture": ("(milk1)",)} and open_it == {"fridge": ("fridge1",)}

@@ -25,9 +25,8 @@ from tmd.pddl.validator import Status
 from tmd.records.run import RanStep
 from tmd.view.page import render, shown_steps
 from tmd.view.pictures import read_strip
-from tmd.view.run_record import Ran
 from tmd.view.sources import demonstrated_subject
-from tmd.view.subject import PlannedStep, Subject, grounded_subject
+from tmd.view.subject import PlannedStep, Ran, Subject, grounded_subject
 from tmd.world.world import World
 
 
@@ -210,8 +209,8 @@ def test_the_pictures_of_a_filmstrip_are_found() -> None:
         strip = read_strip(data.getvalue(), count)
         assert strip is not None and (strip.tile_width, strip.tile_height) == (40, 38)
         sheet = np.asarray(Image.open(io.BytesIO(b64decode(strip.address.partition(",")[2]))))
-        for place, tile in enumerate(strip.tiles):
-            assert (sheet[tile.y : tile.y + 38, tile.x : tile.x + 40] == 5 * place + 1).all()
+        for place, (x, y) in enumerate(strip.tiles):
+            assert (sheet[y : y + 38, x : x + 40] == 5 * place + 1).all()
 
 
 def test_what_is_no_strip_has_no_tiles() -> None:

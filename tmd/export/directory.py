@@ -36,10 +36,8 @@ def check_directory(directory: Path, *, overwrite: bool = False) -> None:
 
 def _first_above(path: Path) -> Path:
     """Return ``path``, or the nearest directory above it that is there."""
-    found = path.absolute()
-    while not found.exists() and found != found.parent:
-        found = found.parent
-    return found
+    whole = path.absolute()
+    return next(found for found in (whole, *whole.parents) if found.exists())
 
 
 def write_directory(directory: Path, files: Mapping[str, bytes], *, overwrite: bool = False) -> None:
@@ -81,13 +79,12 @@ def _appear(directory: Path, files: Mapping[str, bytes]) -> None:
     remove_leftovers(target)
     draft = draft_of(target)
     rmtree(draft, ignore_errors=True)  # of an earlier process with the number of this one, as containers have it
-    draft.mkdir(mode=0o700)
+    draft.mkdir()
     try:
         try:
             _replace_files(draft, files)
         except OutputError as error:  # of the directory that was asked for, not of the draft
             raise OutputError(error.message.replace(str(draft), str(directory)), hint=error.hint) from error
-        draft.chmod(0o777 & ~_umask())
         draft.replace(target)
     except BaseException:
         rmtree(draft, ignore_errors=True)
@@ -95,9 +92,3 @@ def _appear(directory: Path, files: Mapping[str, bytes]) -> None:
             with suppress(OSError):
                 parent.rmdir()
         raise
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -15,11 +15,11 @@ from decimal import Decimal
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
-    Atom,
     Domain,
     Effect,
     GroundAtom,
     Instruction,
+    Not,
     Predicate,
     Problem,
     TypedName,
@@ -112,18 +112,12 @@ def _action(action: ActionSchema, name: str, typed: bool) -> str:
 
 
 def _effect(effect: Effect, typed: bool) -> str:
-    literal = _literal(effect.atom, effect.positive)
-    text = f"(at end {literal})"
+    text = f"(at end {format_formula(effect.atom if effect.positive else Not(effect.atom))})"
     if effect.condition != TRUE:
         text = f"(when (at end {format_formula(effect.condition, typed=typed)}) {text})"
     if effect.parameters:
         text = f"(forall ({_parameters(effect.parameters, typed)}) {text})"
     return text
-
-
-def _literal(atom: Atom, positive: bool) -> str:
-    text = format_formula(atom)
-    return text if positive else f"(not {text})"
 
 
 def _parameters(parameters: tuple[TypedName, ...], typed: bool) -> str:

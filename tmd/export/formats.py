@@ -15,6 +15,7 @@ from tmd.pddl.writer import format_domain, format_problem
 
 # File names with contents.
 Files: TypeAlias = Mapping[str, bytes]
+Texts: TypeAlias = Mapping[str, str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,113 +25,104 @@ class Format:
     Attributes:
         name: Its name on the command line.
         about: What it is, in one line.
-        write: Makes its files.
+        make: Makes its files.
     """
 
     name: str
     about: str
-    write: Callable[[Planned], Files]
+    make: Callable[[Planned], Files | Texts]
+
+    def write(self, source: Planned) -> Files:
+        """Return its files.
+
+        Raises:
+            TmdError: The format cannot say the problem, or a program for it is missing.
+        """
+        files = self.make(source).items()
+        return {name: data.encode("utf-8") if isinstance(data, str) else data for name, data in files}
 
 
-def _adl(source: Planned) -> Files:
-    plan = format_plan(source.plan, source.cost, unit=source.unit_cost)
-    return _texts(
-        {
-            "domain.pddl": format_domain(source.portable.domain),
-            "problem.pddl": format_problem(source.portable),
-            "plan.plan": plan,
-        }
-    )
+def _adl(source: Planned) -> Texts:
+    domain, problem = format_domain(source.portable.domain), format_problem(source.portable)
+    return {"domain.pddl": domain, "problem.pddl": problem, **_ipc(source)}
 
 
-def _ipc(source: Planned) -> Files:
-    return _texts({"plan.plan": format_plan(source.plan, source.cost, unit=source.unit_cost)})
+def _ipc(source: Planned) -> Texts:
+    return {"plan.plan": format_plan(source.plan, source.cost, unit=source.unit_cost)}
 
 
-def _strips(source: Planned) -> Files:
+def _strips(source: Planned) -> Texts:
     from tmd.export.strips import strips
 
     found = strips(source)
     steps = "".join(f"; {found.instructions[step.name].pddl()}\n{step.pddl()}\n" for step in found.plan)
-    text = f"{steps}; cost = {len(found.plan)} (unit cost)\n"
-    return _texts(
-        {
-            "domain.pddl": _with_origins(format_domain(found.problem.domain), found),
-            "problem.pddl": format_problem(found.problem),
-            "plan.plan": text,
-        }
-    )
+    return {
+        "domain.pddl": _with_origins(format_domain(found.problem.domain), found),
+        "problem.pddl": format_problem(found.problem),
+        "plan.plan": f"{steps}; cost = {len(found.plan)} (unit cost)\n",
+    }
 
 
 def _with_origins(text: str, found: Strips, keyword: str = "action") -> str:
-    """Return the text of a domain with the instruction before each action that stands for it."""
+    """Return the text of a domain with the instruction before each action that was made of it."""
     for action in found.problem.domain.actions:
         head = f"  (:{keyword} {action.name}\n"
         text = text.replace(head, f"  ; {found.instructions[action.name].pddl()}\n{head}")
     return text
 
 
-def _durative(source: Planned) -> Files:
+def _durative(source: Planned) -> Texts:
     from tmd.export.durative import format_durative_domain, format_durative_problem, format_temporal
 
-    return _texts(
-        {
-            "domain.pddl": format_durative_domain(source.portable.domain),
-            "problem.pddl": format_durative_problem(source.portable),
-            "plan.plan": format_temporal(source.plan),
-        }
-    )
+    return {
+        "domain.pddl": format_durative_domain(source.portable.domain),
+        "problem.pddl": format_durative_problem(source.portable),
+        "plan.plan": format_temporal(source.plan),
+    }
 
 
-def _plansys2(source: Planned) -> Files:
+def _plansys2(source: Planned) -> Texts:
     from tmd.export.durative import format_durative_domain, format_durative_problem, format_popf
     from tmd.export.strips import strips
 
     found = strips(source, typed=True)
     domain = format_durative_domain(found.problem.domain)
-    return _texts(
-        {
-            "domain.pddl": _with_origins(domain, found, "durative-action"),
-            "problem.pddl": format_durative_problem(found.problem),
-            "plan.plan": format_popf(found.plan),
-        }
-    )
+    return {
+        "domain.pddl": _with_origins(domain, found, "durative-action"),
+        "problem.pddl": format_durative_problem(found.problem),
+        "plan.plan": format_popf(found.plan),
+    }
 
 
-def _anml(source: Planned) -> Files:
-    from tmd.export.to_unified import format_anml
+def _anml(source: Planned) -> Texts:
+    from tmd.export.unified import format_anml
 
-    return _texts({"problem.anml": format_anml(source.problem)})
+    return {"problem.anml": format_anml(source.problem)}
 
 
 def _protobuf(source: Planned) -> Files:
-    from tmd.export.to_unified import messages
+    from tmd.export.unified import messages
 
     problem, plan = messages(source)
     return {"problem.pb": problem, "plan.pb": plan}
 
 
-def _tree(source: Planned) -> Files:
+def _tree(source: Planned) -> Texts:
     from tmd.export.behavior_tree import format_tree
 
-    return _texts({"tree.xml": format_tree(source)})
+    return {"tree.xml": format_tree(source)}
 
 
-def _sas(source: Planned) -> Files:
-    from tmd.export.sas import format_sas
+def _sas(source: Planned) -> Texts:
+    from tmd.planning.fast_downward import translated
 
-    plan = format_plan(source.plan, source.cost, unit=source.unit_cost)
-    return _texts({"output.sas": format_sas(source), "sas_plan": plan})
+    return {"output.sas": translated(source.problem), "sas_plan": _ipc(source)["plan.plan"]}
 
 
-def _json(source: Planned) -> Files:
+def _json(source: Planned) -> Texts:
     from tmd.export.record import format_record, format_schema
 
-    return _texts({"plan.json": format_record(source), "plan.schema.json": format_schema()})
-
-
-def _texts(files: Mapping[str, str]) -> Files:
-    return {name: text.encode("utf-8") for name, text in files.items()}
+    return {"plan.json": format_record(source), "plan.schema.json": format_schema()}
 
 
 # What is written where no format is asked for.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.model import TRUE, And, Atom, Formula, GroundAtom, Instruction, Not, Problem, State
+from tmd.pddl.model import TRUE, And, Atom, Instruction, Not, Problem, State
 from tmd.pddl.normalise import portable
 from tmd.pddl.validator import validate
 
@@ -69,10 +69,6 @@ def with_outcome(problem: Problem, plan: Iterable[Instruction]) -> Problem:
     """
     open_ended = replace(problem, goal=TRUE)
     end = planned(open_ended, plan).states[-1]
-    gained = [_atom(atom) for atom in sorted(end - problem.init)]
-    lost: list[Formula] = [Not(_atom(atom)) for atom in sorted(problem.init - end)]
+    gained = [Atom(atom.predicate, atom.args) for atom in sorted(end - problem.init)]
+    lost = [Not(Atom(atom.predicate, atom.args)) for atom in sorted(problem.init - end)]
     return replace(problem, goal=And((*gained, *lost)))
-
-
-def _atom(atom: GroundAtom) -> Atom:
-    return Atom(atom.predicate, atom.args)

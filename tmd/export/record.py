@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import json
 
-from tmd.export.planned_problem import Planned
-from tmd.pddl.model import GroundAtom, State
+from tmd.export.planned_problem import Planned, planned
+from tmd.pddl.model import Instruction, State
+from tmd.pddl.reading.reader import parse_domain, parse_problem
+from tmd.pddl.semantics import cost
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.records.plan import PlanRecord, StepRecord
 
 
-def record(source: Planned) -> PlanRecord:
-    """Return a planned problem as a record.
+def format_record(source: Planned) -> str:
+    """Return the record of a planned problem as JSON.
 
     Raises:
         TmdError: The problem cannot be written in the form that other tools read.
     """
-    from tmd.pddl.semantics import cost
-
     steps = [
         StepRecord(
             action=instruction.name,
@@ -29,7 +29,7 @@ def record(source: Planned) -> PlanRecord:
         for instruction, before, after in zip(source.plan, source.states, source.states[1:], strict=False)
     ]
     plain = source.portable
-    return PlanRecord(
+    record = PlanRecord(
         domain=plain.domain.name,
         problem=plain.name,
         domain_pddl=format_domain(plain.domain),
@@ -37,15 +37,11 @@ def record(source: Planned) -> PlanRecord:
         cost=source.cost,
         steps=steps,
     )
+    return json.dumps(record.model_dump(), ensure_ascii=False, indent=2) + "\n"
 
 
 def _words(atoms: State) -> list[list[str]]:
-    return [[atom.predicate, *atom.args] for atom in sorted(atoms, key=lambda atom: GroundAtom(*atom))]
-
-
-def format_record(source: Planned) -> str:
-    """Return the record of a planned problem as JSON."""
-    return json.dumps(record(source).model_dump(), ensure_ascii=False, indent=2) + "\n"
+    return [[atom.predicate, *atom.args] for atom in sorted(atoms)]
 
 
 def format_schema() -> str:
@@ -59,10 +55,6 @@ def parse_record(text: str, file: str = "<text>") -> Planned:
     Raises:
         TmdError: The text is not a record, or its plan does not work.
     """
-    from tmd.export.planned_problem import planned
-    from tmd.pddl.model import Instruction
-    from tmd.pddl.reading.reader import parse_domain, parse_problem
-
     read = PlanRecord.from_text(text, file)
     domain = parse_domain(read.domain_pddl, f"{file}: domain_pddl")
     problem = parse_problem(read.problem_pddl, domain, f"{file}: problem_pddl")

@@ -6,7 +6,6 @@ begin with the name of their object. MuJoCo compiles the MJCF from that tree.
 
 from __future__ import annotations
 
-import math
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
@@ -19,9 +18,10 @@ import yaml
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.assets.room import build_room
+from tmd.robot.pr2.kinematics import angles
 from tmd.robot.scene.scene import Scene
 from tmd.robot.sim.box_mesh import CUBE
-from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
@@ -105,12 +105,10 @@ def _collect(parts: list[_Part]) -> dict[str, bytes]:
             name = f"{re.sub(r'[^a-z0-9]', '', source.parent.name.lower())[:8]}_{source.name}"
             found[name] = source.read_bytes()
             mesh.set("filename", f"{_MESHES}/{name}")
-        for link in part.robot.findall("link"):
-            for contact in link.findall("contact"):
-                link.remove(contact)  # pybullet's
-        for material in part.robot.iter("material"):
-            for specular in material.findall("specular"):
-                material.remove(specular)
+        for owner, extra in (("link", "contact"), ("material", "specular")):  # pybullet's
+            for element in part.robot.iter(owner):
+                for child in element.findall(extra):
+                    element.remove(child)
     return found
 
 
@@ -134,15 +132,6 @@ def _words(values: tuple[float, ...] | list[float]) -> str:
     return " ".join(f"{round(value, 6) + 0.0:g}" for value in values)
 
 
-def _angles(pose: Pose) -> Vector:
-    """Return roll, pitch and yaw in radians."""
-    m = pose.matrix()
-    pitch = math.asin(max(-1.0, min(1.0, -float(m[2, 0]))))
-    if abs(m[2, 0]) > 1 - 1e-9:
-        return 0.0, pitch, math.atan2(-float(m[0, 1]), float(m[1, 1]))
-    return math.atan2(m[2, 1], m[2, 2]), pitch, math.atan2(m[1, 0], m[0, 0])
-
-
 # ---------------------------------------------------------------------- URDF
 
 
@@ -155,21 +144,17 @@ def _urdf(name: str, parts: list[_Part]) -> ET.Element:
             material.set("name", f"{prefix}{material.get('name', '')}")
         whole.extend(part.robot.findall("material"))
         for link in part.robot.findall("link"):
-            copy = ET.fromstring(ET.tostring(link))
-            copy.set("name", _named(part, link.get("name", "")))
-            whole.append(copy)
+            link.set("name", _named(part, link.get("name", "")))
+            whole.append(link)
         for joint in part.robot.findall("joint"):
-            copy = ET.fromstring(ET.tostring(joint))
-            copy.set("name", _joint(part.name, joint.get("name", "")))
-            for end in ("parent", "child"):
-                found = copy.find(end)
-                assert found is not None
-                found.set("link", _named(part, found.get("link", "")))
-            whole.append(copy)
+            joint.set("name", _joint(part.name, joint.get("name", "")))
+            for end in (*joint.findall("parent"), *joint.findall("child")):
+                end.set("link", _named(part, end.get("link", "")))
+            whole.append(joint)
         joint = ET.SubElement(whole, "joint", name=_joint(WORLD, part.name), type="floating" if part.item else "fixed")
         ET.SubElement(joint, "parent", link=WORLD)
         ET.SubElement(joint, "child", link=part.name)
-        ET.SubElement(joint, "origin", xyz=_words(part.pose.position), rpy=_words(_angles(part.pose)))
+        ET.SubElement(joint, "origin", xyz=_words(part.pose.position), rpy=_words(angles(part.pose.matrix())))
     return whole
 
 

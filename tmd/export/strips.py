@@ -16,7 +16,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from tmd.diagnostics import TmdError
 from tmd.export.planned_problem import Planned
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import (
@@ -48,25 +47,12 @@ class Strips:
     Attributes:
         problem: The ground problem, in STRIPS.
         plan: The plan, in its actions; they have no arguments.
-        instructions: The instruction that each of its actions stands for, by the action's name.
+        instructions: The instruction that each of its actions was made of, by the action's name.
     """
 
     problem: Problem
     plan: tuple[Instruction, ...]
     instructions: Mapping[str, Instruction]
-
-    def restored(self, plan: Iterable[Instruction]) -> tuple[Instruction, ...]:
-        """Return a plan for :attr:`problem` as a plan for the original problem.
-
-        Raises:
-            TmdError: An instruction is not one of the exported problem.
-        """
-        found = []
-        for step in plan:
-            if step.name not in self.instructions or step.args:
-                raise TmdError(f"{step} is not an action of the exported problem")
-            found.append(self.instructions[step.name])
-        return tuple(found)
 
 
 @dataclass(frozen=True, slots=True)
@@ -267,46 +253,32 @@ def restored(problem: Problem, plan: Iterable[Instruction]) -> tuple[Instruction
     ``(grasp-cup1)`` and ``(grasp-cup1-7)`` become ``(grasp cup1)``. An instruction that names an action of the
     problem stays as it is, and so does a name that can be read in no way or in several.
     """
-    names = {action.name: len(action.parameters) for action in problem.domain.actions}
-    objects = {o.name for o in problem.all_objects()}
+    arities = {action.name: len(action.parameters) for action in problem.domain.actions}
+    objects = [o.name for o in problem.all_objects()]
 
     def one(step: Instruction) -> Instruction:
-        if step.name in names or step.args:
+        if step.name in arities or step.args:
             return step
-        readings = {r for text in _endings(step.name) for r in _readings(text, names, objects)}
+        head, _, number = step.name.rpartition("-")
+        readings = {
+            Instruction(action, args)
+            for text in (step.name, head if number.isdecimal() else step.name)
+            for action, arity in arities.items()
+            if text.startswith(action)
+            for args in _arguments(text.removeprefix(action), arity, objects)
+        }
         return readings.pop() if len(readings) == 1 else step
 
     return tuple(one(step) for step in plan)
 
 
-def _endings(name: str) -> Iterable[str]:
-    """Return the name, and the name without the number of a step."""
-    yield name
-    head, _, tail = name.rpartition("-")
-    if head and tail.isdecimal():
-        yield head
-
-
-def _readings(text: str, names: Mapping[str, int], objects: set[str]) -> Iterable[Instruction]:
-    for name, arity in names.items():
-        if text == name and not arity:
-            yield Instruction(name)
-        elif arity and text.startswith(f"{name}-"):
-            for args in _split(text[len(name) + 1 :].split("-"), arity, objects):
-                yield Instruction(name, args)
-
-
-def _split(pieces: Sequence[str], count: int, objects: set[str]) -> Iterable[tuple[str, ...]]:
-    """Return every way to join ``pieces`` by hyphens to ``count`` objects."""
-    if count == 0:
-        if not pieces:
-            yield ()
-        return
-    for end in range(1, len(pieces) - count + 2):
-        first = "-".join(pieces[:end])
-        if first in objects:
-            for rest in _split(pieces[end:], count - 1, objects):
-                yield (first, *rest)
+def _arguments(text: str, count: int, objects: Sequence[str]) -> Iterator[tuple[str, ...]]:
+    """Yield every way to read ``text`` as ``count`` objects, each behind a hyphen."""
+    if not count and not text:
+        yield ()
+    for name in objects if count else ():
+        if text.startswith(f"-{name}"):
+            yield from ((name, *rest) for rest in _arguments(text.removeprefix(f"-{name}"), count - 1, objects))
 
 
 def with_flat_types(problem: Problem) -> Problem:
@@ -315,18 +287,17 @@ def with_flat_types(problem: Problem) -> Problem:
     Objects in the same place of a predicate are of one type: the nearest one that covers them all. Where
     the problem has no types, or one is enough, there are none.
     """
-    classes = _Classes(problem)
-    types = {name: classes.type_of(name) for name in classes.objects()}
-    several = len(set(types.values())) > 1 and bool(problem.domain.types)
-    named = {name: (types[name] if several else OBJECT,) for name in types}
     domain = problem.domain
+    groups, first = _alike(problem)
+    hierarchy, own = TypeHierarchy(domain.types), {o.name: o.types[0] for o in problem.all_objects()}
+    types = {name: _common([own[member] for member in sorted(groups[name])], hierarchy) for name in groups}
+    several = len(set(types.values())) > 1 and bool(domain.types)
+    named = {name: (types[name] if several else OBJECT,) for name in types}
 
     def signature(predicate: Predicate) -> Predicate:
-        examples = [classes.example(predicate.name, place) for place in range(len(predicate.parameters))]
-        return replace(
-            predicate,
-            parameters=tuple(TypedName(f"?x{n}", named[name]) for n, name in enumerate(examples, start=1)),
-        )
+        examples = [first[predicate.name, place] for place in range(len(predicate.parameters))]
+        parameters = tuple(TypedName(f"?x{n}", named[name]) for n, name in enumerate(examples, start=1))
+        return replace(predicate, parameters=parameters)
 
     flat = replace(
         domain,
@@ -338,6 +309,26 @@ def with_flat_types(problem: Problem) -> Problem:
     return replace(problem, domain=flat)
 
 
+def _alike(problem: Problem) -> tuple[dict[str, set[str]], dict[tuple[str, int], str]]:
+    """Return for each object those that share places of predicates with it, and for each place an object in it."""
+    groups: dict[str, set[str]] = {}
+    first: dict[tuple[str, int], str] = {}
+    for atom in _atoms(problem):
+        for place, name in enumerate(atom.args):
+            other = first.setdefault((atom.predicate, place), name)
+            groups.setdefault(name, {name})
+            if name not in groups[other]:
+                joined = groups[other] | groups[name]
+                groups.update(dict.fromkeys(joined, joined))
+    return groups, first
+
+
+def _common(types: Sequence[str], hierarchy: TypeHierarchy) -> str:
+    """Return the nearest type that covers all of ``types``."""
+    chains = [hierarchy.ancestors(kind) for kind in types]
+    return next(kind for kind in chains[0] if all(kind in chain for chain in chains))
+
+
 def _atoms(problem: Problem) -> Iterator[GroundAtom]:
     yield from sorted(problem.init)
     formulas = [problem.goal, *(action.precondition for action in problem.domain.actions)]
@@ -345,39 +336,3 @@ def _atoms(problem: Problem) -> Iterator[GroundAtom]:
         yield from (GroundAtom(a.predicate, a.terms) for a in conjuncts(formula) if isinstance(a, Atom))
     for action in problem.domain.actions:
         yield from (GroundAtom(effect.atom.predicate, effect.atom.terms) for effect in action.effects)
-
-
-class _Classes:
-    """The objects of a ground problem, grouped by the places of predicates that they share."""
-
-    def __init__(self, problem: Problem) -> None:
-        self.parents: dict[str, str] = {}
-        self.first: dict[tuple[str, int], str] = {}
-        self.hierarchy = TypeHierarchy(problem.domain.types)
-        self.own = {o.name: o.types[0] for o in problem.all_objects()}
-        for atom in _atoms(problem):
-            for place, name in enumerate(atom.args):
-                self.parents.setdefault(name, name)
-                self.join(self.first.setdefault((atom.predicate, place), name), name)
-
-    def objects(self) -> list[str]:
-        return list(self.parents)
-
-    def example(self, predicate: str, place: int) -> str:
-        """Return an object in this place."""
-        return self.first[(predicate, place)]
-
-    def root(self, name: str) -> str:
-        while self.parents[name] != name:
-            name = self.parents[name]
-        return name
-
-    def join(self, one: str, other: str) -> None:
-        self.parents[self.root(one)] = self.root(other)
-
-    def type_of(self, name: str) -> str:
-        """Return the nearest type that covers everything in the class of ``name``."""
-        root = self.root(name)
-        members = [member for member in self.parents if self.root(member) == root]
-        chains = [self.hierarchy.ancestors(self.own[member]) for member in members]
-        return next(kind for kind in chains[0] if all(kind in chain for chain in chains))

@@ -8,7 +8,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from math import cos, sin
 from pathlib import Path
 from types import TracebackType
@@ -50,8 +51,7 @@ def open_trajectory(path: Path) -> TrajectoryFile:
     Raises:
         MissingToolError: What writes it is not installed.
     """
-    kinds: dict[str, Callable[[Path], TrajectoryFile]] = {".jsonl": _JsonLines, ".mcap": _Mcap}
-    return kinds[path.suffix](path)
+    return _Mcap(path) if path.suffix == ".mcap" else TrajectoryFile(path)
 
 
 def recorders(session: SimulationSession, file: TrajectoryFile | None, rate: float) -> tuple[StateRecorder, ...]:
@@ -60,7 +60,7 @@ def recorders(session: SimulationSession, file: TrajectoryFile | None, rate: flo
 
 
 class TrajectoryFile:
-    """A recording that grows; a context that ends it. The file is made when the run begins.
+    """A recording that grows, as JSON Lines; a context that ends it. The file is made when the run begins.
 
     Args:
         path: Where it goes.
@@ -79,11 +79,12 @@ class TrajectoryFile:
         if self._file is None:
             return
         try:
-            self._finish()
-            self._file.close()
-        except OSError as full:
+            with self._errors():
+                self._finish()
+                self._file.close()
+        except OutputError:
             if not isinstance(error, Exception):
-                raise self._error(full) from full
+                raise
         finally:
             self._file = None
 
@@ -93,11 +94,9 @@ class TrajectoryFile:
         Raises:
             OutputError: It cannot be written.
         """
-        try:
+        with self._errors():
             self._file = self._make()
             self._begin(what)
-        except OSError as error:
-            raise self._error(error) from error
 
     def write(self, sample: Sample) -> None:
         """Write the next sample.
@@ -105,16 +104,18 @@ class TrajectoryFile:
         Raises:
             OutputError: It cannot be written.
         """
-        try:
+        with self._errors():
             self._add(sample)
-        except OSError as error:
-            raise self._error(error) from error
 
-    def _error(self, error: OSError) -> OutputError:
-        return OutputError(
-            f"{self._path} cannot be written: {error.strerror or error}",
-            hint="check that the directory exists, that you may write there and that the disk has room",
-        )
+    @contextmanager
+    def _errors(self) -> Iterator[None]:
+        try:
+            yield
+        except OSError as error:
+            raise OutputError(
+                f"{self._path} cannot be written: {error.strerror or error}",
+                hint="check that the directory exists, that you may write there and that the disk has room",
+            ) from error
 
     def _make(self) -> IO[Any]:
         return self._path.open("w", encoding="utf-8", newline="")
@@ -126,20 +127,13 @@ class TrajectoryFile:
 
     def _begin(self, what: Recorded) -> None:
         """Write the beginning, before the first sample."""
-
-    def _add(self, sample: Sample) -> None:
-        raise NotImplementedError
-
-    def _finish(self) -> None:
-        """Write the end, after the last sample."""
-
-
-class _JsonLines(TrajectoryFile):
-    def _begin(self, what: Recorded) -> None:
         self._out.write(SceneLine.of(what).to_line())
 
     def _add(self, sample: Sample) -> None:
         self._out.write(SampleLine.of(sample).to_line())
+
+    def _finish(self) -> None:
+        """Write the end, after the last sample."""
 
 
 class _Mcap(TrajectoryFile):
@@ -198,13 +192,12 @@ def _joint_state(time: float, positions: Mapping[str, float], velocities: Mappin
 
 
 def _transform(time: float, name: str, pose: Pose) -> dict[str, object]:
-    header = {"stamp": _stamp(time), "frame_id": WORLD}
-    return {"header": header, "child_frame_id": name, "transform": _transform_of(pose)}
-
-
-def _transform_of(pose: Pose) -> dict[str, dict[str, float]]:
     x, y, z, qx, qy, qz, qw = pose_record(pose)
-    return {"translation": {"x": x, "y": y, "z": z}, "rotation": {"x": qx, "y": qy, "z": qz, "w": qw}}
+    return {
+        "header": {"stamp": _stamp(time), "frame_id": WORLD},
+        "child_frame_id": name,
+        "transform": {"translation": {"x": x, "y": y, "z": z}, "rotation": {"x": qx, "y": qy, "z": qz, "w": qw}},
+    }
 
 
 def _base(sample: Sample) -> Pose:

@@ -25,8 +25,7 @@ from tmd.records.trial import Trial
 from tmd.robot_trials.trials import Mode, remove_file, run_trials
 from tmd.view.page import render
 from tmd.view.pictures import Strip, read_strip
-from tmd.view.run_record import Ran
-from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject
+from tmd.view.subject import PlannedStep, Ran, Said, Subject, grounded_subject
 from tmd.world.corpus import Corpus
 from tmd.world.folder import find_domain, find_root
 

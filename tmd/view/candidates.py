@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from tmd.inference.energy import meaning, title
 from tmd.inference.ranking import RankedPlan, RejectedProposal
 from tmd.view.markup import templates
 
 
-@dataclass(frozen=True, slots=True)
-class RefusedCandidate:
+class RefusedCandidate(NamedTuple):
     """Templates of a clause that cannot be used here for one and the same reason."""
 
     clause: int
@@ -61,10 +60,8 @@ def factors_of(plans: Sequence[RankedPlan]) -> list[str]:
 
 def grouped(refusals: Sequence[RejectedProposal]) -> list[RefusedCandidate]:
     """Group refusals by clause and reason, the most frequent reasons of a clause first."""
-    found: dict[tuple[int, str], list[str]] = {}
+    found: defaultdict[tuple[int, str], set[str]] = defaultdict(set)
     for refusal in refusals:
-        found.setdefault((refusal.clause, refusal.reason), []).append(refusal.source)
-    rows = [
-        RefusedCandidate(clause, reason, tuple(sorted(set(sources)))) for (clause, reason), sources in found.items()
-    ]
+        found[refusal.clause, refusal.reason].add(refusal.source)
+    rows = [RefusedCandidate(clause, reason, tuple(sorted(sources))) for (clause, reason), sources in found.items()]
     return sorted(rows, key=lambda row: (row.clause, -len(row.sources), row.reason))

@@ -112,13 +112,8 @@ def _run_from(start: int, free: Mapping[int, frozenset[str]], words: Sequence[st
 
 def _runs(places: Sequence[int]) -> list[list[int]]:
     """Return runs of consecutive places."""
-    runs: list[list[int]] = []
-    for place in sorted(places):
-        if runs and place == runs[-1][-1] + 1:
-            runs[-1].append(place)
-        else:
-            runs.append([place])
-    return runs
+    runs = groupby(enumerate(sorted(places)), key=lambda item: item[1] - item[0])
+    return [[place for _, place in run] for _, run in runs]
 
 
 # Stands under words that name nothing in the environment.

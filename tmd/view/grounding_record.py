@@ -8,7 +8,7 @@ from typing import Any
 from tmd.diagnostics import Refusal
 from tmd.export.end_goal import end_goal
 from tmd.grounded import Grounded
-from tmd.inference.ranking import LostGoal, RankedPlan
+from tmd.inference.ranking import RankedPlan
 from tmd.json_record import rounded
 from tmd.pddl.model import Formula, Problem
 from tmd.pddl.task import Task
@@ -55,7 +55,7 @@ def grounding_record(
     if grounded.usage is not None:
         optional["reader"] = ModelUse.of(grounded.usage)
     if grounded.question is not None:
-        optional["question"] = question_record(grounded)
+        optional["question"] = _question(grounded.question, task.problem)
     return GroundingRecord(
         text=grounded.parsed.text,
         domain=domain,
@@ -73,11 +73,8 @@ def grounding_record(
     )
 
 
-def question_record(grounded: Grounded) -> QuestionRecord:
-    """Return the question of a request as a record."""
-    question = grounded.question
-    assert question is not None
-    options = zip(question.options, option_texts(question, grounded.world.task.problem), strict=True)
+def _question(question: Question, problem: Problem) -> QuestionRecord:
+    options = zip(question.options, option_texts(question, problem), strict=True)
     return QuestionRecord(
         text=question.text,
         step=question.step,
@@ -123,6 +120,7 @@ def _rounded(factors: Mapping[str, float]) -> dict[str, float]:
 
 def _goal(shown: ShownGoal) -> GoalRecord:
     goal = shown.goal
+    others = tuple(OtherGoal(pddl=flat(lost.formula), row=lost.row or None, why=lost.why) for lost in goal.others)
     return GoalRecord(
         clause=goal.clause,
         text=goal.text,
@@ -134,12 +132,8 @@ def _goal(shown: ShownGoal) -> GoalRecord:
         note=goal.note or None,
         first=goal.first,
         last=goal.last,
-        **({"others": tuple(map(_other, goal.others))} if goal.others else {}),
+        **({"others": others} if others else {}),
     )
-
-
-def _other(lost: LostGoal) -> OtherGoal:
-    return OtherGoal(pddl=flat(lost.formula), row=lost.row or None, why=lost.why)
 
 
 def _refused(refused: tuple[int | None, Refusal] | None) -> RefusedText | None:

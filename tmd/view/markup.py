@@ -15,7 +15,7 @@ _DATA = Path(__file__).parent / "data"
 def style() -> str:
     """Return the style sheet of the fragments: CSS that begins no selector but with ``.tmd-``.
 
-    Colours are custom properties of ``.tmd``, with a light and a dark theme; a page that has a theme of its own
+    Colours are custom properties of ``.tmd``, with a light and a dark theme; a page with its own theme
     sets ``data-theme`` of an element around them to ``light`` or ``dark``.
     """
     return data("fragments.css")

@@ -22,30 +22,26 @@ def meanings(parsed: Parsed, plan: RankedPlan, world: World) -> list[Meaning]:
     A clause may have several of the plan's choices (*when you have taken the cup, …* is two steps) or none (*leave the
     door open* asks for nothing to be done), and they need not be in the order of the clauses.
     """
-    owners = [goal.clause for goal in plan.goals] or list(range(len(plan.choices)))
+    owners = [goal.clause for goal in plan.goals] or range(len(plan.choices))
+    choices = [[step.instruction for step in choice.steps] for choice in plan.choices]
+    return meanings_in(parsed.clauses, zip(owners, choices, strict=True), world)
+
+
+def meanings_in(
+    clauses: Sequence[Clause], parts: Iterable[tuple[int, Sequence[Instruction]]], world: World
+) -> list[Meaning]:
+    """Return the meanings of each clause's nouns, given a plan in parts, each with the place of its clause."""
     served: dict[int, list[Instruction]] = {}
     begun: dict[int, Bits] = {}
     state = world.task.init
-    for owner, choice in zip(owners, plan.choices, strict=True):
-        instructions = [step.instruction for step in choice.steps]
+    for owner, instructions in parts:
         begun.setdefault(owner, state)
         served.setdefault(owner, []).extend(instructions)
         state = after(instructions, world, state)
     return [
         meaning(clause, served.get(number, ()), world, begun.get(number, world.task.init))
-        for number, clause in enumerate(parsed.clauses)
+        for number, clause in enumerate(clauses)
     ]
-
-
-def meanings_in(clauses: Sequence[Clause], served: Sequence[Iterable[Instruction]], world: World) -> list[Meaning]:
-    """Return the meanings of each clause's nouns, given the instructions that serve it, clause after clause."""
-    found: list[Meaning] = []
-    state = world.task.init
-    for number, clause in enumerate(clauses):
-        instructions = list(served[number]) if number < len(served) else []
-        found.append(meaning(clause, instructions, world, state))
-        state = after(instructions, world, state)
-    return found
 
 
 def meaning(clause: Clause, instructions: Iterable[Instruction], world: World, state: Bits) -> Meaning:

@@ -1,27 +1,15 @@
-"""The object graph of one object, as SVG: its parts, where they are drawn, and which facts are states or edges."""
+"""The object graph of one object, as HTML: a list for each of its parts, with its states, relations and edges."""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from tmd.pddl.model import GroundAtom, Problem, State
 from tmd.view.markup import macro
 from tmd.world.compile import AT, PART_OF
 from tmd.world.world import World
-
-
-@dataclass(frozen=True, slots=True)
-class Edge:
-    """A functional dependency within an object (section III-B): acting on ``tail`` changes ``head``.
-
-    Several static facts between the same two are one edge: ``guards, interrupts``.
-    """
-
-    words: str
-    tail: str
-    head: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +21,8 @@ class Anatomy:
         constants: The names that the domain declares: robots, relations, substances.
         wholes: For every part the object it belongs to.
         parts: For every object its parts, in the problem's order.
-        edges: For every object the edges between its parts, sorted.
+        edges: The edges of the graphs (section III-B), by their two ends: acting on the first changes the second.
+            Several static facts between the same two are one edge: ``guards, interrupts``.
         changing: The predicates that some action changes.
     """
 
@@ -41,7 +30,7 @@ class Anatomy:
     constants: frozenset[str]
     wholes: Mapping[str, str]
     parts: Mapping[str, tuple[str, ...]]
-    edges: Mapping[str, tuple[Edge, ...]]
+    edges: Mapping[tuple[str, str], str]
     changing: frozenset[str]
 
     def whole(self, name: str) -> str:
@@ -81,7 +70,7 @@ def anatomy(problem: Problem) -> Anatomy:
     )
 
 
-def _edges(static: Iterable[GroundAtom], wholes: Mapping[str, str]) -> dict[str, tuple[Edge, ...]]:
+def _edges(static: Iterable[GroundAtom], wholes: Mapping[str, str]) -> dict[tuple[str, str], str]:
     """Return the static facts between two parts of one object, without those that hold both ways."""
     pairs = {(atom.predicate, *atom.args[:2]) for atom in static if len(atom.args) >= 2 and atom.predicate != PART_OF}
     words: dict[tuple[str, str], list[str]] = {}
@@ -89,10 +78,7 @@ def _edges(static: Iterable[GroundAtom], wholes: Mapping[str, str]) -> dict[str,
         within = wholes.get(tail, tail) == wholes.get(head, head)
         if tail != head and within and (predicate, head, tail) not in pairs:
             words.setdefault((tail, head), []).append(predicate)
-    found: dict[str, list[Edge]] = {}
-    for (tail, head), predicates in sorted(words.items()):
-        found.setdefault(wholes.get(tail, tail), []).append(Edge(", ".join(predicates), tail, head))
-    return {whole: tuple(edges) for whole, edges in found.items()}
+    return {ends: ", ".join(predicates) for ends, predicates in sorted(words.items())}
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,110 +126,8 @@ def _other_end(anatomy: Anatomy, atom: GroundAtom, place: int) -> int | None:
     return furniture[0] if furniture else None
 
 
-# Width in pixels of a character of the graph's type, 11 pixels high.
-CHARACTER = 6.7
-# Height of a line of text in pixels.
-LINE = 16
-PAD = 7
-GAP_X, GAP_Y = 26, 12
-
-
-@dataclass(frozen=True, slots=True)
-class VertexBox:
-    """A vertex: where it stands and how large it is, in pixels."""
-
-    x: int
-    y: int
-    width: int
-    height: int
-
-    @property
-    def right(self) -> int:
-        """Its right edge."""
-        return self.x + self.width
-
-    @property
-    def bottom(self) -> int:
-        """Its lower edge."""
-        return self.y + self.height
-
-    @property
-    def middle(self) -> int:
-        """Half way down."""
-        return self.y + self.height // 2
-
-
-def place(root: str, sizes: Mapping[str, tuple[int, int]], edges: Sequence[Edge]) -> dict[str, VertexBox]:
-    """Return a box for every vertex.
-
-    What an edge leads to stands right of where it comes from. The object itself stands last, unless it leads on.
-
-    Args:
-        root: The vertex that is the whole object.
-        sizes: For every vertex characters and lines of its text.
-        edges: The edges between them.
-    """
-    boxes: dict[str, VertexBox] = {}
-    x = 0
-    columns = _columns(root, list(sizes), edges)
-    heights = {name: lines * LINE + PAD for name, (_, lines) in sizes.items()}
-    tallest = max(sum(heights[n] + GAP_Y for n in column) for column in columns)
-    for number, column in enumerate(columns):
-        width = max(round(sizes[name][0] * CHARACTER) + 2 * PAD for name in column)
-        y = (tallest - sum(heights[name] + GAP_Y for name in column)) // 2
-        for name in column:
-            boxes[name] = VertexBox(x, y, width, heights[name])
-            y += heights[name] + GAP_Y
-        x += width + _gap(column, columns[number + 1 :], edges)
-    return boxes
-
-
-def _gap(column: Sequence[str], later: Sequence[Sequence[str]], edges: Sequence[Edge]) -> int:
-    """Return the room for the words on the edges that leave a column."""
-    words = [len(edge.words) for edge in edges if edge.tail in column and any(edge.head in c for c in later)]
-    return GAP_X + round(max(words, default=0) * CHARACTER)
-
-
-def _columns(root: str, names: Sequence[str], edges: Sequence[Edge]) -> list[list[str]]:
-    depth = _depths(root, names, edges)
-    columns: list[list[str]] = []
-    for level in sorted(set(depth.values())):
-        members = sorted((name for name in names if depth[name] == level), key=_natural)
-        rank = {name: place for column in columns for place, name in enumerate(column)}
-        columns.append(sorted(members, key=lambda name: _mean_of_tails(name, edges, rank)))
-    return columns
-
-
-def _depths(root: str, names: Sequence[str], edges: Sequence[Edge]) -> dict[str, int]:
-    """Return the longest way to each vertex; a cycle ends it after as many steps as there are vertices."""
-    depth = dict.fromkeys(names, 0)
-    for _ in names:
-        for edge in edges:
-            if edge.head in depth and edge.tail in depth:
-                depth[edge.head] = min(max(depth[edge.head], depth[edge.tail] + 1), len(names))
-    if len(names) > 1 and root not in {edge.tail for edge in edges}:
-        depth[root] = max(depth[root], *(d for name, d in depth.items() if name != root), 1)
-    return depth
-
-
-def _mean_of_tails(name: str, edges: Sequence[Edge], rank: Mapping[str, int]) -> float:
-    tails = [rank[edge.tail] for edge in edges if edge.head == name and edge.tail in rank]
-    return sum(tails) / len(tails) if tails else float(len(rank))
-
-
-def _natural(name: str) -> tuple[tuple[bool, int, str], ...]:
-    """Return a sort key with numbers as numbers: ``burner2`` before ``burner10``."""
-    return tuple(
-        (piece.isdigit(), int(piece) if piece.isdigit() else 0, piece) for piece in re.split(r"([0-9]+)", name)
-    )
-
-
-# Longer lines are cut; the whole is shown when the pointer rests on it.
-LONGEST = 36
 # An object with more parts than this is drawn without those that nothing happens to.
 MOST_VERTICES = 60
-_MARGIN = 8
-_SIGNS = {"added": "+ ", "removed": "− ", "": ""}
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,10 +141,11 @@ class GraphChanges:
     removed: Collection[GroundAtom] = field(default=frozenset())
 
 
-@dataclass(frozen=True, slots=True)
-class _Line:
+class _Line(NamedTuple):
+    """A line of a list; ``kind`` is ``name``, ``edge``, ``added``, ``removed`` or empty."""
+
     text: str
-    mark: str = ""
+    kind: str = ""
 
 
 def object_graph(world: World, state: State, name: str, changes: GraphChanges | None = None) -> str:
@@ -273,7 +158,8 @@ def object_graph(world: World, state: State, name: str, changes: GraphChanges | 
         changes: What to mark.
 
     Returns:
-        An ``<svg>`` element; its colours are in :func:`tmd.view.markup.style`.
+        A ``<div>`` with a ``<ul>`` for the object and for each of its parts; their look is in
+        :func:`tmd.view.markup.style`.
 
     Raises:
         KeyError: There is no such object.
@@ -290,33 +176,22 @@ def draw(graph: Anatomy, state: State, name: str, changes: GraphChanges | None =
     root = graph.whole(name)
     if root not in graph.classes:
         raise KeyError(name)
-    lines = _all_lines(graph, state, root, changes or GraphChanges())
-    edges = [edge for edge in graph.edges.get(root, ()) if edge.tail in lines and edge.head in lines]
-    sizes = {v: (max(len(_cut(_signed(line))) for line in found), len(found)) for v, found in lines.items()}
-    boxes = place(root, sizes, edges)
-    curves = [_Curve(edge, boxes[edge.tail], boxes[edge.head]) for edge in edges]
-    vertices = [(v == root, boxes[v], _placed(boxes[v], found)) for v, found in lines.items()]
-    right, bottom = max(b.right for b in boxes.values()), max(b.bottom for b in boxes.values())
-    size = right + 2 * _MARGIN, bottom + 2 * _MARGIN, -_MARGIN
-    return macro("object_graph.html.j2", "graph", root, size, curves, vertices)
-
-
-def _all_lines(graph: Anatomy, state: State, root: str, changes: GraphChanges) -> dict[str, list[_Line]]:
-    """Return for every vertex its name, then its facts."""
+    changes = changes or GraphChanges()
     facts = state | frozenset(changes.removed)
     known = {vertex: aspects(graph, vertex, facts) for vertex in graph.vertices(root)}
     shared = {(a.atom.predicate, a.other) for a in known[root] if not a.outward}
-    found = {}
+    lists = []
     for vertex, told in known.items():
         kept = told if vertex == root else [a for a in told if a.outward or (a.atom.predicate, a.other) not in shared]
         if vertex == root or kept or len(known) <= MOST_VERTICES:
-            found[vertex] = [_title(graph, vertex), *(_fact(aspect, state, changes) for aspect in kept)]
-    return found
+            lines = [_title(graph, vertex), *(_fact(aspect, state, changes) for aspect in kept), *_out(graph, vertex)]
+            lists.append((vertex == root, lines))
+    return macro("object_graph.html.j2", "graph", root, lists)
 
 
 def _title(graph: Anatomy, vertex: str) -> _Line:
     name, kind = graph.short(vertex), graph.classes.get(vertex)
-    return _Line(name if kind in (None, name) else f"{name}: {kind}")
+    return _Line(name if kind in (None, name) else f"{name}: {kind}", "name")
 
 
 def _fact(aspect: Aspect, state: State, changes: GraphChanges) -> _Line:
@@ -328,49 +203,7 @@ def _fact(aspect: Aspect, state: State, changes: GraphChanges) -> _Line:
     return _Line(f"{aspect.words} → {aspect.other}" if aspect.outward else f"{aspect.words} ← {aspect.other}", mark)
 
 
-def _signed(line: _Line) -> str:
-    return _SIGNS[line.mark] + line.text
-
-
-def _cut(text: str) -> str:
-    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
-
-
-def _placed(box: VertexBox, lines: Sequence[_Line]) -> list[tuple[int, int, str, str, str, str]]:
-    """Return each line of a vertex: x, y, its class, the whole text if it is cut, its sign, the text."""
-    found = []
-    for place, line in enumerate(lines):
-        shown, sign = _cut(_signed(line)), _SIGNS[line.mark]
-        whole = line.text if shown != _signed(line) else ""
-        kind = line.mark or ("name" if place == 0 else "")
-        found.append((box.x + PAD, box.y + LINE * (place + 1) - 3, kind, whole, sign, shown[len(sign) :]))
-    return found
-
-
-@dataclass(frozen=True, slots=True)
-class _Curve:
-    """Curve of an edge from one box to another: to the right, or, where that is not possible, below both."""
-
-    edge: Edge
-    tail: VertexBox
-    head: VertexBox
-
-    @property
-    def back(self) -> bool:
-        return self.head.x <= self.tail.right
-
-    @property
-    def path(self) -> str:
-        tail, head = self.tail, self.head
-        if self.back:
-            low = max(tail.bottom, head.bottom) + 6
-            return f"M{tail.x + tail.width // 2} {tail.bottom}V{low}H{head.x + head.width // 2}V{head.bottom}"
-        bend = (head.x - tail.right) // 2
-        first, second = f"{tail.right + bend} {tail.middle}", f"{head.x - bend} {head.middle}"
-        return f"M{tail.right} {tail.middle}C{first} {second} {head.x - 5} {head.middle}"
-
-    @property
-    def middle(self) -> tuple[int, int]:
-        """The place of its words."""
-        tail, head = self.tail, self.head
-        return tail.right + (head.x - tail.right) // 2, (tail.middle + head.middle) // 2 - 3
+def _out(graph: Anatomy, vertex: str) -> list[_Line]:
+    """Return the edges that leave a vertex."""
+    edges = graph.edges.items()
+    return [_Line(f"{words} → {graph.short(head)}", "edge") for (tail, head), words in edges if tail == vertex]

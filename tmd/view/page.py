@@ -15,15 +15,14 @@ from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula
-from tmd.records.run import MARKS, RanStep
+from tmd.records.run import MARKS
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
 from tmd.view.object_graph import Anatomy, GraphChanges, anatomy, draw
-from tmd.view.pictures import Strip, Tile
-from tmd.view.run_record import Ran
-from tmd.view.subject import PlannedStep, Said, Subject
+from tmd.view.pictures import Strip
+from tmd.view.subject import PlannedStep, Subject
 from tmd.view.wording import Wording
 
 # A plan with more steps than this has them folded.
@@ -43,23 +42,6 @@ class Page:
 
     html: str
     verdict: Verdict
-
-
-@dataclass(frozen=True, slots=True)
-class _Seen:
-    """Executed step of a robot, with its picture."""
-
-    step: RanStep
-    picture: str
-
-
-@dataclass(frozen=True, slots=True)
-class _ClauseRow:
-    number: int
-    notation: str
-    meant: tuple[tuple[str, str, str], ...]
-    notes: tuple[str, ...]
-    unseen: bool
 
 
 def render(subject: Subject) -> Page:
@@ -87,9 +69,10 @@ def render(subject: Subject) -> Page:
             folded=len(steps) > FEW,
             undrawn=next((step.number for step in steps if step.reached and not step.drawn), None),
             sentence="" if said is None else lit_sentence(said.parsed, said.meant, said.unseen),
-            clauses=[] if said is None else _clause_rows(said),
+            notation=print_clause,
+            notes=_notes,
             candidates=_candidates(subject, verdict),
-            seen=_seen(subject, steps),
+            picture=_picture,
             version=__version__,
             style=style() + data("page.css"),
             script=script,
@@ -118,49 +101,23 @@ def _candidates(subject: Subject, verdict: Verdict) -> str:
     return candidates(subject.plans, [verdict.reason, *others], subject.refusals)
 
 
-def _clause_rows(said: Said) -> list[_ClauseRow]:
-    rows = []
-    for number, clause in enumerate(said.parsed.clauses):
-        meant = {} if said.meant is None else said.meant[number]
-        told = tuple((name, _reading(clause, name), ", ".join(objects)) for name, objects in meant.items())
-        rows.append(_ClauseRow(number + 1, print_clause(clause), told, _notes(clause), clause.verb in said.unseen))
-    return rows
-
-
-def _reading(clause: Clause, name: str) -> str:
-    """Return the reading of a pronoun, or of an object that was left out."""
-    read = clause.meant(name)
-    return "" if read == (name,) else " + ".join(read)
-
-
 def _notes(clause: Clause) -> tuple[str, ...]:
+    """Return the parts of a clause that have no column in the table of clauses."""
     said = (("condition", clause.condition), ("duration", clause.duration), ("purpose", clause.purpose))
     quantities = [f"{count} {name}" for name, count in clause.quantities.items()]
     return (*quantities, *(f"{word}: {' '.join(value.split())}" for word, value in said if value))
-
-
-def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[_Seen]]:
-    """Map each step of the plan to the executed steps of the robot for it."""
-    if subject.ran is None:
-        return {}
-    ran: Ran = subject.ran
-    strip = subject.strip
-    return {
-        step.number: [_Seen(done, _picture(strip, place)) for place, done in ran.of(step.number, len(steps))]
-        for step in steps
-    }
 
 
 def _picture(strip: Strip | None, place: int) -> str:
     """Return the style that shows one picture of the sheet at any size; empty where there is none."""
     if strip is None or place >= len(strip.tiles):
         return ""
-    tile: Tile = strip.tiles[place]
+    x, y = strip.tiles[place]
     across, down = strip.width - strip.tile_width, strip.height - strip.tile_height
     size = f"{100 * strip.width / strip.tile_width:.4f}% {100 * strip.height / strip.tile_height:.4f}%"
     return (
         f"aspect-ratio:{strip.tile_width}/{strip.tile_height};background-size:{size};"
-        f"background-position:{100 * tile.x / across:.4f}% {100 * tile.y / down:.4f}%"
+        f"background-position:{100 * x / across:.4f}% {100 * y / down:.4f}%"
     )
 
 

@@ -16,14 +16,6 @@ _LARGEST = 50_000
 
 
 @dataclass(frozen=True, slots=True)
-class Tile:
-    """Place of one picture on the sheet, in pixels."""
-
-    x: int
-    y: int
-
-
-@dataclass(frozen=True, slots=True)
 class Strip:
     """A filmstrip.
 
@@ -33,7 +25,7 @@ class Strip:
         height: Of the sheet.
         tile_width: Of one picture; 0 where the sheet is not laid out for the number of pictures.
         tile_height: Of one picture.
-        tiles: The pictures in order.
+        tiles: The left and upper edge of each picture, in order.
     """
 
     address: str
@@ -41,7 +33,7 @@ class Strip:
     height: int
     tile_width: int = 0
     tile_height: int = 0
-    tiles: tuple[Tile, ...] = ()
+    tiles: tuple[tuple[int, int], ...] = ()
 
 
 def read_strip(data: bytes, count: int) -> Strip | None:
@@ -67,5 +59,5 @@ def read_strip(data: bytes, count: int) -> Strip | None:
     if count < 1 or rest or left or tile <= _GAP or tall <= _GAP:
         return Strip(address, width, height)
     places = [divmod(index, columns) for index in range(count)]
-    tiles = tuple(Tile(_GAP + column * tile, _GAP + row * tall) for row, column in places)
+    tiles = tuple((_GAP + column * tile, _GAP + row * tall) for row, column in places)
     return Strip(address, width, height, tile - _GAP, tall - _GAP, tiles)

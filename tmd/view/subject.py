@@ -9,10 +9,10 @@ from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan, RejectedProposal, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
+from tmd.records.run import RanStep
 from tmd.view.goals import doubts
 from tmd.view.meaning import Meaning, meanings, meanings_in
 from tmd.view.pictures import Strip
-from tmd.view.run_record import Ran
 from tmd.world.world import World
 
 # Characters of a text that a title shows.
@@ -51,6 +51,29 @@ class Said:
     meant: tuple[Meaning, ...] | None = None
     unseen: tuple[str, ...] = ()
     unknown: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Ran:
+    """Execution of a plan by a robot.
+
+    Attributes:
+        status: How it ended: ``done``, ``recovered``, ``stopped`` …; ``unfinished`` where its log has no end.
+        reason: Why it stopped.
+        repairs: How often the executor replanned.
+        seconds: Simulated time.
+        steps: What was done, in order.
+    """
+
+    status: str
+    reason: str = ""
+    repairs: int = 0
+    seconds: float = 0.0
+    steps: tuple[RanStep, ...] = ()
+
+    def of(self, number: int, last: int) -> list[tuple[int, RanStep]]:
+        """Return the steps that belong to place ``number`` of a plan of ``last``, each with its place in the run."""
+        return [(i, s) for i, s in enumerate(self.steps) if min(max(s.number, 1), last) == number]
 
 
 @dataclass(frozen=True, slots=True)

@@ -219,7 +219,7 @@ def test_an_object_is_pointed_at(kitchen_studio: Served, browser: Browser, scree
     with visiting(browser, kitchen_studio) as page:
         tab(page, "Object")
         choose(page, "Object", "stove1")
-        page.locator("svg", has_text="stove1").first.wait_for()
+        page.locator(".tmd-graph", has_text="stove1").first.wait_for()
         page.get_by_text("What controls what").first.wait_for()
         page.screenshot(path=screens / "09-object.png")
         choose(page, "Object", "fridge1")  # one that is opened in the page can be closed again

@@ -1,4 +1,4 @@
-"""Problems and plans as objects of unified-planning, and the forms that it writes: ANML and protocol buffers.
+"""Problems and plans as objects of unified-planning and back, and the forms that it writes: ANML, protocol buffers.
 
 unified-planning is imported when it is first needed, which takes about a third of a second.
 """
@@ -18,6 +18,9 @@ from tmd.export.planned_problem import Planned
 from tmd.pddl.derived import without_derived
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.normalise import portable
+from tmd.pddl.reading.checking import check_problem
+from tmd.pddl.reading.reader import parse_domain, parse_problem
+from tmd.pddl.reading.requirements import used_requirements
 from tmd.pddl.writer import format_domain, format_problem
 
 _WORD = re.compile(r"[A-Za-z_][\w-]*")
@@ -26,6 +29,12 @@ _HYPHENED = re.compile(r"[A-Za-z_]\w*(?:-\w+)+")
 UpProblem: TypeAlias = Any
 # A plan of unified-planning.
 UpPlan: TypeAlias = Any
+_NAME = re.compile(r"[a-z][a-z0-9_-]*")
+# What a ``unified_planning.model.Problem`` may have and a classical problem does not, by the name of its attribute.
+_UNSUPPORTED = ("durative_actions", "timed_effects", "timed_goals", "trajectory_constraints", "processes", "events")
+# Minimising this metric needs no costs: without them every instruction costs 1.
+_LENGTH = "MinimizeSequentialPlanLength"
+_METRICS = ("MinimizeActionCosts", _LENGTH)
 
 
 def to_unified_planning(problem: Problem) -> UpProblem:
@@ -78,6 +87,70 @@ def _without_idle_costs(problem: Problem) -> Problem:
         return problem
     actions = tuple(replace(action, cost=None) for action in problem.domain.actions)
     return replace(problem, domain=replace(problem.domain, functions=(), actions=actions), function_values={})
+
+
+def from_unified_planning(problem: UpProblem, *, domain: str | None = None) -> Problem:
+    """Return a ``unified_planning.model.Problem`` as one of ours, by way of the text of PDDL.
+
+    Names are taken over in lower case. Objects that an action names become constants.
+
+    Args:
+        problem: A classical problem: fluents are true or false, effects may be conditional and universal, and
+            ``MinimizeActionCosts`` may be minimised.
+        domain: The name of the domain, which unified-planning does not know; the problem's own name by default.
+
+    Raises:
+        TmdError: The problem has what we do not support, or a name that PDDL does not allow; places are those of its
+            text.
+    """
+    from unified_planning.exceptions import UPException
+
+    _refuse_the_unsupported(problem)
+    named = _named(problem.name or "problem")
+    try:
+        writer = _writer(problem)
+        domain_text, problem_text = writer.get_domain(), writer.get_problem()
+    except (UPException, AssertionError) as error:
+        raise TmdError(f"the problem '{named}' cannot be written as PDDL: {error}") from error
+    read = parse_domain(domain_text, f"the domain of {named}")
+    found = parse_problem(problem_text, read, f"the problem {named}")
+    if any(type(metric).__name__ == _LENGTH for metric in problem.quality_metrics):
+        found = _without_idle_costs(replace(found, minimize_cost=False))
+    found = replace(found, name=named, domain=replace(found.domain, name=_named(domain or named)))
+    requirements = used_requirements(found.domain, found)
+    complete = replace(found, domain=replace(found.domain, requirements=requirements))
+    for fault in check_problem(complete):
+        raise fault
+    return complete
+
+
+def _writer(problem: UpProblem) -> Any:  # noqa: ANN401 - theirs
+    """Return a writer that leaves names as they are: in PDDL an action and a predicate may have the same name."""
+    from unified_planning.io import PDDLWriter
+    from unified_planning.model import Parameter, Variable
+
+    class Writer(PDDLWriter):  # type: ignore[misc]  # of a package without types
+        def _get_mangled_name(self, item: Any) -> str:  # noqa: ANN401 - theirs
+            name = _named(item.name)
+            return f"?{name}" if isinstance(item, Parameter | Variable) else name
+
+    return Writer(problem)
+
+
+def _refuse_the_unsupported(problem: UpProblem) -> None:
+    for name in _UNSUPPORTED:
+        if list(getattr(problem, name)):
+            raise TmdError(f"the problem '{problem.name}' has {name.replace('_', ' ')}, which are not supported")
+    kinds = [type(metric).__name__ for metric in problem.quality_metrics]
+    if len(kinds) > 1 or not set(kinds) <= set(_METRICS):
+        raise TmdError(f"the metric {', '.join(kinds)} is not supported", hint="use MinimizeActionCosts")
+
+
+def _named(name: str) -> str:
+    plain = name.lower()
+    if not _NAME.fullmatch(plain):
+        raise TmdError(f"'{name}' is not a name in PDDL", hint="names have letters, digits, _ and -, a letter first")
+    return plain
 
 
 def plan_to_unified_planning(plan: Iterable[Instruction], problem: UpProblem) -> UpPlan:
