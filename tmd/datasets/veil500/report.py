@@ -9,9 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from tmd.datasets.veil500.compile import veil_domain
 from tmd.datasets.veil500.data import Point, VeilData, load
-from tmd.datasets.veil500.forms import mentioned
+from tmd.datasets.veil500.forms import mentioned, veil_domain
 from tmd.datasets.veil500.relations import initial_relations, unsupported
 from tmd.datasets.veil500.repair import Repaired, Repairer
 

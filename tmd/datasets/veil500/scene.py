@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from tmd.datasets.veil500.classes import read_classes
-from tmd.datasets.veil500.compile import compile_environment, domain_path
+from tmd.datasets.veil500.compile import compile_environment
 from tmd.datasets.veil500.data import CLASSES, ENVIRONMENTS
-from tmd.datasets.veil500.environment import FOLDERS, VeilEnvironment, VeilObject, read_environment
+from tmd.datasets.veil500.environment import FOLDERS, VeilEnvironment, VeilObject, read_classes, read_environment
+from tmd.datasets.veil500.forms import domain_path
 from tmd.diagnostics import DataError, Location, TmdError
 from tmd.pddl.model import OBJECT, Problem
 from tmd.world.classes import Classes, StateValue
