@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from tmd.datasets.veil500 import absent_types, compile_environment, from_veil, load, mentioned
-from tmd.datasets.veil500.compile import Semantics
+from tmd.datasets.veil500.forms import Semantics
 from tmd.evaluation.metrics import Scorer
 from tmd.evaluation.runs.config import VEIL500, ExperimentConfig
 from tmd.evaluation.runs.dataset import open_dataset

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmd.evaluation.models.ranked import FEATURES, PROPOSERS
-from tmd.evaluation.significance import compare
+from tmd.evaluation.summary import compare
 
 Floats = NDArray[np.float64]
 METRICS = ("IED", "END")

@@ -390,7 +390,7 @@ def test_an_interrupt_in_made_code_keeps_its_exit_code(tmp_path: Path, number: i
     """A plain KeyboardInterrupt would let the interpreter end by SIGINT."""
     (tmp_path / "stopped.py").write_text(
         "import os, sys\n"
-        "from tmd.cli.signals import stoppable\n"
+        "from tmd.cli.program import stoppable\n"
         "try:\n"
         "    with stoppable():\n"
         f"        exec('os.kill(os.getpid(), {int(number)})')\n"

@@ -122,12 +122,10 @@ def test_odd_environments_can_be_used(small_directory: Path) -> None:
     path = small_directory / "Environments/kitchen/kitchen2.xml"
     _edit(path, "<name>Robinia_7</name>", "<name>Sink</name>")
     _edit(path, "<position>(0, 40, 90)</position>", "")
-    _edit(path, "<rotation>(0, 90, 0)</rotation>", "")
     kitchen = load(small_directory).environments["kitchen", 2]
     assert kitchen.repeated == ("Sink",)
     assert kitchen.by_name["Sink"].position.x == 60
     assert kitchen.by_name["Fridge"].placeholder
-    assert kitchen.objects[0].rotation == (0, 0, 0)
 
 
 def test_environments_are_optional_but_some(small_directory: Path) -> None:

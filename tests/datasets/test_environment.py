@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tmd.datasets.veil500 import VeilData, VeilEnvironment, compile_environment, load
-from tmd.datasets.veil500.classes import class_of, is_true, read_classes
+from tmd.datasets.veil500.environment import class_of, is_true, read_classes
 from tmd.datasets.veil500.relations import VeilRelation, initial_relations, unsupported
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom

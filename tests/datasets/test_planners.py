@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from tmd.datasets.veil500 import VeilData, compile_environment, rollout
-from tmd.datasets.veil500.compile import Semantics, domain_path
+from tmd.datasets.veil500.forms import Semantics, domain_path
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import And, Atom, GroundAtom, Instruction, Problem
 from tmd.pddl.writer import format_problem

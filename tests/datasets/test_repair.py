@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import pytest
 
-from tmd.datasets.veil500 import Point, VeilData, VeilGroup, executability, from_veil, repair, repaired, to_veil
-from tmd.datasets.veil500.repair import Repairer
+from tmd.datasets.veil500 import Point, Repairer, VeilData, VeilGroup, compile_environment, from_veil, repaired, to_veil
+from tmd.datasets.veil500 import repair as repairing
+from tmd.datasets.veil500.repair import Executability, Repaired
+from tmd.pddl.model import And, Atom, Effect, Equals, Not, Problem, TypedName
 
 
 def point(small: VeilData, *groups: str, world: str = "kitchen") -> Point:
@@ -16,6 +18,10 @@ def point(small: VeilData, *groups: str, world: str = "kitchen") -> Point:
     base = next(p for p in small.points if p.world == world)
     parsed = [tuple(from_veil(text) for text in group.split(", ") if text) for group in groups]
     return replace(base, groups=tuple(VeilGroup((n,), actions) for n, actions in enumerate(parsed)))
+
+
+def repair(one: Point, data: VeilData) -> Repaired:
+    return Repairer(replace(data, points=(one,))).repair(one)
 
 
 @pytest.mark.parametrize(
@@ -56,6 +62,26 @@ def test_one_missing_fact(small: VeilData, groups: tuple[str, ...], inserted: st
 def test_remote_in_hand(small: VeilData) -> None:
     before = point(small, "moveto Tv_1Remote_1", "press Tv_1Remote_1PowerButton", world="living_room")
     assert repair(before, small).inserted == from_veil("grasp Tv_1Remote_1")
+
+
+def exclusive(problem: Problem) -> Problem:
+    """Return the problem with ``moveto`` also ending being near every other thing that is not held."""
+    other = TypedName("?other", ("thing",))
+    away = And((Not(Equals("?x", "?other")), Not(Atom("holding", ("pr2", "?other")))))
+    leave = Effect(Atom("near", ("pr2", "?other")), False, away, (other,))
+    actions = tuple(
+        replace(action, effects=(*action.effects, leave)) if action.name == "moveto" else action
+        for action in problem.domain.actions
+    )
+    return replace(problem, domain=replace(problem.domain, actions=actions))
+
+
+def executability(data: VeilData, *, two_hands: bool = False, exclusive_near: bool = False) -> Executability:
+    """With ``exclusive_near``, coming near one thing ends being near the others, as the data set's authors meant."""
+    with pytest.MonkeyPatch.context() as other:
+        if exclusive_near:
+            other.setattr(repairing, "compile_environment", lambda place: exclusive(compile_environment(place)))
+        return Repairer(data).executability(data.points, two_hands=two_hands)
 
 
 def test_executability_of_a_small_set(small: VeilData) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tmd.datasets.veil500 import Rollout, VeilData, VeilEnvironment, compile_environment, from_veil, rollout
-from tmd.datasets.veil500.compile import Semantics
+from tmd.datasets.veil500.forms import Semantics
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction
 

@@ -22,8 +22,8 @@ from tmd import __version__
 from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation.models import model
 from tmd.evaluation.runs import cluster
-from tmd.evaluation.runs.config import Shard
-from tmd.evaluation.runs.experiment import ExperimentConfig, collect, run, work
+from tmd.evaluation.runs.config import ExperimentConfig, Shard
+from tmd.evaluation.runs.experiment import collect, run, work
 from tmd.evaluation.runs.jobs import EvaluationJob, WorkerLostError
 
 ROOT = Path(__file__).parents[2]
@@ -434,12 +434,12 @@ def test_a_worker_without_tmd_is_told_and_a_scheduler_needs_none(tmp_path: Path,
 def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
     here = config(tmp_path, test_environments=(1,))
     unit = EvaluationJob("empty", "ramen_2-5", ("given",))
-    right = cluster.Expected(__version__, cluster.source_digest(), cluster.open_dataset(here).fingerprint())
-    assert cluster.remote(here, unit, right).parts.keys() == {"given"}
+    found = cluster.open_dataset(here).fingerprint()
+    assert cluster.remote(here, unit, cluster.build(), found).parts.keys() == {"given"}
     with pytest.raises(DataError, match=r"other data: their fingerprint is \w+, and not 0123"):
-        cluster.remote(here, unit, replace(right, fingerprint="0123"))
+        cluster.remote(here, unit, cluster.build(), "0123")
     with pytest.raises(DataError, match="has another tmd"):
-        cluster.remote(here, unit, replace(right, version="0"))
+        cluster.remote(here, unit, "0 (code tests)", found)
 
 
 def test_a_worker_reads_data_anew_when_they_have_changed(tmp_path: Path) -> None:
@@ -461,8 +461,7 @@ def test_a_worker_reads_data_anew_when_they_have_changed(tmp_path: Path) -> None
     assert cluster.open_dataset(here).fingerprint() == before
     file.write_text("".join(lines))
     unit = EvaluationJob("empty", "ramen_2-5", ("given",))
-    expected = cluster.Expected(__version__, cluster.source_digest(), after)
-    assert len(cluster.remote(here, unit, expected).parts["given"].splitlines()) == 10
+    assert len(cluster.remote(here, unit, cluster.build(), after).parts["given"].splitlines()) == 10
 
 
 @needs_dask

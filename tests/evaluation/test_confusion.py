@@ -8,7 +8,7 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, belonging, by_instruction, by_verb
+from tmd.evaluation.report.predictions import NO_CLAUSE, NOTHING, belonging, by_instruction, by_verb
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
 
 TEXT = "Take the cup. Fill it, then put it down."

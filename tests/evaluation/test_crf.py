@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -23,6 +22,7 @@ from tmd.inference.ranking import RankedPlan
 from tmd.library.library import Library
 from tmd.pddl.task import Cube
 from tmd.planning.result import Filled, NoPlanner, Unreachable
+from tmd.records.fit import Fit, WorldFit
 
 ROOT = Path(__file__).parents[2]
 LATENT = ("latent_description_length", "latent_instruction_prior", "latent_parameter_prior", "latent_inconsistent_end")
@@ -135,7 +135,7 @@ def test_a_restored_model_predicts_what_the_fitted_one_did(
     """By way of the file that a run keeps."""
     model = fitted(row(name), train, data)
     text = fit_text(name, given_fold(data.examples, data.examples, {2, 4, 5}, {1})[0], model)
-    saved = json.loads(text) if text is not None else {}
+    saved = Fit.from_text(text, "fit.json").worlds if text is not None else {}
     again = row(name).restore(train, data, saved)
     assert numbers(again) == numbers(model)
     expected = predictions(model, test, data)
@@ -147,7 +147,7 @@ def test_what_is_restored_are_the_weights_that_were_saved(
     data: BundledData, train: list[Example], test: list[Example]
 ) -> None:
     """With others saved the predictions are others: restoring does not learn again."""
-    saved = {"worlds": {"kitchen": {"weights": {"description_length": 1.0}, "curve": []}}}
+    saved = {"kitchen": WorldFit(weights={"description_length": 1.0}, curve=())}
     model = row("full").restore(train, data, saved)
     assert model.weights_ == {"kitchen": Weights({"description_length": 1.0})}
     assert not any(prediction.instructions for prediction in predictions(model, test, data))

@@ -17,8 +17,9 @@ from tmd.diagnostics import OutputError, TmdError
 from tmd.evaluation.models import model
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs import experiment
-from tmd.evaluation.runs.experiment import ExperimentConfig, collect, run
-from tmd.evaluation.runs.summary import summarise
+from tmd.evaluation.runs.config import ExperimentConfig
+from tmd.evaluation.runs.experiment import collect, run
+from tmd.evaluation.summary import summarise
 from tmd.pddl.plan_file import parse_instruction
 
 ROOT = Path(__file__).parents[2]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tmd.evaluation.models.model import MODELS
-from tmd.evaluation.report.paper_table import METRICS, OURS, TABLE_2, TASKS, in_order, title
+from tmd.evaluation.report.rows import METRICS, OURS, TABLE_2, TASKS, in_order, title
 
 
 @pytest.mark.parametrize("name", TABLE_2)

@@ -14,10 +14,9 @@ from hypothesis import strategies as st
 from tests import bundled
 from tmd.diagnostics import TmdError
 from tmd.evaluation.runs.config import ExperimentConfig
-from tmd.evaluation.runs.dataset import BundledData, Dataset, Example, VeilDataset
+from tmd.evaluation.runs.dataset import BundledData, Dataset, Example, VeilDataset, read_protocol
 from tmd.evaluation.runs.folds import Fold, folds_of, given_fold, halves, ranges
 from tmd.evaluation.runs.jobs import leave_out, sentences, units_of
-from tmd.evaluation.runs.protocol import read_protocol
 from tmd.pddl.model import Instruction
 from tmd.world.demonstration import Demonstration, Segment
 

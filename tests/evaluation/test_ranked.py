@@ -54,7 +54,7 @@ def test_only_differences_between_candidates_count() -> None:
 def test_the_weights_choose(proposer: str) -> None:
     data, test, row = pantries()
     chosen = Ranked({f"first of {proposer}": 1.0, f"of {proposer}": 0.1})
-    chosen.__dict__ |= {"_examples": row._examples, "_models": row._models}
+    chosen.__dict__ |= {"_examples": row._examples, "_tree": row._tree, "_models": row._models}
     first = candidates().plans[candidates().proposed[proposer][0]]
     assert chosen.predict(test, data, np.random.default_rng(1)).instructions == first
 

@@ -16,11 +16,11 @@ import pytest
 from rich.console import Console
 
 from tmd.diagnostics import OutputError, TmdError
-from tmd.evaluation.report.examples import best_and_worst
-from tmd.evaluation.report.in_words import in_words
+from tmd.evaluation.report.predictions import best_and_worst
 from tmd.evaluation.report.report import print_table, write_report
+from tmd.evaluation.report.rows import in_words
 from tmd.evaluation.runs.finished_run import read_run
-from tmd.evaluation.runs.summary import summarise
+from tmd.evaluation.summary import summarise
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Trial, TrialRequest

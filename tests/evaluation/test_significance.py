@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import stats
 
-from tmd.evaluation.runs.summary import summarise
-from tmd.evaluation.significance import compare, holm, intervals, sign_flip
+from tmd.evaluation.summary import compare, holm, intervals, sign_flip, summarise
 from tmd.records.metrics import METRICS
 
 

@@ -15,14 +15,13 @@ from rich.console import Console
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.metrics import Scorer
-from tmd.evaluation.report.examples import best_and_worst
+from tmd.evaluation.report.predictions import best_and_worst
 from tmd.evaluation.report.report import print_table, write_report
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import BundledData, forget_datasets
 from tmd.evaluation.runs.experiment import run
 from tmd.evaluation.runs.finished_run import read_run
-from tmd.evaluation.runs.summary import summarise
-from tmd.evaluation.significance import compare
+from tmd.evaluation.summary import compare, summarise
 from tmd.pddl.forced_execution import rollout
 from tmd.pddl.model import Formula, Problem
 from tmd.pddl.plan_file import parse_instruction

@@ -285,12 +285,6 @@ def test_the_order_of_hashes_decides_nothing() -> None:
     assert len(printed) == 1 and len(printed.pop().strip()) == hashlib.sha256().digest_size * 2
 
 
-def test_parameters_are_kept_as_they_were_given() -> None:
-    model = InstructionTree(beam=2, bonus=0.1, ridge=9.0)
-    assert (model.beam, model.bonus, model.ridge) == (2, 0.1, 9.0)
-    assert not [name for name in vars(model) if name.endswith("_")]
-
-
 def test_actions_that_training_never_had_surprise_and_break_nothing() -> None:
     data = BundledData("boiling_water")
     examples = [e for e in data.examples if e.environment == "kitchen1"]

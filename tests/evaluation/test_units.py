@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Self
@@ -15,9 +15,11 @@ from tmd.evaluation.models import model
 from tmd.evaluation.models.paper_models import Crf
 from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs import jobs
+from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, Example
-from tmd.evaluation.runs.experiment import ExperimentConfig, run
+from tmd.evaluation.runs.experiment import run
 from tmd.inference.energy import NAMES, Weights
+from tmd.records.fit import WorldFit
 
 ROOT = Path(__file__).parents[2]
 STEPS = 5
@@ -57,10 +59,10 @@ class Toy(Crf):
         }
         return self
 
-    def restore(self, examples: Sequence[Example], data: Dataset, saved: dict[str, Any]) -> Self:
+    def restore(self, examples: Sequence[Example], data: Dataset, saved: Mapping[str, WorldFit]) -> Self:
         Toy.restores += 1
-        world = saved["worlds"]["kitchen"]
-        self.learned_ = {"kitchen": Found(Weights(world["weights"]), tuple(world["curve"]))}
+        world = saved["kitchen"]
+        self.learned_ = {"kitchen": Found(Weights(world.weights), world.curve)}
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:

@@ -11,7 +11,7 @@ from tests.view.reading import Reader
 from tmd.evaluation.report.page import linked_pages, page_name
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.config import ExperimentConfig
-from tmd.evaluation.runs.summary import summarise
+from tmd.evaluation.summary import summarise
 from tmd.robot_trials.experiment import write_pages
 
 ROOT = Path(__file__).parents[2]

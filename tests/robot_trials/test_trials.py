@@ -21,9 +21,8 @@ from tests.cli.conftest import run_tmd
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.config import ExperimentConfig
-from tmd.evaluation.runs.finished_run import read_run
-from tmd.evaluation.runs.summary import summarise
-from tmd.evaluation.runs.trial_records import Trials, read_trials
+from tmd.evaluation.runs.finished_run import Trials, read_run, read_trials
+from tmd.evaluation.summary import summarise
 from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Trial
 from tmd.robot_trials import trials as performing
@@ -104,7 +103,7 @@ class Counted:
     def __init__(self) -> None:
         self.environments: list[str] = []
 
-    def __call__(self, job: performing.Job) -> Trial:
+    def __call__(self, job: performing.Job, orders: object) -> Trial:
         self.environments.append(job.asked.environment)
         return Trial(asked=job.asked, status="done")
 

@@ -10,7 +10,6 @@ import pytest
 
 from tests.view.conftest import corpus
 from tests.view.reading import Reader
-from tmd.cli.inputs.grounding import made_with
 from tmd.diagnostics import TmdError
 from tmd.ground import Grounded, ground
 from tmd.inference.ranking import StepGoal
@@ -108,7 +107,10 @@ def test_executable_is_not_reached(study: World) -> None:
 
 def again(told: Grounded) -> GroundingRecord:
     """What was printed of a text, read back."""
-    record = grounding_record(told, domain="03_drawer", environment_file=None, made_with=made_with(None))
+    made_with = {
+        "version": "0", "model": "goals", "weights": "goals", "planner": "in-process", "beam": 8, "trim": None, "top": 1
+    }  # fmt: skip
+    record = grounding_record(told, domain="03_drawer", environment_file=None, made_with=made_with)
     return GroundingRecord.from_text(json.dumps(record.to_value()), "x.json")
 
 

@@ -1,4 +1,4 @@
-"""The command line: a module for each command, what they are given, and what they print.
+"""The command line: the commands, their options, and what they print.
 
 Begin with :mod:`tmd.cli.program`, the table of commands.
 Nothing heavy is imported before a command needs it: ``tmd --help`` is to be there at once.

@@ -1,4 +1,4 @@
-"""The one place where whatever went wrong becomes a line for people and an exit code."""
+"""Errors as a line for people, JSON for programs, and an exit code."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Fault:
     Attributes:
         code: What the program ends with.
         message: What is wrong, in one line.
-        location: Where, if it stands in a text.
+        location: Its place in a text, if it has one.
         hint: What to do about it.
         source: The source line.
     """
@@ -78,10 +78,9 @@ def fault_of(error: BaseException, command: str = "tmd") -> Fault:
     if isinstance(error, TmdError):
         hint = error.hint or _remedy(error, command)
         return Fault(error.exit_code, error.message, error.location, hint, error.source)
-    if isinstance(error, click.UsageError):
-        command = error.ctx.command_path if error.ctx else command
-        return Fault(ExitCode.USAGE, error.format_message(), hint=f"see {command} --help")
     if isinstance(error, click.ClickException):
+        context = getattr(error, "ctx", None)
+        command = context.command_path if context else command
         return Fault(ExitCode.USAGE, error.format_message(), hint=f"see {command} --help")
     if isinstance(error, KeyboardInterrupt | click.Abort):
         return Fault(ExitCode.INTERRUPTED, "interrupted")

@@ -29,8 +29,12 @@ def open_closed_streams() -> None:
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - it stays open
 
 
-def emit(text: str, *, error: bool = False) -> None:
-    """Write ``text`` to standard output or standard error; where no error can be written, the command goes on."""
+def emit(value: object, *, error: bool = False) -> None:
+    """Write a text, or any other value as JSON with its keys in their order, to standard output or standard error.
+
+    Where no error can be written, the command goes on.
+    """
+    text = value if isinstance(value, str) else lay_out(value) + "\n"
     with suppress(OSError) if error else nullcontext():
         _write(sys.stderr if error else sys.stdout, text)
 
@@ -55,20 +59,15 @@ class ErrorStream(TextIOBase):
         self._stream = sys.stderr
 
     def write(self, text: str) -> int:
-        """Write it; its length."""
+        """Write a text, and return its length."""
         with suppress(OSError):
             _write(self._stream, text)
         return len(text)
 
     def isatty(self) -> bool:
-        """Return whether somebody looks at it."""
+        """Return whether it is a terminal."""
         return self._stream.isatty()
 
     def fileno(self) -> int:
         """Return the file descriptor, which gives the width."""
         return self._stream.fileno()
-
-
-def emit_json(value: object) -> None:
-    """Write one JSON value; keys stand in the order in which they are documented."""
-    emit(lay_out(value) + "\n")

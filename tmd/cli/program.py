@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from importlib import import_module
 from pathlib import Path
 
@@ -13,31 +15,34 @@ import click
 
 from tmd import __version__
 from tmd.cli.errors import Fault, fault_of
-from tmd.cli.output import emit, emit_json
-from tmd.cli.signals import stoppable
+from tmd.cli.options import PATH
+from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
 from tmd.world.roots import Roots
 
-COMMANDS = (
-    "ground",
-    "run",
-    "view",
-    "scene",
-    "studio",
-    "new",
-    "test",
-    "learn",
-    "check",
-    "fmt",
-    "parse",
-    "validate",
-    "plan",
-    "export",
-    "compile",
-    "data",
-    "experiment",
-)
-"""The sub-commands, in the order in which a newcomer meets them; :mod:`tmd.cli.commands` has a module for each."""
+_MODULES = {
+    "ground": "requests",
+    "run": "robot",
+    "view": "pages",
+    "scene": "robot",
+    "studio": "pages",
+    "new": "domain",
+    "test": "requests",
+    "learn": "domain",
+    "check": "domain",
+    "fmt": "domain",
+    "parse": "requests",
+    "validate": "planning",
+    "plan": "planning",
+    "export": "planning",
+    "compile": "domain",
+    "data": "experiment",
+    "experiment": "experiment",
+}
+"""The module below :mod:`tmd.cli.commands` that has each sub-command."""
+COMMANDS = tuple(_MODULES)
+"""The sub-commands, in the order in which a newcomer meets them."""
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class _Commands(click.Group):
@@ -49,14 +54,14 @@ class _Commands(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        command = import_module(f"tmd.cli.commands.{cmd_name}").command
+        command = getattr(import_module(f"tmd.cli.commands.{_MODULES[cmd_name]}"), cmd_name)
         assert isinstance(command, click.Command)
         return command
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
-@click.option("--domains", type=click.Path(path_type=Path), metavar="DIR", help="The directory of all domains.")
-@click.option("--problems", type=click.Path(path_type=Path), metavar="DIR", help="The directory of all problems.")
+@click.option("--domains", type=PATH, metavar="DIR", help="The directory of all domains.")
+@click.option("--problems", type=PATH, metavar="DIR", help="The directory of all problems.")
 @click.option("--debug", is_flag=True, help="Show where an internal error happened.")
 @click.version_option(__version__, prog_name="tmd", message="%(prog)s %(version)s")
 @click.pass_context
@@ -66,6 +71,30 @@ def program(ctx: click.Context, domains: Path | None, problems: Path | None, deb
     The directories are looked for in this order: the option, ./domains and ./problems, the packaged copy.
     """
     ctx.obj = Roots(domains, problems)
+
+
+class Stopped(KeyboardInterrupt):
+    """Request to stop the program.
+
+    A separate type is needed because of a habit of Python: a plain KeyboardInterrupt that passes through ``exec`` of a
+    text (making a dataclass is enough) lets the interpreter end by SIGINT, even if it is given another exit code later.
+    """
+
+
+@contextmanager
+def stoppable() -> Iterator[None]:
+    """Raise SIGINT, SIGTERM and SIGHUP as :class:`Stopped`, except those that the parent process set to be ignored."""
+
+    def stop(number: int, frame: object) -> None:
+        raise Stopped
+
+    heard = [number for number in _SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
+    before = {number: signal.signal(number, stop) for number in heard}
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
 
 
 def run(arguments: Sequence[str]) -> ExitCode:
@@ -87,7 +116,7 @@ def run(arguments: Sequence[str]) -> ExitCode:
 
 
 def _invoke(arguments: list[str]) -> ExitCode:
-    """Not :meth:`click.Command.main`, which has exit codes of its own."""
+    """Invoke the command without :meth:`click.Command.main`, which has other exit codes."""
     try:
         with program.make_context("tmd", arguments) as context:
             return ExitCode(program.invoke(context) or ExitCode.OK)
@@ -100,7 +129,7 @@ def _tell(fault: Fault, *, as_json: bool) -> ExitCode:
     code = fault.code
     try:
         if as_json:
-            emit_json(fault.json())
+            emit(fault.json())
         sys.stdout.flush()
     except OSError:
         _silence()

@@ -1,4 +1,4 @@
-"""Learning a domain and keeping it: what ``tmd learn`` does."""
+"""Learn a domain and save what was learned, as ``tmd learn`` does."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def learn_domain(corpus: Corpus, root: Path | None = None, *, weights: bool = Tr
             f"there are no demonstrations of '{corpus.folder.name}' in {corpus.directory}",
             hint="they are in TASK/demonstrations.jsonl",
         )
-    for demonstration in demonstrations:  # who shows something else than the text asks for teaches something wrong
+    for demonstration in demonstrations:  # one that misses its own goal would teach something wrong
         if demonstration.goal is not None:
             world = corpus.world(demonstration.environment)
             check_goal(demonstration, world.task.problem, final_state(demonstration, world))

@@ -142,22 +142,14 @@ def cover_of(
 
 def visible(task: Task, problem: Problem, cover: AbstractSet[str]) -> Bits:
     """Return the atoms that EED looks at: about objects of the cover only, and not about the robot."""
-    looked_at = 0
-    for number, about in enumerate(_subjects(task, problem)):
-        if about and about <= cover:
-            looked_at |= 1 << number
-    return looked_at
-
-
-def _subjects(task: Task, problem: Problem) -> list[frozenset[str]]:
-    """Return for each atom the objects that it is about; none for an atom about the robot."""
     known = universe(problem)
     constants = {constant.name for constant in problem.domain.constants}
-    found = []
-    for atom in task.atoms:
-        robots = any(known.is_a(arg, (ROBOT,)) for arg in atom.args)
-        found.append(frozenset() if robots else frozenset(atom.args) - constants)
-    return found
+    looked_at = 0
+    for number, atom in enumerate(task.atoms):
+        about = set(atom.args) - constants
+        if about and about <= cover and not any(known.is_a(arg, (ROBOT,)) for arg in atom.args):
+            looked_at |= 1 << number
+    return looked_at
 
 
 class Scorer:
@@ -205,7 +197,7 @@ class Scorer:
         return states[0] ^ states[-1]
 
     def reaches(self, predicted: Sequence[Instruction], goal: Formula) -> bool:
-        """Success: whether ``goal`` holds in the state that END looks at, the last one of forced execution."""
+        """Return whether ``goal`` holds in the state that END looks at, the last one of forced execution."""
         done = self.simulator.run(predicted)
         return holds(goal, done.task.decode(done.states[-1]), self.problem)
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tmd.diagnostics import TmdError
-from tmd.evaluation.significance import mcnemar
+from tmd.evaluation.summary import mcnemar
 from tmd.grounded import Grounded
 from tmd.json_record import rounded
 from tmd.pddl.model import Problem

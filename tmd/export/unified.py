@@ -18,9 +18,8 @@ from tmd.export.planned_problem import Planned
 from tmd.pddl.derived import without_derived
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.normalise import portable
-from tmd.pddl.reading.checking import check_problem
+from tmd.pddl.reading.checking import check_problem, used_requirements
 from tmd.pddl.reading.reader import parse_domain, parse_problem
-from tmd.pddl.reading.requirements import used_requirements
 from tmd.pddl.writer import format_domain, format_problem
 
 _WORD = re.compile(r"[A-Za-z_][\w-]*")

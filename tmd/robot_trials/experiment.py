@@ -7,14 +7,13 @@ from contextlib import suppress
 from pathlib import Path
 
 from tmd.diagnostics import TmdError
-from tmd.evaluation.report.examples import best_and_worst
 from tmd.evaluation.report.page import FOLDER, linked_pages, page_name
+from tmd.evaluation.report.predictions import best_and_worst
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.config import BUNDLED, ExperimentConfig
 from tmd.evaluation.runs.experiment import Progress, collect, run
-from tmd.evaluation.runs.finished_run import Run, read_run
-from tmd.evaluation.runs.summary import EMPTY
-from tmd.evaluation.runs.trial_records import Trials, read_trials
+from tmd.evaluation.runs.finished_run import Run, Trials, read_run, read_trials
+from tmd.evaluation.summary import EMPTY
 from tmd.files import make_directory, write_text
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.language import parse

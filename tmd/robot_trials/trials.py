@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import closing, nullcontext, suppress
 from dataclasses import dataclass
 from importlib.util import find_spec
@@ -13,9 +13,9 @@ from tmd import __version__
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.evaluation.runs.backends import in_processes
 from tmd.evaluation.runs.config import BUNDLED, ExperimentConfig
-from tmd.evaluation.runs.finished_run import Run, read_run
-from tmd.evaluation.runs.summary import EMPTY
-from tmd.evaluation.runs.trial_records import FOLDER, SKIPPED, Trials, read_trial, read_trials
+from tmd.evaluation.runs.experiment import Progress
+from tmd.evaluation.runs.finished_run import FOLDER, SKIPPED, Run, Trials, read_run, read_trial, read_trials
+from tmd.evaluation.summary import EMPTY
 from tmd.files import make_directory, write_text
 from tmd.inference.config import DEFAULT
 from tmd.pddl.plan_file import parse_instruction
@@ -54,20 +54,12 @@ def choices(run: Run) -> list[TrialChoice]:
         return []
     best = DEFAULT if DEFAULT in rows else max(reversed(rows), key=lambda name: run.metrics.models[name].average.END)
     lines = run.of(best)
-    environments = sorted({line.environment for line in lines})
-    return [
-        TrialChoice(where, best, _first([line for line in lines if line.environment == where and _works(line)]))
-        for where in environments
-    ]
-
-
-def _first(lines: Sequence[PredictionRecord]) -> PredictionRecord | None:
-    """Return the first that reaches its goal, or the first."""
-    return next((line for line in lines if line.success), next(iter(lines), None))
-
-
-def _works(line: PredictionRecord) -> bool:
-    return line.executable and bool(line.predicted)
+    found = []
+    for where in sorted({line.environment for line in lines}):
+        working = [line for line in lines if line.environment == where and line.executable and line.predicted]
+        first = next((line for line in working if line.success), next(iter(working), None))
+        found.append(TrialChoice(where, best, first))
+    return found
 
 
 PICTURE = (400, 300)
@@ -81,14 +73,14 @@ class Job:
 
     Attributes:
         asked: The request.
-        line: The prediction.
+        line: The prediction; ``None`` if none is executable under PDDL.
         domain: The domain's folder.
         problems: The directory of its problems.
         out: Destination of record and films.
     """
 
     asked: TrialRequest
-    line: PredictionRecord
+    line: PredictionRecord | None
     domain: Path
     problems: Path
     out: Path
@@ -106,22 +98,25 @@ def perform(job: Job) -> None:
         MissingToolError: The simulator is not installed.
         OutputError: It cannot be written.
     """
-    try:
-        trial = _carried_out(job)
-    except (MissingToolError, OutputError):
-        raise
-    except TmdError as error:
-        trial = Trial(asked=job.asked, status="no_scene", reason=str(error))
+    if job.line is None:
+        reason = f"no prediction of {job.asked.model} can be executed there under PDDL"
+        trial = Trial(asked=job.asked, status="no_plan", reason=reason)
+    else:
+        try:
+            trial = _carried_out(job, orders_of(job.line))
+        except (MissingToolError, OutputError):
+            raise
+        except TmdError as error:
+            trial = Trial(asked=job.asked, status="no_scene", reason=str(error))
     write_text(job.record, trial.model_dump_json(indent=2) + "\n")
 
 
-def _carried_out(job: Job) -> Trial:
+def _carried_out(job: Job, orders: Sequence[Order]) -> Trial:
     corpus = Corpus(DomainFolder(job.domain), job.problems)
     where = job.asked.environment
     environment = load_environment(corpus.directory / "environments" / f"{where}.yaml")
     problem = corpus.world(where).task.problem
     kinematic = job.asked.mode == "kinematic"
-    orders = orders_of(job.line)
     notes = StepRecorder()
     movie, strip = _movie(job), job.out / f"{where}.png"
     heading = f"{where}: {len(orders)} instructions of {job.asked.model}"
@@ -170,7 +165,6 @@ def orders_of(line: PredictionRecord) -> list[Order]:
 
 
 Mode = Literal["kinematic", "physics"]
-Progress = Callable[[int, int], None]
 
 
 def run_trials(config: ExperimentConfig, mode: Mode, progress: Progress | None = None) -> Trials:
@@ -208,27 +202,21 @@ def _hindrance(config: ExperimentConfig) -> str:
 
 
 def _perform_all(config: ExperimentConfig, mode: Mode, folder: Path, progress: Progress | None) -> None:
+    # absolute paths, since other processes may work elsewhere
     domain = find_domain(config.domain, config.domains).path.resolve()
     problems = (find_root("problems", config.problems) / config.domain).resolve()
     chosen = choices(read_run(config.out))
-    asked = [_asked(choice, config, mode) for choice in chosen]
-    _forget_others(folder, {each.environment for each in asked})
-    left = [pair for pair in zip(chosen, asked, strict=True) if not _is_done(folder, pair[1])]
-    done = len(chosen) - len(left)
-    if progress:
-        progress(done, len(chosen))
-    jobs = []  # with absolute paths: other processes may work elsewhere
-    for choice, each in left:
-        if choice.line is None:
-            _without_plan(folder, each)
-            done += 1
-        else:
-            jobs.append((Job(each, choice.line, domain, problems, folder.resolve()),))
-    with closing(in_processes(perform, jobs, config.jobs)) as ended:
-        for _ in ended:
-            done += 1
-            if progress:
-                progress(done, len(chosen))
+    jobs = [Job(_asked(each, config, mode), each.line, domain, problems, folder.resolve()) for each in chosen]
+    for path in folder.glob("*.json"):  # of environments that this run does not test in
+        if path.stem not in {job.asked.environment for job in jobs}:
+            remove_file(path)
+    left = [(job,) for job in jobs if not _is_done(job)]
+    tell = progress or (lambda done, of: None)
+    done = len(jobs) - len(left)
+    tell(done, len(jobs))
+    with closing(in_processes(perform, left, config.jobs)) as ended:
+        for number, _ in enumerate(ended, done + 1):
+            tell(number, len(jobs))
 
 
 def _asked(choice: TrialChoice, config: ExperimentConfig, mode: Mode) -> TrialRequest:
@@ -245,24 +233,16 @@ def _asked(choice: TrialChoice, config: ExperimentConfig, mode: Mode) -> TrialRe
     )
 
 
-def _is_done(folder: Path, asked: TrialRequest) -> bool:
+def _is_done(job: Job) -> bool:
     """Return whether the same trial was made before, and its films are there."""
-    path = folder / f"{asked.environment}.json"
-    if not path.is_file():
+    if not job.record.is_file():
         return False
     try:
-        trial = read_trial(path)
+        trial = read_trial(job.record)
     except TmdError:
         return False
     films = [name for name in (trial.film, trial.strip) if name is not None]
-    return trial.asked == asked and all((folder / name).is_file() for name in films)
-
-
-def _forget_others(folder: Path, environments: set[str]) -> None:
-    """Remove trials in environments that this run does not test in."""
-    for path in folder.glob("*.json"):
-        if path.stem not in environments:
-            remove_file(path)
+    return trial.asked == job.asked and all((job.out / name).is_file() for name in films)
 
 
 def remove_file(path: Path) -> None:
@@ -276,9 +256,3 @@ def remove_file(path: Path) -> None:
     except OSError as error:
         message = f"{path} cannot be removed: {error.strerror}"
         raise OutputError(message, hint="name a directory you may write to") from None
-
-
-def _without_plan(folder: Path, asked: TrialRequest) -> None:
-    reason = f"no prediction of {asked.model} can be executed there under PDDL"
-    text = Trial(asked=asked, status="no_plan", reason=reason).model_dump_json(indent=2)
-    write_text(folder / f"{asked.environment}.json", text + "\n")

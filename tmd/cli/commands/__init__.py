@@ -1,4 +1,4 @@
-"""The commands of ``tmd``: one module for each, with its options and what it does with them.
+"""The commands of ``tmd``: the options of each, and what it does with them.
 
-To add one, copy the shortest, :mod:`tmd.cli.commands.parse`, and name it in :data:`tmd.cli.program.COMMANDS`.
+To add one, copy the shortest, ``parse`` in :mod:`tmd.cli.commands.requests`, and name it in :mod:`tmd.cli.program`.
 """

@@ -1,4 +1,4 @@
-"""``tmd experiment``: train, predict, score, and print the table."""
+"""``tmd experiment`` and ``tmd data``: train, predict, score, print the table; and look into data sets."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, cast
+from typing import IO, TYPE_CHECKING, Any, cast
 
 import click
 
+from tmd.cli.options import PATH, json_option, seed_option
 from tmd.cli.output import ErrorStream, emit
 from tmd.world.roots import Roots
 
@@ -130,7 +131,7 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
 )
 @click.option(
     "--veil500",
-    type=click.Path(path_type=Path),
+    type=PATH,
     envvar="VEIL500_DIR",
     metavar="DIR",
     help="Where VEIL-500 is; $VEIL500_DIR by default.",
@@ -148,7 +149,7 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
     help="Leave each sentence of a test text out with this probability.",
 )
 @click.option("--models", callback=names, metavar="A,B", help="The rows of the table; the usual ones by default.")
-@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
+@seed_option()
 @click.option("--jobs", type=click.IntRange(1), help="Processes; one for each processor by default.")
 @click.option(
     "--backend",
@@ -171,27 +172,20 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
     type=click.Choice(["physics", "kinematic", "off"]),
     help="Let a simulated PR2 carry out one prediction for each environment in the end, and film it; off by default.",
 )
-@click.option("--out", required=True, type=click.Path(path_type=Path), metavar="DIR", help="The run's directory.")
+@click.option("--out", required=True, type=PATH, metavar="DIR", help="The run's directory.")
 @click.pass_obj
-def command(
+def experiment(
     roots: Roots,
-    task: str,
-    data: str,
-    veil500: Path | None,
-    domain: str,
-    train_tasks: tuple[str, ...] | None,
-    train_environments: tuple[int, ...] | None,
-    test_environments: tuple[int, ...] | None,
-    drop_sentences: float,
-    models: tuple[str, ...] | None,
-    seed: int,
-    jobs: int | None,
+    /,
     backend: str,
     scheduler: str | None,
+    jobs: int | None,
+    models: tuple[str, ...] | None,
+    veil500: Path | None,
     shard: tuple[int, int] | None,
     step: str,
     robot: str | None,
-    out: Path,
+    **settings: Any,  # noqa: ANN401 - fields of ExperimentConfig
 ) -> None:
     """Compare models on a task by cross-validation, or on environments that were held out.
 
@@ -209,23 +203,15 @@ def command(
     from tmd.evaluation.runs.config import ExperimentConfig, Shard
 
     config = ExperimentConfig(
-        task=task,
-        out=out,
-        data=data,
-        veil500=veil500 if data == "veil500" else None,
-        train_tasks=train_tasks,
-        train_environments=train_environments,
-        test_environments=test_environments,
-        drop_sentences=drop_sentences,
+        veil500=veil500 if settings["data"] == "veil500" else None,
         models=models or (),
-        seed=seed,
-        domain=domain,
         domains=roots.domains,
         problems=roots.problems,
         backend=backend,
         scheduler=scheduler,
         jobs=jobs or _processors(),
         shard=Shard(*shard) if shard else None,
+        **settings,
     )
     if config.shard:
         _share(config, config.shard)
@@ -270,3 +256,22 @@ def _processors() -> int:
     from joblib import cpu_count
 
     return max(1, int(cpu_count()))
+
+
+@click.group("data")
+def data() -> None:
+    """Look into data sets."""
+
+
+@data.command("check")
+@click.argument("directory", metavar="DIR", type=PATH)
+@json_option
+def check(directory: Path, as_json: bool) -> None:
+    """Read a copy of VEIL-500 and count what was found, repaired and dropped.
+
+    Ends with 33 where the copy is missing or damaged.
+    """
+    from tmd.datasets.veil500.report import check_veil500
+
+    report = check_veil500(directory)
+    emit(report.json() if as_json else report.text())

@@ -4,11 +4,11 @@ The data are not part of this project; give the directory of your copy to :func:
 :mod:`tmd.datasets.veil500.data`; all about the set is in ``docs/veil500.md``.
 """
 
-from tmd.datasets.veil500.compile import absent_types, compile_environment, veil_domain
+from tmd.datasets.veil500.compile import absent_types, compile_environment
 from tmd.datasets.veil500.data import Point, VeilData, VeilGroup, load
 from tmd.datasets.veil500.environment import VeilEnvironment, VeilObject
-from tmd.datasets.veil500.forms import from_veil, mentioned, to_veil
-from tmd.datasets.veil500.repair import executability, repair, repaired
+from tmd.datasets.veil500.forms import from_veil, mentioned, to_veil, veil_domain
+from tmd.datasets.veil500.repair import Repairer, repaired
 from tmd.datasets.veil500.report import DataReport, check_veil500
 from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
 
@@ -16,6 +16,7 @@ __all__ = [
     "DataReport",
     "ForcedExecution",
     "Point",
+    "Repairer",
     "Rollout",
     "VeilData",
     "VeilEnvironment",
@@ -24,11 +25,9 @@ __all__ = [
     "absent_types",
     "check_veil500",
     "compile_environment",
-    "executability",
     "from_veil",
     "load",
     "mentioned",
-    "repair",
     "repaired",
     "rollout",
     "to_veil",

@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from functools import lru_cache
-from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import TypeAlias
 
-from tmd.datasets.veil500.environment import VeilEnvironment, VeilObject
-from tmd.datasets.veil500.forms import pddl_name
+from tmd.datasets.veil500.environment import TV_BUTTONS, VeilEnvironment, VeilObject
+from tmd.datasets.veil500.forms import RELATIONS, Semantics, pddl_name, veil_domain
 from tmd.datasets.veil500.relations import RelationRule, initial_relations
-from tmd.diagnostics import TmdError
 from tmd.pddl.model import Domain, GroundAtom, Problem, TypedName
-from tmd.pddl.reading.reader import read_domain
 
 NamedFact: TypeAlias = tuple[str, ...]
 """A predicate and its arguments: objects by VEIL name, which has a capital, constants by PDDL name."""
@@ -26,11 +22,8 @@ DISPATCH = {
     **{f"StoveKnob_{k}": "knob" for k in range(1, 5)},
     "MicrowaveButton": "button",
     "FridgeButton": "button",
-    **{f"{TV}{kind}Button": "button" for kind in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown")},
-    **{
-        f"{REMOTE}{kind}Button": "button"
-        for kind in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown", "Mute")
-    },
+    **{f"{TV}{kind}Button": "button" for kind in TV_BUTTONS},
+    **{f"{REMOTE}{kind}Button": "button" for kind in (*TV_BUTTONS, "Mute")},
     "Microwave": "door",
     "FridgeLeftDoor": "door",
     "FridgeRightDoor": "door",
@@ -92,7 +85,7 @@ def _television() -> Iterator[NamedFact]:
             after = here % _CHANNELS + 1
             yield ("steps", f"{carrier}ChannelUpButton", TV, f"channel{here}", f"channel{after}")
             yield ("steps", f"{carrier}ChannelDownButton", TV, f"channel{after}", f"channel{here}")
-        for kind in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown"):
+        for kind in TV_BUTTONS:
             button = f"{carrier}{kind}Button"
             if carrier == TV:
                 yield ("reached_at", button, TV)
@@ -110,12 +103,7 @@ def rule_facts(environment: VeilEnvironment) -> Iterator[NamedFact]:
     """Yield the facts of the literal rules that hold among the objects an environment has."""
     present = environment.by_name
     declared = {thing.name: {state.lower() for state in thing.states} for thing in environment.objects}
-    constants = {state for states in declared.values() for state in states} | {
-        "on",
-        "in",
-        "inside",
-        "next_to",
-    }
+    constants = {*RELATIONS, *(state for states in declared.values() for state in states)}
     for fact in (*_FIXED, *_television()):
         if not all(arg in present or arg in constants for arg in fact[1:]):
             continue
@@ -141,9 +129,8 @@ def sane_facts(environment: VeilEnvironment) -> Iterator[NamedFact]:
             yield ("supports", thing.name, "in")
             yield ("supports", thing.name, "inside")
         yield ("supports", thing.name, "next_to")
-        for relation in ("in", "inside"):
-            if thing.name in ("Microwave", "Fridge"):
-                yield ("closed_off", thing.name, relation)
+        if thing.name in ("Microwave", "Fridge"):
+            yield from (("closed_off", thing.name, relation) for relation in ("in", "inside"))
         if thing.kind == "Microwave":
             yield ("needs_shut", thing.name)
     for door, whole, twin in (
@@ -161,39 +148,6 @@ def sane_facts(environment: VeilEnvironment) -> Iterator[NamedFact]:
                 yield ("lit", f"StoveFire_{k}")
     if REMOTE in present and f"{REMOTE}MuteButton" in present:
         yield ("worked_by", f"{REMOTE}MuteButton", REMOTE)
-
-
-Semantics: TypeAlias = Literal["literal", "sane"]
-"""``literal`` is the data set's own simulator, for scoring; ``sane`` is for planning."""
-
-DOMAINS = {"literal": "veil500_literal", "sane": "veil500_sane"}
-"""The folder below ``domains/`` of each semantics."""
-
-
-def domain_path(semantics: Semantics) -> Path:
-    """Return the ``domain.pddl`` of a semantics: in a checkout, or in the installed package.
-
-    Raises:
-        TmdError: Unknown semantics, or the file is not there.
-    """
-    if semantics not in DOMAINS:
-        raise TmdError(f"no semantics '{semantics}' for VEIL-500", hint="choose literal or sane")
-    package = Path(__file__).resolve().parents[2]
-    for root in (package.parent / "domains", package / "bundled" / "domains"):
-        path = root / DOMAINS[semantics] / "domain.pddl"
-        if path.is_file():
-            return path
-    raise TmdError(f"domains/{DOMAINS[semantics]}/domain.pddl is missing", hint="install tmd again")
-
-
-@lru_cache(maxsize=4)
-def veil_domain(semantics: Semantics) -> Domain:
-    """Return the PDDL domain of a semantics (read once).
-
-    Raises:
-        TmdError: As :func:`domain_path`.
-    """
-    return read_domain(domain_path(semantics))
 
 
 def compile_environment(

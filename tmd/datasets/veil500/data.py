@@ -11,8 +11,15 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from tmd.datasets.veil500.classes import VeilObjectClass, read_classes
-from tmd.datasets.veil500.environment import FOLDERS, KITCHEN, LIVING_ROOM, VeilEnvironment, read_environment
+from tmd.datasets.veil500.environment import (
+    FOLDERS,
+    KITCHEN,
+    LIVING_ROOM,
+    VeilEnvironment,
+    VeilObjectClass,
+    read_classes,
+    read_environment,
+)
 from tmd.datasets.veil500.forms import from_veil
 from tmd.datasets.veil500.xml import Element, read_xml
 from tmd.diagnostics import DataError
@@ -57,28 +64,21 @@ def clean(raw: str) -> CleanText:
         start, length = found
         del words[start + length : start + 2 * length]
         removed += 1
-    pieces = [" ".join(word for word, n in words if n == number) for number in range(count)]
-    return CleanText(*_join(pieces), repeats_removed=removed)
-
-
-def _join(pieces: list[str]) -> tuple[str, tuple[VeilSegment, ...]]:
-    """Return the pieces as one text with single blanks between those that hold anything."""
     text = ""
     segments = []
-    for piece in pieces:
+    for number in range(count):
+        piece = " ".join(word for word, n in words if n == number)
         if piece and text:
             text += " "
-        start = len(text)
+        segments.append(VeilSegment(piece, len(text), len(text) + len(piece)))
         text += piece
-        segments.append(VeilSegment(piece, start, len(text)))
-    return text, tuple(segments)
+    return CleanText(text, tuple(segments), removed)
 
 
 def _repeat(words: list[str]) -> tuple[int, int] | None:
-    """Start and length of the first and longest run that stands twice in a row, if any.
+    """Return start and length of the first and longest run that stands twice in a row, if any.
 
-    The second copy must not begin a new sentence: a person may well say the same thing twice, the segmenter
-    repeats inside a sentence.
+    The second copy must not begin a new sentence: people repeat sentences, the segmenter repeats inside one.
     """
     keys = [_NOT_WORD.sub("", word.lower()) or word for word in words]
     for start in range(len(keys)):
@@ -161,7 +161,7 @@ class VeilData:
 
 
 def load(directory: str | Path) -> VeilData:
-    """Read the data set; environments are whatever files there are.
+    """Read the data set; every environment file is read.
 
     Raises:
         DataError: A file is missing, truncated or of another kind, or a point's environment has no file.
@@ -236,7 +236,7 @@ def _point(index: int, element: Element) -> Point:
 
 
 def _environment(element: Element) -> tuple[str, int]:
-    """World and file number. The exporter counted living rooms backwards: label N is file 10 - N."""
+    """Return world and file number. The exporter counted living rooms backwards: label N is file 10 - N."""
     label = element.text.strip()
     match = _LABEL.match(label)
     if match:

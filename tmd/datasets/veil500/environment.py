@@ -1,4 +1,7 @@
-"""Environments of VEIL-500: objects with class, position, states, affordances and their whole."""
+"""Object classes (``Objects.xml``) and environments of VEIL-500.
+
+A class declares states and affordances; an object has class, position, states, affordances and its whole.
+"""
 
 from __future__ import annotations
 
@@ -9,20 +12,81 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
 
-from tmd.datasets.veil500.classes import IGNORED_STATES, VeilObjectClass, class_of, is_true
 from tmd.datasets.veil500.forms import pddl_name
 from tmd.datasets.veil500.xml import Element, read_xml
 from tmd.diagnostics import DataError
 
-_TV_BUTTONS = tuple(f"{{0}}{kind}Button" for kind in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown"))
-# the parts of wholes by class; {0} stands for the name of the whole; all other classes have no parts
+IGNORED_STATES = frozenset({"Color"})
+"""Declared by nearly every class, set by no action and no environment."""
+
+
+@dataclass(frozen=True, slots=True)
+class VeilObjectClass:
+    """A class: its states with their values at the start, in file order, and its affordances."""
+
+    name: str
+    states: Mapping[str, bool] = field(default_factory=dict)
+    affordances: frozenset[str] = frozenset()
+
+
+def class_of(object_name: str) -> str:
+    """Return the class that an object's name says: ``Mug_1`` is a Mug, ``Counter1_1`` a Counter."""
+    return re.sub(r"[_\d]+\Z", "", object_name)
+
+
+def is_true(value: str) -> bool:
+    """Return a state's value as a Boolean: ``True`` and positive whole numbers are true, all else is false."""
+    value = value.strip()
+    return value == "True" or (value.isdecimal() and int(value) > 0)
+
+
+def read_classes(path: Path) -> dict[str, VeilObjectClass]:
+    """Return the classes of ``Objects.xml``. Blocks about one class add up; the first default of a state counts.
+
+    Raises:
+        DataError: The file is missing, broken or without classes.
+    """
+    root = read_xml(path, "objects")
+    states: dict[str, dict[str, bool]] = {}
+    affordances: dict[str, set[str]] = {}
+    for block in root.all("object"):
+        declared = _declared(block)
+        offered = [element.text.strip() for element in block.walk() if element.tag == "affordance"]
+        for name in (element.text.strip() for element in block.all("name")):
+            own = states.setdefault(name, {})
+            for state, value in declared:
+                own.setdefault(state, value)
+            affordances.setdefault(name, set()).update(offered)
+    if not states:
+        raise DataError(
+            "no object class in the file",
+            location=root.location,
+            hint="copy Objects.xml again from the release",
+        )
+    return {name: VeilObjectClass(name, own, frozenset(affordances[name])) for name, own in states.items()}
+
+
+def _declared(block: Element) -> list[tuple[str, bool]]:
+    """Return all ``stateName``/``default`` pairs of a block, wherever they stand."""
+    found = []
+    for element in block.walk():
+        for name, default in zip(element.all("stateName"), element.all("default"), strict=False):
+            state = name.text.strip()
+            if state not in IGNORED_STATES:
+                found.append((state, is_true(default.text)))
+    return found
+
+
+TV_BUTTONS = ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown")
+"""The buttons of a television, each ``…Button``; its remote has another one, ``Mute``."""
+# the parts of wholes by class; {0} is the name of the whole; all other classes have no parts
 _PARTS: Mapping[str, tuple[str, ...]] = {
     "Microwave": ("MicrowaveDoor", "MicrowaveButton"),
     "Fridge": ("FridgeLeftDoor", "FridgeRightDoor", "FridgeButton"),
     "Stove": tuple(f"Stove{kind}_{k}" for kind in ("Knob", "Fire") for k in range(1, 5)),
     "Sink": ("SinkKnob",),
-    "Tv": _TV_BUTTONS,
-    "Tv_1Remote": (*_TV_BUTTONS, "{0}MuteButton"),
+    "Tv": tuple(f"{{0}}{kind}Button" for kind in TV_BUTTONS),
+    "Tv_1Remote": tuple(f"{{0}}{kind}Button" for kind in (*TV_BUTTONS, "Mute")),
     "Spoon": ("IceCreamScoop",),
 }
 
@@ -43,21 +107,22 @@ LIVING_ROOM = "living_room"
 FOLDERS = {KITCHEN: "kitchen", LIVING_ROOM: "livingRoom"}
 """The directory below ``Environments/`` of each world; file names begin with the same word."""
 
-PLACEHOLDER = (-200.0, -200.0, -200.0)
-"""The position of things whose true one was not recorded."""
-
-ALWAYS_TRUE = frozenset({("Mug_1", "Coffee"), ("Syrup_1", "Vanilla"), ("Syrup_2", "Chocolate")})
-"""States that hold at the start whatever the file says."""
-
-_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
-
 
 class Vector(NamedTuple):
-    """A position (``y`` is up, a unit is about 2 cm) or a rotation in degrees."""
+    """A position; ``y`` is up, a unit is about 2 cm."""
 
     x: float
     y: float
     z: float
+
+
+PLACEHOLDER = Vector(-200.0, -200.0, -200.0)
+"""The position of things whose true one was not recorded."""
+
+ALWAYS_TRUE = frozenset({("Mug_1", "Coffee"), ("Syrup_1", "Vanilla"), ("Syrup_2", "Chocolate")})
+"""States that always hold at the start; the file is not asked."""
+
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +134,6 @@ class VeilObject:
         pddl: Its PDDL name.
         kind: Its class.
         position: Where it is; a placeholder is replaced by the position of the whole.
-        rotation: In degrees.
         states: Value of every state that the class declares.
         affordances: What it is good for.
         placeholder: Whether the file held a placeholder instead of a position.
@@ -80,7 +144,6 @@ class VeilObject:
     pddl: str
     kind: str
     position: Vector
-    rotation: Vector
     states: Mapping[str, bool] = field(hash=False)
     affordances: frozenset[str]
     placeholder: bool = False
@@ -149,7 +212,7 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
         seen.add(name.lower())
     if not raw:
         raise DataError("no object in the file", location=root.location, hint="copy it again from the release")
-    positions = {name: _vector(element, "position", PLACEHOLDER) for name, element in raw.items()}
+    positions = {name: _position(element) for name, element in raw.items()}
     kinds = {name: class_of(name) for name in raw}
     whole = parents(kinds)
     objects: list[VeilObject] = []
@@ -161,14 +224,12 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
         placeholder = positions[name] == PLACEHOLDER
         parent = whole.get(name)
         position = positions[parent] if placeholder and parent else positions[name]
-        rotation = _vector(element, "rotation", (0.0, 0.0, 0.0))
         objects.append(
             VeilObject(
                 name,
                 pddl_name(name),
                 kinds[name],
                 position,
-                rotation,
                 states,
                 own.affordances,
                 placeholder,
@@ -194,15 +255,15 @@ def _states(name: str, element: Element, own: VeilObjectClass) -> tuple[Mapping[
     return MappingProxyType(states), dropped
 
 
-def _vector(thing: Element, tag: str, default: tuple[float, float, float]) -> Vector:
-    """Return three numbers, with or without brackets round them; the default where nothing is said."""
-    found = thing.all(tag)
+def _position(thing: Element) -> Vector:
+    """Return three numbers, with or without brackets round them; the placeholder if there is no ``<position>``."""
+    found = thing.all("position")
     if not found:
-        return Vector(*default)
+        return PLACEHOLDER
     numbers = _NUMBER.findall(found[0].text)
     if len(numbers) != 3:
         raise DataError(
-            f"<{tag}> needs three numbers, not '{found[0].text.strip()}'",
+            f"<position> needs three numbers, not '{found[0].text.strip()}'",
             location=found[0].location,
             hint="write x,y,z",
         )

@@ -1,4 +1,4 @@
-"""The action forms of VEIL-500 and the instructions of Table I: one to one, both ways.
+"""The PDDL domains of VEIL-500, and its action forms as instructions of Table I: one to one, both ways.
 
 VEIL writes ``keep Mug_1 On Sink``; the paper's Table I writes ``keep(obj1, obj2, R)``, and so do the PDDL
 domains: ``keep(mug_1, sink, on)``. Names in PDDL are lower case, so the way back needs the table of names of
@@ -10,48 +10,70 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Literal, TypeAlias
 
-from tmd.diagnostics import DataError, Location
-from tmd.pddl.model import Instruction
+from tmd.diagnostics import DataError, Location, TmdError
+from tmd.files import bundled
+from tmd.pddl.model import OBJECT, Domain, Instruction
+from tmd.pddl.reading.reader import read_domain
 
 SCOOP = "icecreamscoop"
 """The scoop of ice cream on the spoon. No action moves it, it only names what is added."""
 
 SPOON = "spoon_1"
-"""The spoon that VEIL's rule for adding a scoop means, whatever else is held."""
+"""The spoon that VEIL's rule for adding a scoop means, even if another one is held."""
 
 RELATIONS = {"on": "On", "in": "In", "inside": "Inside", "next_to": "Near"}
-"""PDDL constant to VEIL word. ``Near`` between things is ``next_to``: ``near`` is said of the robot."""
-
-RESERVED = frozenset(
-    (
-        *("object", "thing", "item", "button", "knob", "openable", "door", "additive", "cutlery"),
-        *("scooper", "robot", "relation", "state", "content", "fluid", "switch", "channel", "doorstate"),
-        *("pr2", "on", "in", "inside", "next_to", "water", "coffee", "coke", "energydrink", "icecream"),
-        *("chocolate", "canadadry", "vanilla", "salt", "ramen", "egg", "spoon", "fork", "percentfilled"),
-        *("scoopsleft", "haschips", "isopen", "ison", "volume", "cd", "tapison", "microwaveison"),
-        *("waterdispenserisopen", "doorisopen", "leftdoorisopen", "rightdoorisopen"),
-        *("add", "at", "boiling", "both_hands_used", "close", "closed_off", "declares", "dispenses"),
-        *("encloses", "feeds", "gated", "goes_whole", "grasp", "graspable", "hand_fed", "holding", "hot"),
-        *("insert", "is", "keep", "lights", "lit", "lowers", "moveto", "near", "needs_shut"),
-        *("one_hand_used", "only_door", "open", "opened_in_hand", "place", "pour", "pour_out", "press"),
-        *("raises", "reached_anywhere", "reached_at", "release", "scoopfrom", "scoopto", "shut_away"),
-        *("squeezable", "squeeze", "steps", "stops", "supports", "swings", "turn", "twin_door", "wait"),
-        *("worked_by", "worked_freely", "works", "yields"),
-        *(f"stovefire{k}" for k in range(1, 5)),
-        *(f"channel{k}" for k in range(1, 7)),
-    )
-)
-"""Names that the two domains use (tools want each name once); a thing of that name gets another one."""
+"""PDDL constant to VEIL word. ``Near`` between things is ``next_to``: ``near`` relates the robot to a thing."""
 
 _TOKEN = re.compile(r"[A-Za-z0-9][A-Za-z0-9_]*\Z")
 _FROM_RELATION = {word.lower(): constant for constant, word in RELATIONS.items()}
+
+Semantics: TypeAlias = Literal["literal", "sane"]
+"""``literal`` is the data set's own simulator, for scoring; ``sane`` is for planning."""
+
+DOMAINS: dict[Semantics, str] = {"literal": "veil500_literal", "sane": "veil500_sane"}
+"""The folder below ``domains/`` of each semantics."""
+
+
+def domain_path(semantics: Semantics) -> Path:
+    """Return the ``domain.pddl`` of a semantics: in a checkout, or in the installed package.
+
+    Raises:
+        TmdError: Unknown semantics, or the file is not there.
+    """
+    if semantics not in DOMAINS:
+        raise TmdError(f"no semantics '{semantics}' for VEIL-500", hint="choose literal or sane")
+    place = f"{DOMAINS[semantics]}/domain.pddl"
+    found = next((path for root in bundled("domains") if (path := root / place).is_file()), None)
+    if found is None:
+        raise TmdError(f"domains/{place} is missing", hint="install tmd again")
+    return found
+
+
+@lru_cache(maxsize=4)
+def veil_domain(semantics: Semantics) -> Domain:
+    """Return the PDDL domain of a semantics (read once).
+
+    Raises:
+        TmdError: As :func:`domain_path`.
+    """
+    return read_domain(domain_path(semantics))
+
+
+@lru_cache(maxsize=1)
+def reserved() -> frozenset[str]:
+    """Return the names that the two domains use. Tools want each name once, so a thing of that name gets another."""
+    kinds = [kind for d in map(veil_domain, DOMAINS) for kind in (d.types, d.constants, d.predicates, d.actions)]
+    return frozenset({OBJECT, *(named.name for kind in kinds for named in kind)})
 
 
 def pddl_name(name: str) -> str:
     """Return the PDDL name of an object or state of VEIL: ``Mug_1`` is ``mug_1``."""
     lower = name.lower()
-    return f"{lower}_thing" if lower in RESERVED else lower
+    return f"{lower}_thing" if lower in reserved() else lower
 
 
 def from_veil(text: str, location: Location | None = None) -> Instruction:

@@ -71,7 +71,10 @@ def initial_relations(environment: VeilEnvironment, rule: RelationRule = "litera
     if rule == "literal":
         return _literal(environment)
     if rule == "honest":
-        return _kitchen(environment) if environment.world == KITCHEN else _living_room(environment)[0]
+        if environment.world != KITCHEN:
+            return _living_room(environment)[0]
+        found = (_in_kitchen(thing, environment) for thing in _graspable(environment))
+        return tuple(relation for relation in found if relation is not None)
     raise TmdError(f"no rule '{rule}' for relations", hint="choose literal or honest")
 
 
@@ -105,12 +108,6 @@ def _literal(environment: VeilEnvironment) -> tuple[VeilRelation, ...]:
 def _plan(a: VeilObject, b: VeilObject) -> float:
     """Return the distance seen from above."""
     return math.hypot(a.position.x - b.position.x, a.position.z - b.position.z)
-
-
-def _kitchen(environment: VeilEnvironment) -> tuple[VeilRelation, ...]:
-    return tuple(
-        relation for thing in _graspable(environment) if (relation := _in_kitchen(thing, environment)) is not None
-    )
 
 
 def _in_kitchen(thing: VeilObject, environment: VeilEnvironment) -> VeilRelation | None:

@@ -16,7 +16,7 @@ from tmd.datasets.veil500.compile import compile_environment
 from tmd.datasets.veil500.data import Point, VeilData, VeilGroup
 from tmd.datasets.veil500.environment import VeilEnvironment
 from tmd.pddl.forced_execution import ForcedExecution
-from tmd.pddl.model import And, Atom, Effect, Equals, GroundAtom, Instruction, Not, Problem, TypedName
+from tmd.pddl.model import GroundAtom, Instruction, Problem
 from tmd.pddl.task import Bits, Cube, Task
 
 HANDS = 2
@@ -53,20 +53,16 @@ class Repairer:
 
     Args:
         data: The data set.
-        exclusive_near: Let coming near one thing end being near the others, as the data set's authors meant.
-        repairs: Whether to ground the instructions of repairs as well.
     """
 
-    def __init__(self, data: VeilData, *, exclusive_near: bool = False, repairs: bool = True) -> None:
+    def __init__(self, data: VeilData) -> None:
         self._simulators: dict[tuple[str, int], ForcedExecution] = {}
         recorded: dict[tuple[str, int], list[Instruction]] = defaultdict(list)
         for point in data.points:
             recorded[point.key] += point.instructions
         for key, environment in data.environments.items():
-            problem = compile_environment(environment)
-            problem = _exclusive(problem) if exclusive_near else problem
-            candidates = _candidates(environment) if repairs else ()
-            self._simulators[key] = ForcedExecution(problem, [*recorded[key], *candidates])
+            instructions = [*recorded[key], *_candidates(environment)]
+            self._simulators[key] = ForcedExecution(compile_environment(environment), instructions)
 
     def simulator(self, point: Point) -> ForcedExecution:
         """Return the simulator of a demonstration's environment."""
@@ -118,21 +114,10 @@ class Repairer:
         return Executability(len(points), executable, steps, failing)
 
 
-def repair(point: Point, data: VeilData) -> Repaired:
-    """Repair one demonstration; see :meth:`Repairer.repair`."""
-    return Repairer(VeilData(data.directory, (point,), {point.key: data.environment_of(point)}, {})).repair(point)
-
-
 def repaired(data: VeilData) -> VeilData:
     """Return the data set with every demonstration repaired where possible."""
     repairer = Repairer(data)
     return replace(data, points=tuple(repairer.repair(point).point for point in data.points))
-
-
-def executability(data: VeilData, *, two_hands: bool = False, exclusive_near: bool = False) -> Executability:
-    """Execute every demonstration of a data set; see :meth:`Repairer.executability`."""
-    repairer = Repairer(data, exclusive_near=exclusive_near, repairs=False)
-    return repairer.executability(data.points, two_hands=two_hands)
 
 
 def _candidates(environment: VeilEnvironment) -> list[Instruction]:
@@ -163,15 +148,3 @@ def _giving(missing: tuple[GroundAtom, bool], problem: Problem) -> Instruction |
         doors = (f.args[0] for f in problem.init if f.predicate == "swings" and f.args[1:] == atom.args)
         return next((Instruction("open", (door,)) for door in sorted(doors)), None)
     return None
-
-
-def _exclusive(problem: Problem) -> Problem:
-    """Return the problem with ``moveto`` also ending being near every other thing that is not held."""
-    other = TypedName("?other", ("thing",))
-    away = And((Not(Equals("?x", "?other")), Not(Atom("holding", ("pr2", "?other")))))
-    leave = Effect(Atom("near", ("pr2", "?other")), False, away, (other,))
-    actions = tuple(
-        replace(action, effects=(*action.effects, leave)) if action.name == "moveto" else action
-        for action in problem.domain.actions
-    )
-    return replace(problem, domain=replace(problem.domain, actions=actions))

@@ -9,9 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from tmd.datasets.veil500.compile import veil_domain
 from tmd.datasets.veil500.data import Point, VeilData, load
-from tmd.datasets.veil500.forms import mentioned
+from tmd.datasets.veil500.forms import mentioned, veil_domain
 from tmd.datasets.veil500.relations import initial_relations, unsupported
 from tmd.datasets.veil500.repair import Repaired, Repairer
 
@@ -58,7 +57,7 @@ def check_veil500(directory: str | Path) -> DataReport:
     repairer = Repairer(data)
     repairs = [repairer.repair(point) for point in data.points]
     counts = {
-        "demonstrations": _demonstrations(data),
+        "demonstrations": {"points": len(data.points), **_by(data, lambda p: p.world)},
         "by environment": _by(data, lambda p: f"{p.world} {p.environment}"),
         "by objective": _by(data, lambda p: p.objective),
         "texts": _texts(data),
@@ -98,11 +97,6 @@ def unknown_forms(data: VeilData) -> list[tuple[Point, str]]:
         for instruction in point.instructions
         if arity.get(instruction.name) != len(instruction.args)
     ]
-
-
-def _demonstrations(data: VeilData) -> dict[str, int]:
-    worlds = Counter(point.world for point in data.points)
-    return {"points": len(data.points), **dict(sorted(worlds.items()))}
 
 
 def _by(data: VeilData, name: Callable[[Point], str]) -> dict[str, int]:

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from tmd.datasets.veil500.classes import read_classes
-from tmd.datasets.veil500.compile import compile_environment, domain_path
+from tmd.datasets.veil500.compile import compile_environment
 from tmd.datasets.veil500.data import CLASSES, ENVIRONMENTS
-from tmd.datasets.veil500.environment import FOLDERS, VeilEnvironment, VeilObject, read_environment
+from tmd.datasets.veil500.environment import FOLDERS, VeilEnvironment, VeilObject, read_classes, read_environment
+from tmd.datasets.veil500.forms import domain_path
 from tmd.diagnostics import DataError, Location, TmdError
 from tmd.pddl.model import OBJECT, Problem
 from tmd.world.classes import Classes, StateValue
@@ -149,7 +149,8 @@ def _entry(things: Sequence[VeilObject], classes: Classes, place: str | None, re
     thing = things[0]
     kind = _kind(thing, classes)
     if kind != thing.kind.lower():
-        remarks.append(f"{thing.pddl}: nobody said what such a thing looks like, so it is a plain {_plain(kind)}")
+        plain = "box" if kind == "item" else "counter"
+        remarks.append(f"{thing.pddl}: nobody said what such a thing looks like, so it is a plain {plain}")
     item = classes.is_below(kind, "item")
     if item and place is None:
         remarks.append(f"{thing.pddl}: nothing is told of where it stands, so it is on the floor")
@@ -157,10 +158,6 @@ def _entry(things: Sequence[VeilObject], classes: Classes, place: str | None, re
     return ObjectEntry.model_validate(
         {"class": kind, "at": (place or "on floor") if item else None, "states": states, "parts": parts}
     )
-
-
-def _plain(sort: str) -> str:
-    return "box" if sort == "item" else "counter"
 
 
 def _states(

@@ -1,4 +1,4 @@
-"""Reading XML so that every element knows where it stands in its file.
+"""XML with the location of every element in its file.
 
 The standard tree builder forgets line numbers, and an error about a data set of 360 points is useless without
 one. This is the smallest reader on top of expat that keeps them.
@@ -21,7 +21,7 @@ class Element:
 
     Attributes:
         tag: Its name.
-        location: Where its start tag stands.
+        location: The place of its start tag.
         text: All characters directly inside it.
         children: Its elements, in file order.
     """
@@ -47,38 +47,17 @@ class Element:
         Raises:
             DataError: There is none.
         """
-        for child in self.children:
-            if child.tag == tag:
-                return child
+        for child in self.all(tag):
+            return child
         raise DataError(
             f"<{self.tag}> has no <{tag}>",
             location=self.location,
             hint="compare the file with the released one",
         )
 
-    def get(self, tag: str, default: str = "") -> str:
-        """Return the stripped text of the first child of that name."""
-        for child in self.children:
-            if child.tag == tag:
-                return child.text.strip()
-        return default
-
-
-def read_bytes(path: Path) -> bytes:
-    """Return the bytes of a file of the data set.
-
-    Raises:
-        DataError: The file is missing or cannot be read.
-    """
-    try:
-        return files.read_bytes(path)
-    except FileNotFoundError:
-        raise DataError(
-            f"{path} is missing",
-            hint="give the directory of VEIL-500: it holds data.xml, Objects.xml and Environments/",
-        ) from None
-    except OSError as error:
-        raise DataError(f"{path} cannot be read: {error.strerror}", hint="check the path and its rights") from None
+    def get(self, tag: str) -> str:
+        """Return the stripped text of the first child of that name; empty without one."""
+        return next((child.text.strip() for child in self.all(tag)), "")
 
 
 def read_xml(path: Path, root: str) -> Element:
@@ -87,7 +66,15 @@ def read_xml(path: Path, root: str) -> Element:
     Raises:
         DataError: The file is missing, is not well-formed (truncated, say) or has another outermost element.
     """
-    data = read_bytes(path)
+    try:
+        data = files.read_bytes(path)
+    except FileNotFoundError:
+        raise DataError(
+            f"{path} is missing",
+            hint="give the directory of VEIL-500: it holds data.xml, Objects.xml and Environments/",
+        ) from None
+    except OSError as error:
+        raise DataError(f"{path} cannot be read: {error.strerror}", hint="check the path and its rights") from None
     parser = expat.ParserCreate()
     parser.buffer_text = True
     stack: list[Element] = []

@@ -11,7 +11,7 @@ from tmd.evaluation.models.prediction import Prediction, by_clause
 from tmd.evaluation.runs.dataset import Example, Worlds
 from tmd.inference.policy.learning import learn_policy
 from tmd.inference.policy.model import Policy, Reward
-from tmd.language import Clause, parse
+from tmd.language import parse
 from tmd.pddl.model import Instruction
 
 
@@ -27,36 +27,13 @@ class InstructionTree:
     which gives all that was done for a piece of text to one of its clauses.
 
     Args:
-        beam: How many sequences of a length are looked at further.
-        bonus: Reward for each instruction. The likeliest sequence is shorter than the usual one; this makes up.
-        slack: A sequence is given up when its reward is this much below that of the best complete one.
-        certain: From which share on what went before counts as needed (``learn_syntax``).
         rounds: How often the training data are gone through.
-        rate: Step size of the ascent.
-        ridge: Weight of the squared weights; the usual one where none is given.
         grounded: Whether the reward also knows which objects the clause's nouns may mean. The paper's baseline has
             the words alone; with this it is a row of ours.
     """
 
-    def __init__(
-        self,
-        *,
-        beam: int = 5,
-        bonus: float = 0.5,
-        slack: float = 3.0,
-        certain: float = 0.95,
-        rounds: int = 8,
-        rate: float = 0.2,
-        ridge: float | None = None,
-        grounded: bool = False,
-    ) -> None:
-        self.beam = beam
-        self.bonus = bonus
-        self.slack = slack
-        self.certain = certain
+    def __init__(self, *, rounds: int = 8, grounded: bool = False) -> None:
         self.rounds = rounds
-        self.rate = rate
-        self.ridge = ridge
         self.grounded = grounded
 
     def fit(self, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Self:
@@ -69,10 +46,7 @@ class InstructionTree:
                 data.world,
                 random,
                 grounded=self.grounded,
-                certain=self.certain,
                 rounds=self.rounds,
-                rate=self.rate,
-                ridge=self.ridge,
             )
         return self
 
@@ -81,12 +55,12 @@ class InstructionTree:
         policy = self.policy(example.environment, example.world, data)
         if policy is None:
             return Prediction()
-        served: list[tuple[Clause, tuple[Instruction, ...], str | None]] = []
         clauses = parse(example.demonstration.text, data.lexicon).clauses
-        for number, clause in enumerate(clauses):
-            done = tuple(i for _, made, _ in served for i in made)
-            served.append((clause, policy.best(clauses, number, done)[0][1], None))
-        return by_clause(served)
+        done: list[tuple[Instruction, ...]] = []
+        for number in range(len(clauses)):
+            so_far = tuple(instruction for made in done for instruction in made)
+            done.append(policy.best(clauses, number, so_far)[0][1])
+        return by_clause(clauses, [(made, None) for made in done])
 
     def policy(self, environment: str, world: str, data: Worlds) -> Policy | None:
         """Return the learned policy for one environment; ``None`` in a kind of world that training did not have."""
@@ -96,7 +70,5 @@ class InstructionTree:
         ground = data.world(environment)
         policy = self._policies.get(environment)
         if policy is None or policy.menu.things.world is not ground:
-            policy = self._policies[environment] = Policy(
-                reward, ground, grounded=self.grounded, beam=self.beam, bonus=self.bonus, slack=self.slack
-            )
+            policy = self._policies[environment] = Policy(reward, ground, grounded=self.grounded)
         return policy

@@ -12,17 +12,15 @@ from tmd.diagnostics import TmdError
 from tmd.evaluation.models.instruction_tree import InstructionTree
 from tmd.evaluation.models.paper_models import ROWS, libraries
 from tmd.evaluation.models.predefined_templates import PredefinedTemplates
-from tmd.evaluation.models.prediction import Prediction, by_clause
+from tmd.evaluation.models.prediction import Made, Prediction, from_state
 from tmd.evaluation.models.ranked import Ranked
 from tmd.evaluation.runs.dataset import Dataset, Example
 from tmd.inference.energy import clause_distance, environment_distance
-from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.library.library import Library
-from tmd.library.template import Instantiation, instantiate
-from tmd.pddl.model import Instruction
+from tmd.library.template import instantiate
 from tmd.pddl.reading.syntax import nearest
-from tmd.world.world import World, run
+from tmd.world.world import World
 
 
 class Model(Protocol):
@@ -84,26 +82,18 @@ class NearestEnvironment:
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """Return the nearest template of each clause, one after the other."""
-        world = data.world(example.environment)
         library = self.libraries_.get(example.world) or Library(data.lexicon)
-        state = world.task.init
-        done: list[tuple[Clause, tuple[Instruction, ...], str | None]] = []
-        for clause in parse(example.demonstration.text, data.lexicon).clauses:
-            chosen = self._nearest(clause, library, world, state)
-            if chosen is None:
-                done.append((clause, (), None))
-            else:
-                done.append((clause, chosen.instructions, chosen.template.source))
-                state = run(world, state, chosen.instructions)
-        return by_clause(done)
 
-    def _nearest(self, clause: Clause, library: Library, world: World, state: int) -> Instantiation | None:
-        candidates = (instantiate(t, clause, world, state) for t in library.propose(clause))
-        return min(
-            (c for c in candidates if c is not None),
-            key=lambda c: (environment_distance(c), clause_distance(c.template.clause, clause, akin=0.0)),
-            default=None,
-        )
+        def nearest_of(clause: Clause, world: World, state: int) -> Made:
+            candidates = (instantiate(t, clause, world, state) for t in library.propose(clause))
+            chosen = min(
+                (c for c in candidates if c is not None),
+                key=lambda c: (environment_distance(c), clause_distance(c.template.clause, clause, akin=0.0)),
+                default=None,
+            )
+            return ((), None) if chosen is None else (chosen.instructions, chosen.template.source)
+
+        return from_state(example, data, nearest_of)
 
 
 MODELS: Mapping[str, Callable[[], Model]] = {

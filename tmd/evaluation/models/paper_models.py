@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from statistics import median
-from typing import Any, Self
+from typing import Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -30,19 +30,20 @@ from tmd.library.library import Library, learn, whole
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.result import Planner
 from tmd.readers.interface import Dialogue
+from tmd.records.fit import WorldFit
 from tmd.world.corpus import Corpus
 from tmd.world.world import World, run
 
 _SPOKEN = ("clause_distance", "parameter_cardinality", "inconsistent_end", "objects_not_touched")
 """The factors that read the clause."""
 _LATENT = ("latent_description_length", "latent_instruction_prior", "latent_parameter_prior", "latent_inconsistent_end")
-"""The factors of what was left unsaid."""
+"""The factors of latent instructions."""
 _BLIND = ("inconsistent_end", *_LATENT)
 """The factors that need to know what instructions do."""
 
 
 _PLANNERS: WeakKeyDictionary[Worlds, dict[tuple[str, int], Planner]] = WeakKeyDictionary()
-"""One planner for each environment of a data set: what one model has asked, no other has to ask again."""
+"""One planner for each environment of a data set, so that models share its answers."""
 
 
 def planner_for(data: Worlds, environment: str, cap: int) -> Planner:
@@ -59,7 +60,8 @@ _KEPT = 4
 """Each has some megabytes of weights; rows with the same training set come one after another."""
 
 
-def _policy_of(examples: tuple[Example, ...], data: Worlds) -> InstructionTree:
+def policy_of(examples: tuple[Example, ...], data: Worlds) -> InstructionTree:
+    """Return the policy that examples teach."""
     known = _POLICIES.setdefault(data, {})
     key = tuple(e.id for e in examples)
     if key not in known:
@@ -77,7 +79,7 @@ class _Taught:
     library: Library
     statistics: Statistics
     tree: InstructionTree | None
-    goals: GoalTable | None = None
+    goals: GoalTable | None
 
 
 class Crf:
@@ -87,7 +89,7 @@ class Crf:
         config: The model.
         learned: Whether the weights are learned; otherwise they are those of the model.
         proposals: How many plans are looked at for each training example.
-        most_examples: Maximum number of training examples of each world are learned from, drawn at random.
+        most_examples: Maximum number of training examples of each world, drawn at random.
         rounds: How often plans are proposed again.
 
     Attributes:
@@ -109,6 +111,7 @@ class Crf:
         self.most_examples = most_examples
         self.rounds = rounds
         self.journal: Path | None = None
+        self._taught: dict[str, _Taught] = {}
 
     @property
     def factors(self) -> tuple[str, ...]:
@@ -125,40 +128,58 @@ class Crf:
 
     def fit(self, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Self:
         """Build a library for each kind of world, and learn its weights."""
-        self._prepare(examples, data)
-        for world in self.libraries_ if self.learned else ():
-            own = [e for e in examples if e.world == world]
-            self.learned_[world] = self._learn(world, own, data, random)
-            self.weights_[world] = self.learned_[world].weights
-        return self
 
-    def restore(self, examples: Sequence[Example], data: Worlds, saved: dict[str, Any]) -> Self:
+        def learn_world(world: str) -> Learned:
+            return self._learn(world, [e for e in examples if e.world == world], data, random)
+
+        return self._with_weights(examples, data, learn_world)
+
+    def restore(self, examples: Sequence[Example], data: Worlds, saved: Mapping[str, WorldFit]) -> Self:
         """Return the model as :meth:`fit` left it: the library is built again, the weights are those ``saved``.
 
         Raises:
             TmdError: What was saved is not what this model learns.
         """
-        self._prepare(examples, data)
-        for world in self.libraries_ if self.learned else ():
-            self.learned_[world] = self._kept(world, saved)
+
+        def saved_world(world: str) -> Learned:
+            kept = saved.get(world)
+            hint = "remove fits/ of the run and run again"
+            if kept is None:
+                raise TmdError(f"what was learned for the world '{world}' is damaged", hint=hint)
+            known = (*self.factors, *FIXED)
+            strange = sorted(name for name, value in kept.weights.items() if value and name not in known)
+            if strange:
+                raise TmdError(f"weights of another model: {', '.join(strange)}", hint=hint)
+            return Learned(Weights(kept.weights), tuple(point.given() for point in kept.points))
+
+        return self._with_weights(examples, data, saved_world)
+
+    def _with_weights(self, examples: Sequence[Example], data: Worlds, weights: Callable[[str], Learned]) -> Self:
+        """Teach the model all but its weights, which are then those that ``weights`` gives for each kind of world."""
+        self._taught = {}
+        self.learned_: dict[str, Learned] = {}
+        self._without_text: dict[tuple[object, ...], tuple[RankedPlan, ...]] = {}
+        tree = self._policy(examples, data)
+        for world, library in libraries(examples, data).items():
+            self._taught[world] = self._knowledge(world, library, tree, examples, data)
+        if not self.config.language:
+            self.steps_ = {world: _usual_steps(examples, world) for world in self._taught}
+        start = named_weights(self.config.weights)
+        mine = Weights({name: start[name] for name in (*self.factors, *FIXED)})
+        self.weights_ = dict.fromkeys(self._taught, mine)
+        for world in self._taught if self.learned else ():
+            self.learned_[world] = weights(world)
             self.weights_[world] = self.learned_[world].weights
         return self
 
-    def _kept(self, world: str, saved: dict[str, Any]) -> Learned:
-        try:
-            kept = saved["worlds"][world]
-            weights = {str(name): float(value) for name, value in kept["weights"].items()}
-            curve = tuple(dict(point) for point in kept["curve"])
-        except (KeyError, TypeError, ValueError, AttributeError):
-            raise TmdError(
-                f"what was learned for the world '{world}' is damaged", hint="remove fits/ of the run and run again"
-            ) from None
-        strange = sorted(name for name, value in weights.items() if value and name not in (*self.factors, *FIXED))
-        if strange:
-            raise TmdError(
-                f"weights of another model: {', '.join(strange)}", hint="remove fits/ of the run and run again"
-            )
-        return Learned(Weights(weights), curve)
+    def _knowledge(
+        self, world: str, library: Library, tree: InstructionTree | None, examples: Sequence[Example], data: Worlds
+    ) -> _Taught:
+        """Return the knowledge of examples of one kind of world, of which the library is made already."""
+        known = library if self.config.language else whole(library)
+        demonstrations = (e.demonstration for e in examples if e.world == world)
+        goals = learn_goals(demonstrations, data.world, data.lexicon) if self.config.goals else None
+        return _Taught(known, count(known), tree, goals)
 
     def predict(self, example: Example, data: Worlds, random: np.random.Generator) -> Prediction:
         """Return the plan of least energy."""
@@ -167,25 +188,8 @@ class Crf:
 
     def plans(self, example: Example, data: Worlds, *, top: int) -> tuple[RankedPlan, ...]:
         """Return the best plans, cheapest first; none in a world that was not learned."""
-        if example.world not in self.libraries_:
-            return ()
-        world = example.world
-        taught = _Taught(self.libraries_[world], self.statistics_[world], self.tree_, self.goals_.get(world))
-        return self._plans(example, data, taught, self.weights_[example.world], top=top)
-
-    def _prepare(self, examples: Sequence[Example], data: Worlds) -> None:
-        self.libraries_ = libraries(examples, data)
-        if not self.config.language:
-            self.libraries_ = {world: whole(library) for world, library in self.libraries_.items()}
-            self.steps_ = {world: _usual_steps(examples, world) for world in self.libraries_}
-            self._told_nothing: dict[tuple[object, ...], tuple[RankedPlan, ...]] = {}
-        self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
-        self.learned_: dict[str, Learned] = {}
-        self.goals_ = {world: self._goals(world, examples, data) for world in self.libraries_ if self.config.goals}
-        self.tree_ = self._policy(examples, data)
-        start = named_weights(self.config.weights)
-        mine = Weights({name: start[name] for name in (*self.factors, *FIXED)})
-        self.weights_ = dict.fromkeys(self.libraries_, mine)
+        taught = self._taught.get(example.world)
+        return () if taught is None else self._plans(example, data, taught, self.weights_[example.world], top=top)
 
     def _learn(self, name: str, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Learned:
         """Return weights for one kind of world. A training example never sees what its own environment taught.
@@ -216,52 +220,31 @@ class Crf:
     def _without(self, name: str, group: frozenset[str], examples: Sequence[Example], data: Worlds) -> _Taught:
         """Return the knowledge of the other examples."""
         others = [e for e in examples if e.demonstration.id not in group]
-        library = self.libraries_[name].filtered(lambda template: template.source not in group)
-        if not self.config.language:
-            library = whole(library)
-        goals = self._goals(name, others, data) if self.config.goals else None
-        return _Taught(library, count(library), self._policy(others, data), goals)
+        library = self._taught[name].library.filtered(lambda template: template.source not in group)
+        return self._knowledge(name, library, self._policy(others, data), others, data)
 
     def _before(self, name: str, example: Example) -> _Taught:
         """Return the knowledge of all examples but one."""
         own = example.demonstration.id
-        library = self.libraries_[name].filtered(lambda template: template.source != own)
-        return _Taught(library, count(library), self.tree_, self.goals_.get(name))
-
-    def _goals(self, name: str, examples: Sequence[Example], data: Worlds) -> GoalTable:
-        """Return the goals of verbs that the examples of one kind of world teach."""
-        own = (e.demonstration for e in examples if e.world == name)
-        return learn_goals(own, data.world, data.lexicon)
+        library = self._taught[name].library.filtered(lambda template: template.source != own)
+        return replace(self._taught[name], library=library, statistics=count(library))
 
     def _policy(self, examples: Sequence[Example], data: Worlds) -> InstructionTree | None:
-        return _policy_of(tuple(examples), data) if self.config.policy else None
+        return policy_of(tuple(examples), data) if self.config.policy else None
 
     def _plans(
-        self,
-        example: Example,
-        data: Worlds,
-        taught: _Taught,
-        weights: Weights,
-        *,
-        top: int,
+        self, example: Example, data: Worlds, taught: _Taught, weights: Weights, *, top: int
     ) -> tuple[RankedPlan, ...]:
         """Return the plans of inference. Without language they are the same for every example in an environment."""
-        infer = partial(self._infer, example, data, taught, weights, top=top)
         if self.config.language:
-            return infer()
+            return self._infer(example, data, taught, weights, top)
         key = example.environment, len(taught.library), tuple(weights.values.items()), top
-        if key not in self._told_nothing:
-            self._told_nothing[key] = infer()
-        return self._told_nothing[key]
+        if key not in self._without_text:
+            self._without_text[key] = self._infer(example, data, taught, weights, top)
+        return self._without_text[key]
 
     def _infer(
-        self,
-        example: Example,
-        data: Worlds,
-        taught: _Taught,
-        weights: Weights,
-        *,
-        top: int,
+        self, example: Example, data: Worlds, taught: _Taught, weights: Weights, top: int
     ) -> tuple[RankedPlan, ...]:
         config, world = self.config, data.world(example.environment)
         energy = Energy(weights, taught.statistics, world, akin=config.akin)
@@ -322,7 +305,7 @@ def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
 def loss(plan: RankedPlan, example: Example, world: World) -> float:
     """Return the distance of a plan from the demonstration, from 0 to 1: half IED, half END under the planning rules.
 
-    The one who judges knows those rules, whatever the robot knows. A plan that a person corrected is as far as can be.
+    It uses those rules even where the model does not know them. A plan that a person corrected has distance 1.
     """
     if plan.instructions == example.demonstration.proposed:
         return 1.0

@@ -31,18 +31,17 @@ from typing import Self
 
 import numpy as np
 
-from tmd.evaluation.models.prediction import Prediction, by_clause
+from tmd.evaluation.models.prediction import Made, Prediction, from_state
 from tmd.evaluation.models.template_file import PredefinedLibrary, PredefinedTemplate, TemplateKind, load_templates
 from tmd.evaluation.runs.dataset import Dataset, Example
-from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import WORDNET
 from tmd.library.template import replace
-from tmd.pddl.model import GroundAtom, Instruction
+from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
 from tmd.world.folder import find_domain
-from tmd.world.world import CONTAINED, World, run
+from tmd.world.world import CONTAINED, World
 
 _LOOSE = (CONTAINED, WORDNET)
 """How a noun means an object only if the library's own words say nothing."""
@@ -78,15 +77,10 @@ class PredefinedTemplates:
         Raises:
             TmdError: The domain has no library, or a wrong one.
         """
-        world = data.world(example.environment)
-        library = self._library(world)
-        state = world.task.init
-        done: list[tuple[Clause, tuple[Instruction, ...], str | None]] = []
-        for clause in parse(example.demonstration.text, data.lexicon).clauses:
-            said, source = serve(library, clause, world, state, data.lexicon)
-            done.append((clause, said, source))
-            state = run(world, state, said)
-        return by_clause(done)
+        library = self._library(data.world(example.environment))
+        return from_state(
+            example, data, lambda clause, world, state: serve(library, clause, world, state, data.lexicon)
+        )
 
     def _library(self, world: World) -> PredefinedLibrary:
         name = world.task.problem.domain.name
@@ -95,9 +89,7 @@ class PredefinedTemplates:
         return self.libraries_[name]
 
 
-def serve(
-    library: PredefinedLibrary, clause: Clause, world: World, state: Bits, lexicon: Lexicon
-) -> tuple[tuple[Instruction, ...], str | None]:
+def serve(library: PredefinedLibrary, clause: Clause, world: World, state: Bits, lexicon: Lexicon) -> Made:
     """Return the instructions for ``clause`` and the template they come from; nothing, from ``None``, where none fits.
 
     Of the templates that fit it is the one of most :attr:`~PredefinedTemplate.weight`, then the first of the file.

@@ -2,11 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import TypeAlias
 
+from tmd.evaluation.runs.dataset import Example, Worlds
+from tmd.language import parse
 from tmd.language.clause import Clause
+from tmd.library.library import run
 from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits
+from tmd.world.world import World
+
+Made: TypeAlias = tuple[tuple[Instruction, ...], str | None]
+"""The instructions for a clause, and the demonstration or template they were made from."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +53,19 @@ class Prediction:
     served: tuple[Served, ...] = ()
 
 
-def by_clause(done: Iterable[tuple[Clause, tuple[Instruction, ...], str | None]]) -> Prediction:
-    """Return a prediction from what was done for each clause, and the template each time."""
-    served = tuple(Served(clause.text, clause.verb, said=said, source=source) for clause, said, source in done)
+def by_clause(clauses: Sequence[Clause], made: Iterable[Made]) -> Prediction:
+    """Return a prediction from what was made for each clause."""
+    pairs = zip(clauses, made, strict=True)
+    served = tuple(Served(clause.text, clause.verb, said=said, source=source) for clause, (said, source) in pairs)
     return Prediction(tuple(i for s in served for i in s.said), served)
+
+
+def from_state(example: Example, data: Worlds, serve: Callable[[Clause, World, Bits], Made]) -> Prediction:
+    """Return a prediction clause by clause; ``serve`` is given the state after the clauses before."""
+    world = data.world(example.environment)
+    state, made = world.task.init, []
+    clauses = parse(example.demonstration.text, data.lexicon).clauses
+    for clause in clauses:
+        made.append(serve(clause, world, state))
+        state = run(world, state, made[-1][0])
+    return by_clause(clauses, made)

@@ -17,7 +17,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
-from tmd.evaluation.models.paper_models import Crf, planner_for
+from tmd.evaluation.models.paper_models import Crf, planner_for, policy_of
 from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs.dataset import Dataset, Example
 from tmd.inference.bayes_risk import SequenceCompleter, similarities
@@ -32,25 +32,6 @@ SHARPNESS = 3
 PROPOSERS = ("goals", "policy", "drawn", "neighbours")
 _LONGEST = 2.5
 """A length is a multiple of the usual one, and this at most."""
-FEATURES = (
-    "drawn IED",
-    "drawn END",
-    "neighbours IED",
-    "neighbours END",
-    "drawn IED squared",
-    "drawn END squared",
-    "drawn IED by END",
-    "length",
-    "length squared",
-    "empty",
-    "of goals",
-    "of policy",
-    "of drawn",
-    "of neighbours",
-    "first of goals",
-    "first of policy",
-    "nearest neighbour",
-)
 WEIGHTS: Mapping[str, float] = {
     "drawn IED": 0.7508,
     "drawn END": 0.2023,
@@ -71,6 +52,7 @@ WEIGHTS: Mapping[str, float] = {
     "nearest neighbour": -0.0367,
 }
 """The weights, learned by ``experiments/ranking/rank.py`` on VEIL-500's environments 1-8, all tasks of both worlds."""
+FEATURES = tuple(WEIGHTS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +83,7 @@ class Ranked:
     def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
         """Keep the examples and learn from them what ``goals`` and ``policy`` learn."""
         self._examples = tuple(examples)
+        self._tree = policy_of(self._examples, data)
         self._models = {
             "goals": Crf(GOALS, learned=False).fit(examples, data, random),
             "policy": Crf(POLICY, learned=False).fit(examples, data, random),
@@ -117,8 +100,7 @@ class Ranked:
         """Return the candidates of all proposers for a text; the sequence of the example is not used."""
         world = data.world(example.environment)
         completer = SequenceCompleter(world, planner_for(data, example.environment, POLICY.cap))
-        tree = self._models["policy"].tree_
-        policy = tree.policy(example.environment, example.world, data) if tree is not None else None
+        policy = self._tree.policy(example.environment, example.world, data)
         clauses = parse(example.demonstration.text, data.lexicon).clauses
         drawn = policy.sample(clauses, DRAWN, np.random.default_rng(0)) if policy is not None and clauses else []
         near, likeness = self._neighbours(example)

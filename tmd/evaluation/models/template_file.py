@@ -22,8 +22,23 @@ FILE = "templates.yaml"
 """The library's name in a domain's folder."""
 
 
-@dataclass(frozen=True, slots=True)
-class TemplateKind:
+def _listed(value: object) -> object:
+    return [value] if isinstance(value, str) else value
+
+
+def _split(value: object) -> object:
+    return [step.strip() for step in value.split(",")] if isinstance(value, str) else value
+
+
+_Steps = Annotated[tuple[str, ...], BeforeValidator(_split)]
+"""Actions or facts, with commas between: YAML's own lists give the question mark another meaning."""
+_Words = Annotated[tuple[str, ...], BeforeValidator(_listed)]
+"""A list of words, or one word."""
+_Path = tuple[str | int, ...]
+"""Keys and indices from the root of the file."""
+
+
+class TemplateKind(BaseModel):
     """The objects that a variable may be.
 
     Attributes:
@@ -34,9 +49,11 @@ class TemplateKind:
             is merely similar, or what something may contain.
     """
 
-    types: tuple[str, ...]
-    called: tuple[str, ...] = ()
-    words: tuple[str, ...] = ()
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True)
+
+    types: _Words
+    called: _Words = ()
+    words: _Words = ()
 
     def has(self, name: str, objects: Universe) -> bool:
         """Return whether the object ``name`` is of this kind."""
@@ -96,36 +113,13 @@ def load_templates(folder: DomainFolder) -> PredefinedLibrary:
     source = YamlSource(path)
     entries = source.load(_File)
     reader = _Reader(source, folder.domain, entries.verbs)
-    kinds = {name: reader.kind(("kinds", name), entry) for name, entry in entries.kinds.items()}
+    for name, kind in entries.kinds.items():
+        reader.check_kind(("kinds", name), kind)
     templates = tuple(
-        reader.template(("templates", number), entry, kinds, folder.name)
+        reader.template(("templates", number), entry, entries.kinds, folder.name)
         for number, entry in enumerate(entries.templates)
     )
-    return PredefinedLibrary(templates, tuple(kinds.values()))
-
-
-def _listed(value: object) -> object:
-    return [value] if isinstance(value, str) else value
-
-
-def _split(value: object) -> object:
-    return [step.strip() for step in value.split(",")] if isinstance(value, str) else value
-
-
-_Steps = Annotated[tuple[str, ...], BeforeValidator(_split)]
-"""Actions or facts, with commas between: YAML's own lists give the question mark another meaning."""
-_Words = Annotated[tuple[str, ...], BeforeValidator(_listed)]
-"""A list of words, or one word."""
-_Path = tuple[str | int, ...]
-"""Keys and indices from the root of the file."""
-
-
-class _KindEntry(BaseModel):
-    model_config = ConfigDict(defer_build=True, extra="forbid")
-
-    types: _Words
-    called: _Words = ()
-    words: _Words = ()
+    return PredefinedLibrary(templates, tuple(entries.kinds.values()))
 
 
 class _TemplateEntry(BaseModel):
@@ -144,7 +138,7 @@ class _TemplateEntry(BaseModel):
 class _File(BaseModel):
     model_config = ConfigDict(defer_build=True, extra="forbid")
 
-    kinds: dict[str, _KindEntry] = {}
+    kinds: dict[str, TemplateKind] = {}
     verbs: dict[str, _Words] = {}
     templates: list[_TemplateEntry]
 
@@ -161,14 +155,13 @@ class _Reader:
         self.actions = {a.name: a.parameters for a in domain.actions}
         self.predicates = {p.name: p.parameters for p in domain.predicates}
 
-    def kind(self, at: _Path, entry: _KindEntry) -> TemplateKind:
-        """Return a kind of the file's own."""
+    def check_kind(self, at: _Path, entry: TemplateKind) -> None:
+        """Refuse a kind of the file that is a type, or is of types that are not there."""
         if self.hierarchy.known(str(at[-1])):
             raise self.source.error(at, f"'{at[-1]}' is a type of the domain", "give the kind another name")
         for place, name in enumerate(entry.types):
             if not self.hierarchy.known(name):
                 raise self._unknown((*at, "types", place), "type", name, self.types)
-        return TemplateKind(entry.types, entry.called, entry.words)
 
     def template(
         self, at: _Path, entry: _TemplateEntry, kinds: Mapping[str, TemplateKind], folder: str
@@ -212,7 +205,7 @@ class _Reader:
         for place, name in enumerate(words):
             if not self.hierarchy.known(name):
                 raise self._unknown((*at, place), "type or kind", name, [*kinds, *self.types])
-        return TemplateKind(tuple(words))
+        return TemplateKind(types=tuple(words))
 
     def _applied(
         self,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -59,31 +59,33 @@ _STYLE: dict[Any, Any] = {
 
 def overall_bars(metrics: Metrics, models: Sequence[str], columns: Sequence[str]) -> str:
     """Return a panel for each column, a bar with its standard error for each row: averages over tasks."""
-    rows = [metrics.models[model].average for model in models]
+    rows = {model: metrics.models[model].average for model in models}
     floor = metrics.floor.average if metrics.floor else None
-    with _figure("overall", 1, len(columns), 0.9 + 0.28 * len(models)) as (figure, axes):
-        for axis, column in zip(axes, columns, strict=True):
-            _bars(axis, rows, column, None if column == EXECUTABLE else floor)
-            axis.set_title(LABELS[column])
-        _name_rows(axes[0], models)
-        return _svg(figure, "overall")
+    return _bar_chart("overall", [("", rows, floor)], columns, 0.9 + 0.28 * len(models))
 
 
 def task_bars(metrics: Metrics, models: Sequence[str], columns: Sequence[str]) -> str:
     """Return the same for each task: a line of panels for each."""
-    tasks = tasks_of(metrics)
-    height = (0.5 + 0.2 * len(models)) * len(tasks) + 0.5
-    with _figure("tasks", len(tasks), len(columns), height) as (figure, axes):
-        for number, task in enumerate(tasks):
+    lines = []
+    for task in tasks_of(metrics):
+        rows = {model: metrics.models[model].tasks[task] for model in models if task in metrics.models[model].tasks}
+        floor = metrics.floor.tasks.get(task) if metrics.floor else None
+        lines.append((f"{task.replace('_', ' ')}: ", rows, floor))
+    return _bar_chart("tasks", lines, columns, (0.5 + 0.2 * len(models)) * len(lines) + 0.5)
+
+
+def _bar_chart(
+    name: str, lines: Sequence[tuple[str, Mapping[str, Means], Means | None]], columns: Sequence[str], height: float
+) -> str:
+    """Return lines of panels, one panel for each column; a line is the beginning of its titles, its rows, the floor."""
+    with _figure(name, len(lines), len(columns), height) as (figure, axes):
+        for number, (title, rows, floor) in enumerate(lines):
             line = axes[number * len(columns) : (number + 1) * len(columns)]
-            present = [model for model in models if task in metrics.models[model].tasks]
-            rows = [metrics.models[model].tasks[task] for model in present]
-            floor = metrics.floor.tasks.get(task) if metrics.floor else None
             for axis, column in zip(line, columns, strict=True):
-                _bars(axis, rows, column, floor)
-                axis.set_title(f"{task.replace('_', ' ')}: {LABELS[column]}")
-            _name_rows(line[0], present)
-        return _svg(figure, "tasks")
+                _bars(axis, list(rows.values()), column, None if column == EXECUTABLE else floor)
+                axis.set_title(title + LABELS[column])
+            line[0].set_yticks(range(len(rows)), list(rows))
+        return _svg(figure, name)
 
 
 def learning_curves(fits: Sequence[Fit], model: str) -> str | None:
@@ -141,10 +143,6 @@ def _bars(axis: Axes, rows: Sequence[Means], column: str, floor: Means | None) -
     axis.set_yticks([])
     axis.grid(axis="x")
     axis.set_axisbelow(True)
-
-
-def _name_rows(axis: Axes, models: Sequence[str]) -> None:
-    axis.set_yticks(range(len(models)), models)
 
 
 def _round_edges(curves: Sequence[Sequence[CurvePoint]]) -> list[float]:

@@ -6,21 +6,25 @@ import json
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from zlib import crc32
 
 from tmd import __version__
-from tmd.evaluation.report import paper_table
-from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, VerbErrors, by_instruction, by_verb
-from tmd.evaluation.report.examples import SHOWN, SYMBOLS, best_and_worst
 from tmd.evaluation.report.figures import LABELS, learning_curves, overall_bars, task_bars, tasks_of
-from tmd.evaluation.report.in_words import in_words
-from tmd.evaluation.report.reference_row import ALPHA, differing, reference
-from tmd.evaluation.runs.finished_run import Run
-from tmd.evaluation.runs.summary import EMPTY, average
-from tmd.evaluation.runs.trial_records import Trials, films
+from tmd.evaluation.report.predictions import (
+    NO_CLAUSE,
+    NOTHING,
+    SHOWN,
+    SYMBOLS,
+    best_and_worst,
+    by_instruction,
+    by_verb,
+)
+from tmd.evaluation.report.rows import ALPHA, METRICS, TABLE_2, TASKS, differing, in_order, in_words, reference
+from tmd.evaluation.report.rows import title as row_title
+from tmd.evaluation.runs.finished_run import Run, Trials, films
+from tmd.evaluation.summary import EMPTY, average
 from tmd.inference.energy import title
 from tmd.records.fit import Fit
 from tmd.records.metrics import SUCCESS, Means, Metrics, Pair
@@ -46,39 +50,10 @@ def linked_pages(run: Path) -> frozenset[str]:
 _VERBS = 30
 # How many weights the table of weights shows.
 _WEIGHTS = 40
-
-
-@dataclass(frozen=True, slots=True)
-class LearnedWeights:
-    """Weights and curve that one row learned.
-
-    Attributes:
-        model: The row.
-        sets: From how many training sets.
-        curve: The learning curves, as SVG; ``None`` if none was kept.
-        worlds: The kinds of world.
-        weights: The largest: name, and (mean, least, largest) over the training sets for each kind of world.
-        smaller: How many weights are left out.
-    """
-
-    model: str
-    sets: int
-    curve: str | None
-    worlds: list[str]
-    weights: list[tuple[str, list[tuple[float, float, float] | None]]]
-    smaller: int
-
-
-@dataclass(frozen=True, slots=True)
-class Errors:
-    """Errors of one row. ``cells`` are (count, share of the line) by recorded and predicted instruction."""
-
-    model: str
-    verbs: list[VerbErrors]
-    rarer: int
-    unparsed: VerbErrors | None
-    names: list[str]
-    cells: dict[tuple[str, str], tuple[int, float]]
+# Data whose texts may not be passed on.
+_VEIL500 = "veil500"
+# How many instructions are named in a cell.
+_MENTIONED = 3
 
 
 def differences(metrics: Metrics, row: str | None, order: Sequence[str]) -> list[Pair]:
@@ -89,23 +64,29 @@ def differences(metrics: Metrics, row: str | None, order: Sequence[str]) -> list
 
 def table_2(metrics: Metrics, rows: Sequence[str]) -> dict[str, Any] | None:
     """Return our numbers and the paper's for the rows and tasks that both have; ``None`` if there are none."""
-    tasks = [task for task in paper_table.TASKS if all(task in metrics.models[model].tasks for model in rows)]
+    tasks = [task for task in TASKS if all(task in metrics.models[model].tasks for model in rows)]
     if not tasks or not rows:
         return None
     found = []
     for model in rows:
         own = [metrics.models[model].tasks[task] for task in tasks]
         mean = Means.model_validate(average(task.model_dump() for task in own))
-        found.append((model, own, mean, paper_table.TABLE_2[model]))
-    return {"tasks": tasks, "rows": found, "all": len(tasks) == len(paper_table.TASKS), "metrics": paper_table.METRICS}
+        found.append((model, own, mean, TABLE_2[model]))
+    return {"tasks": tasks, "rows": found, "all": len(tasks) == len(TASKS), "metrics": METRICS}
 
 
-def learned(fits: Sequence[Fit], model: str) -> LearnedWeights:
-    """Return the weights that one row learned, over its training sets."""
+def learned(fits: Sequence[Fit], model: str) -> dict[str, Any]:
+    """Return the weights that one row learned, over its training sets.
+
+    Returns:
+        ``{"model", "sets", "curve", "worlds", "weights", "smaller"}``: the row, the number of its training sets, its
+        learning curves as SVG (``None`` if none was kept), the kinds of world, the largest weights as name and (mean,
+        least, largest) over the training sets for each kind of world, and how many are left out.
+    """
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
     names = list(dict.fromkeys(name for fit in own for found in fit.worlds.values() for name in found.weights))
-    weights: list[tuple[str, list[tuple[float, float, float] | None]]] = []
+    weights = {}
     for name in names:
         cells: list[tuple[float, float, float] | None] = []
         for world in worlds:
@@ -113,30 +94,35 @@ def learned(fits: Sequence[Fit], model: str) -> LearnedWeights:
                 f.worlds[world].weights[name] for f in own if world in f.worlds and name in f.worlds[world].weights
             ]
             cells.append((sum(values) / len(values), min(values), max(values)) if values else None)
-        weights.append((name, cells))
-    order = sorted(weights, key=lambda w: -max(abs(cell[0]) for cell in w[1] if cell))[:_WEIGHTS]
-    kept = [weight for weight in weights if weight in order]
-    return LearnedWeights(model, len(own), learning_curves(own, model), worlds, kept, len(weights) - len(kept))
+        weights[name] = cells
+    order = sorted(weights, key=lambda name: -max(abs(cell[0]) for cell in weights[name] if cell))[:_WEIGHTS]
+    kept = [(name, cells) for name, cells in weights.items() if name in order]
+    smaller, curve = len(weights) - len(kept), learning_curves(own, model)
+    return {
+        "model": model, "sets": len(own), "curve": curve, "worlds": worlds, "weights": kept, "smaller": smaller
+    }  # fmt: skip
 
 
-def errors(run: Run, model: str) -> Errors:
-    """Return the errors of one row."""
+def errors(run: Run, model: str) -> dict[str, Any]:
+    """Return the errors of one row.
+
+    Returns:
+        ``{"model", "verbs", "rarer", "unparsed", "names", "cells"}``: the row, the errors of the most frequent verbs,
+        the number of clauses of all others, the errors where no clause was found, the names of instructions, and
+        (count, share of the line) by recorded and predicted instruction.
+    """
     lines = run.of(model)
-    verbs = by_verb(lines)
-    known = [verb for verb in verbs if verb.verb != NO_CLAUSE]
+    verbs = {verb.verb: verb for verb in by_verb(lines)}
+    unparsed = verbs.pop(NO_CLAUSE, None)
+    known = list(verbs.values())
     counts = by_instruction(lines)
     names = [*sorted({name for pair in counts for name in pair} - {NOTHING}), NOTHING]
     totals = {gold: sum(counts[gold, mine] for mine in names) for gold in names}
     cells = {(gold, mine): (count, count / totals[gold]) for (gold, mine), count in counts.items()}
-    unparsed = next((verb for verb in verbs if verb.verb == NO_CLAUSE), None)
-    rarer = sum(verb.clauses for verb in known[_VERBS:])
-    return Errors(model, known[:_VERBS], rarer, unparsed, names, cells)
-
-
-# Data whose texts may not be passed on.
-_VEIL500 = "veil500"
-# How many instructions are named in a cell.
-_MENTIONED = 3
+    return {
+        "model": model, "verbs": known[:_VERBS], "rarer": sum(verb.clauses for verb in known[_VERBS:]),
+        "unparsed": unparsed, "names": names, "cells": cells,
+    }  # fmt: skip
 
 
 def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = frozenset()) -> str:
@@ -148,7 +134,7 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         pages: The pages on single predictions that are there, by file name.
     """
     metrics, fits = run.metrics, list(run.fits.values())
-    paper, others = paper_table.in_order(metrics.models)
+    paper, others = in_order(metrics.models)
     others.sort(key=lambda model: model == EMPTY)
     order = [*paper, *others]
     chief = reference(metrics.models)
@@ -157,7 +143,7 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
     return page.render(
         version=__version__,
         style=data("report.css"),
-        title_of=paper_table.title,
+        title_of=row_title,
         factor_title=title,
         page_name=page_name,
         page_folder=FOLDER,

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tmd.evaluation.report.reference_row import ALPHA, differing, reference
-from tmd.evaluation.runs.summary import EMPTY
+from tmd.evaluation.report.rows import ALPHA, differing, reference
+from tmd.evaluation.summary import EMPTY
 from tmd.files import write_text
 from tmd.records.metrics import EXECUTABLE, SUCCESS, Means, Metrics
 
@@ -27,8 +27,7 @@ def write_report(directory: Path) -> Path:
         TmdError: The directory holds no finished run, a file of it is damaged, or it cannot be written to.
     """
     from tmd.evaluation.report.page import linked_pages, render
-    from tmd.evaluation.runs.finished_run import read_run
-    from tmd.evaluation.runs.trial_records import read_trials
+    from tmd.evaluation.runs.finished_run import read_run, read_trials
 
     page = render(read_run(directory), read_trials(directory), linked_pages(directory))
     path = directory / REPORT

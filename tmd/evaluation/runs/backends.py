@@ -60,13 +60,13 @@ def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], j
 
     end_with_program()
     with warnings.catch_warnings(), parallel_config(backend="loky", inner_max_num_threads=1):
-        # a worker that has grown is replaced between two units: nothing is lost by it
+        # a worker that has grown is replaced between two units, and nothing is lost
         warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")
-        # joblib does without files that it cannot write; those of ours are reported by us
+        # joblib can do without the files that it cannot write; our own files are reported elsewhere
         warnings.filterwarnings("ignore", module=r"joblib\b")
         workers = Parallel(n_jobs=min(jobs, len(tasks)), return_as="generator_unordered", batch_size=1)
         try:
-            with _deaf_to_interruptions():
+            with _interrupts_blocked():
                 found = workers(delayed(work)(*task) for task in tasks)
             yield from found
         except BrokenProcessPool:
@@ -77,12 +77,12 @@ def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], j
 
 
 @contextmanager
-def _deaf_to_interruptions() -> Iterator[None]:
-    """Processes and threads started here never hear of Ctrl-C: this process does, afterwards, and ends them."""
+def _interrupts_blocked() -> Iterator[None]:
+    """Block SIGINT in processes and threads started here; this process receives it afterwards and ends them."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    # Python's own resource tracker hears them again once it has started (unblocked, not restored): so it starts first
+    # Python's resource tracker unblocks SIGINT when it starts, so it is started first
     ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:

@@ -11,13 +11,14 @@ import gc
 import hashlib
 import logging
 import pickle
+import socket
 import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
@@ -41,21 +42,6 @@ _ONE_AT_A_TIME = threading.Lock()
 """Worlds are cached and not made for threads, so a worker with several threads does one unit at a time."""
 
 
-@dataclass(frozen=True, slots=True)
-class Expected:
-    """The version and data that a worker must have.
-
-    Attributes:
-        version: Of tmd.
-        source: A digest of its code.
-        fingerprint: Of the data.
-    """
-
-    version: str
-    source: str
-    fingerprint: str
-
-
 def on_cluster(config: ExperimentConfig, units: Sequence[EvaluationJob], fingerprint: str) -> Iterator[JobOutcome]:
     """Do the units on the workers of ``config.scheduler``; yield what came out of each as soon as it is there.
 
@@ -68,12 +54,13 @@ def on_cluster(config: ExperimentConfig, units: Sequence[EvaluationJob], fingerp
     distributed = _distributed()
     address = config.scheduler or ""
     client = _connect(distributed, address)
-    expected = Expected(__version__, source_digest(), fingerprint)
     sent = _sent(config)
     try:
         with _connected(address):
             call = _caller()
-            waiting = {client.submit(call, pickle.dumps((sent, unit, expected)), pure=False) for unit in units}
+            waiting = {
+                client.submit(call, pickle.dumps((sent, unit, build(), fingerprint)), pure=False) for unit in units
+            }
         gone_since = None
         while waiting:
             with _connected(address):
@@ -89,15 +76,15 @@ def on_cluster(config: ExperimentConfig, units: Sequence[EvaluationJob], fingerp
 def _caller() -> Callable[[bytes], bytes]:
     """Return the function that is sent: being local it travels with its code, and takes and returns bytes.
 
-    So the scheduler needs no tmd, and a worker without it fails in the unit, with an error that can be told.
+    So the scheduler needs no tmd, and a worker without it fails in the unit, with an error that is reported.
     """
 
-    def call(said: bytes) -> bytes:
+    def call(sent: bytes) -> bytes:
         import pickle
 
         from tmd.evaluation.runs.cluster import remote
 
-        return pickle.dumps(remote(*pickle.loads(said)))
+        return pickle.dumps(remote(*pickle.loads(sent)))
 
     return call
 
@@ -108,24 +95,29 @@ def _sent(config: ExperimentConfig) -> ExperimentConfig:
     return replace(config, out=Path(), jobs=1, shard=None, veil500=veil500, domains=domains, problems=problems)
 
 
-def remote(config: ExperimentConfig, unit: EvaluationJob, expected: Expected) -> JobOutcome:
-    """Do a unit on a worker, if it has what is expected of it.
+def remote(config: ExperimentConfig, unit: EvaluationJob, wanted: str, fingerprint: str) -> JobOutcome:
+    """Do a unit on a worker, if that has what the run has.
+
+    Args:
+        config: The run.
+        unit: What to do.
+        wanted: The run's :func:`build`.
+        fingerprint: Of the run's data.
 
     Raises:
-        DataError: It has another version of tmd, or other data.
+        DataError: The worker has another version of tmd, or other data.
         TmdError: The unit cannot be done.
     """
     with _ONE_AT_A_TIME:
         here = _here()
-        if (__version__, source_digest()) != (expected.version, expected.source):
+        if build() != wanted:
             raise DataError(
-                f"the worker on {here} has another tmd: {_build(__version__, source_digest())}, and the run has "
-                f"{_build(expected.version, expected.source)}",
+                f"the worker on {here} has another tmd: {build()}, and the run has {wanted}",
                 hint="install the same version everywhere, and restart the workers",
             )
         try:
             found = open_dataset(config).fingerprint()
-            if found != expected.fingerprint:
+            if found != fingerprint:
                 forget_datasets()
                 found = open_dataset(config).fingerprint()
         except TmdError as error:
@@ -133,12 +125,17 @@ def remote(config: ExperimentConfig, unit: EvaluationJob, expected: Expected) ->
                 f"the worker on {here} cannot read the data: {error.message}",
                 hint="the data must lie in the same directory on every machine",
             ) from None
-        if found != expected.fingerprint:
+        if found != fingerprint:
             raise DataError(
-                f"the worker on {here} has other data: their fingerprint is {found}, and not {expected.fingerprint}",
+                f"the worker on {here} has other data: their fingerprint is {found}, and not {fingerprint}",
                 hint="put the same data in the same directory on every machine",
             )
         return do(config, unit, None)
+
+
+def build() -> str:
+    """Return the version of tmd and a digest of its code."""
+    return f"{__version__} (code {source_digest()})"
 
 
 @lru_cache(maxsize=1)
@@ -152,18 +149,12 @@ def source_digest(package: Path = PACKAGE) -> str:
     return digest.hexdigest()[:8]
 
 
-def _build(version: str, source: str) -> str:
-    return f"{version} (code {source})"
-
-
 def _here() -> str:
     """Return the worker's address, or the machine's name."""
     with suppress(Exception):
         from distributed import get_worker
 
         return str(get_worker().address)
-    import socket
-
     return socket.gethostname()
 
 
@@ -189,7 +180,7 @@ def _connect(distributed: ModuleType, address: str) -> Any:  # noqa: ANN401 - di
             client = distributed.Client(address, timeout=CONNECT, set_as_default=False)
     except ValueError as error:
         failure = TmdError(f"--scheduler {address}: {error}", hint="an address looks like tcp://host:8786")
-    except Exception:  # whatever the transport raises
+    except Exception:  # transports raise errors of many types
         failure = MissingToolError(f"no scheduler answers at {address}", hint=hint)
     if client is None:
         # The half-made client is part of a cycle. Collected later it would stop its event loop, and were that to

@@ -17,6 +17,11 @@ DEFAULT_MODELS = (
     *("paper", "policy", "goals"),
 )
 """Table II, and what is measured beside it."""
+_DECISIVE = (
+    *("task", "data", "domain", "train_tasks", "train_environments", "test_environments"),
+    *("drop_sentences", "models", "seed"),
+)
+"""The settings that decide the outcome of a run."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,20 +89,6 @@ class ExperimentConfig:
         Args:
             fingerprint: Of the data.
         """
-        return {
-            "task": self.task,
-            "data": self.data,
-            "domain": self.domain,
-            "train_tasks": _listed(self.train_tasks),
-            "train_environments": _listed(self.train_environments),
-            "test_environments": _listed(self.test_environments),
-            "drop_sentences": self.drop_sentences,
-            "models": list(self.models),
-            "seed": self.seed,
-            "fingerprint": fingerprint,
-            "version": __version__,
-        }
-
-
-def _listed(values: tuple[Any, ...] | None) -> list[Any] | None:
-    return None if values is None else list(values)
+        values = {name: getattr(self, name) for name in _DECISIVE}
+        listed = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
+        return {**listed, "fingerprint": fingerprint, "version": __version__}

@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
+from pydantic import BaseModel, ConfigDict
+
+from tmd.datasets.veil500.compile import absent_types, compile_environment
+from tmd.datasets.veil500.data import Point, load
+from tmd.datasets.veil500.forms import domain_path, mentioned, to_veil
 from tmd.diagnostics import DataError, TmdError
 from tmd.evaluation.metrics import Scorer
 from tmd.evaluation.runs.config import VEIL500, ExperimentConfig
-from tmd.evaluation.runs.protocol import FILE, read_protocol
 from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Formula, Instruction, Problem
@@ -22,12 +26,54 @@ from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration, Segment, read_goal
 from tmd.world.folder import find_domain, find_problems
 from tmd.world.world import World, make_world
-
-if TYPE_CHECKING:
-    from tmd.datasets.veil500.data import Point
+from tmd.world.yaml_positions import YamlSource
 
 ALL = "all"
-"""The task that stands for every task."""
+"""The name that selects every task."""
+PROTOCOL = "protocol.yaml"
+"""The file beside the problems of a domain that says which tasks are trained together."""
+
+
+class ProtocolFile(BaseModel):
+    """The protocol of a domain: the tasks that are trained together.
+
+    Section VII: "…the first two tasks trained together and then the next two tasks trained together"::
+
+        trained_together:
+          - [boiling_water, coffee]
+          - [affogato, ramen]
+
+    A task in no group, or of a domain without this file, is trained with all tasks.
+    """
+
+    model_config = ConfigDict(extra="forbid")
+    trained_together: list[list[str]] = []
+
+
+def read_protocol(path: Path, tasks: Collection[str]) -> tuple[frozenset[str], ...]:
+    """Return the groups of tasks in a protocol file; none where there is no file.
+
+    Args:
+        path: The file.
+        tasks: The tasks that there are.
+
+    Raises:
+        TmdError: The file is wrong, names a task that is not there, or names one twice.
+    """
+    if not path.is_file():
+        return ()
+    source = YamlSource(path)
+    groups = source.load(ProtocolFile).trained_together
+    seen: set[str] = set()
+    for i, group in enumerate(groups):
+        for j, task in enumerate(group):
+            place = ("trained_together", i, j)
+            if task not in tasks:
+                raise source.error(place, f"there is no task '{task}'", nearest(task, sorted(tasks)))
+            if task in seen:
+                raise source.error(place, f"the task '{task}' stands here twice")
+            seen.add(task)
+    return tuple(frozenset(group) for group in groups if group)
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +190,7 @@ class BundledData(Dataset):
         self.corpus = Corpus(folder, find_problems(domain, problems))
         known = self.corpus.tasks()
         tested = frozenset(known) if task == ALL else frozenset({d.task for d in self.corpus.demonstrations(task)})
-        self._groups = read_protocol(self.corpus.directory / FILE, known)
+        self._groups = read_protocol(self.corpus.directory / PROTOCOL, known)
         pool = tuple(self._example(d) for name in known for d in self.corpus.demonstrations(name))
         self._check(pool, known)
         files = {
@@ -188,7 +234,7 @@ class BundledData(Dataset):
 
 
 class VeilDataset(Dataset):
-    """VEIL-500 from a directory of the user's: planning by the sane rules, scoring by the literal ones.
+    """VEIL-500 from a directory: planning by the sane rules, scoring by the literal ones.
 
     Ids are places in ``data.xml``, environments go by file number.
 
@@ -201,9 +247,6 @@ class VeilDataset(Dataset):
     """
 
     def __init__(self, directory: Path, task: str) -> None:
-        from tmd.datasets.veil500.compile import domain_path
-        from tmd.datasets.veil500.data import load
-
         self._data = load(directory)
         tasks = sorted({point.task for point in self._data.points})
         if task != ALL and task not in tasks:
@@ -226,23 +269,16 @@ class VeilDataset(Dataset):
     def world(self, environment: str) -> World:
         """Return an environment under the sane rules."""
         if environment not in self._worlds:
-            from tmd.datasets.veil500.compile import compile_environment
-
             problem = compile_environment(self._data.environments[_key(environment)], "sane")
             self._worlds[environment] = make_world(environment, problem, self.lexicon, _kinds(problem))
         return self._worlds[environment]
 
     def _scorer(self, environment: str) -> Scorer:
-        from tmd.datasets.veil500.compile import absent_types, compile_environment
-        from tmd.datasets.veil500.forms import mentioned
-
         place = self._data.environments[_key(environment)]
         return Scorer(compile_environment(place, "literal"), mentioned, absent_types(place))
 
     def written(self, environment: str, instructions: Iterable[Instruction]) -> list[str]:
         """Return instructions as VEIL-500 writes them, such as ``keep Mug_1 On Sink``."""
-        from tmd.datasets.veil500.forms import to_veil
-
         names = self._data.environments[_key(environment)].names
         return [to_veil(instruction, names) for instruction in instructions]
 
@@ -265,7 +301,7 @@ def _key(environment: str) -> tuple[str, int]:
 
 
 def _kinds(problem: Problem) -> dict[str, str]:
-    """VEIL-500 has no classes of things: a thing's kind is its name without the number."""
+    """Return the kind of each object: its name without the number, for VEIL-500 has no classes in PDDL."""
     return {o.name: re.sub(r"_\d+$", "", o.name) for o in problem.objects}
 
 
@@ -296,21 +332,15 @@ def open_dataset(config: ExperimentConfig) -> Dataset:
     if config.data == VEIL500:
         if config.veil500 is None:
             raise TmdError("VEIL-500 is not part of tmd", hint="say where it is: --veil500 DIR or VEIL500_DIR")
-        return _veil(config.veil500, config.task)
-    return _bundled(config.task, config.domain, config.domains, config.problems)
+        return _read_once(VeilDataset, config.veil500, config.task)
+    return _read_once(BundledData, config.task, config.domain, config.domains, config.problems)
+
+
+@lru_cache(maxsize=4)
+def _read_once(kind: Callable[..., Dataset], *place: str | Path | None) -> Dataset:
+    return kind(*place)
 
 
 def forget_datasets() -> None:
     """Read data again when they are asked for next: a worker may live longer than the files it has read."""
-    _veil.cache_clear()
-    _bundled.cache_clear()
-
-
-@lru_cache(maxsize=2)
-def _veil(directory: Path, task: str) -> Dataset:
-    return VeilDataset(directory, task)
-
-
-@lru_cache(maxsize=2)
-def _bundled(task: str, domain: str, domains: Path | None, problems: Path | None) -> Dataset:
-    return BundledData(task, domain, domains, problems)
+    _read_once.cache_clear()

@@ -18,11 +18,9 @@ from tmd.evaluation.runs.dataset import Dataset, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.evaluation.runs.jobs import units_of
 from tmd.evaluation.runs.run_directory import RunDirectory
-from tmd.evaluation.runs.summary import summarise
+from tmd.evaluation.summary import summarise
 from tmd.records.metrics import FoldSizes, Metrics
 from tmd.world.folder import find_domain
-
-__all__ = ["DEFAULT_MODELS", "ExperimentConfig", "Progress", "collect", "run", "work"]
 
 Progress = Callable[[int, int], None]
 """Called with the number of parts done and of all parts."""

@@ -1,10 +1,15 @@
-"""The files of a finished run, read and checked."""
+"""The files of a finished run, read and checked, with the records of robot trials in its ``robot/``.
+
+``robot/ENVIRONMENT.json`` is one trial, with its film and its filmstrip beside it; ``robot/skipped.json`` says why
+there are none.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from urllib.parse import quote
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.runs.config import BUNDLED
@@ -15,7 +20,12 @@ from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.records.fit import Fit
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
+from tmd.records.trial import Skip, Trial
 from tmd.world.roots import Roots
+
+FOLDER = "robot"
+SKIPPED = "skipped.json"
+_MEDIA = frozenset({".mp4", ".gif", ".png", ".jpg"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,8 +59,8 @@ def read_run(directory: Path) -> Run:
     lines = tuple(PredictionRecord.from_lines(_text(path), str(path)))
     unknown = sorted({line.model for line in lines} ^ set(metrics.models))
     if unknown:
-        told = f"{directory}: metrics.json and predictions.jsonl differ on the row '{unknown[0]}'"
-        raise TmdError(told, hint=PredictionRecord.REPAIR)
+        message = f"{directory}: metrics.json and predictions.jsonl differ on the row '{unknown[0]}'"
+        raise TmdError(message, hint=PredictionRecord.REPAIR)
     folder = directory / "fits"
     files = sorted(folder.glob("*.json")) if folder.is_dir() else []
     return Run(metrics, lines, {file.stem: Fit.from_text(read_text(file), str(file)) for file in files})
@@ -58,8 +68,8 @@ def read_run(directory: Path) -> Run:
 
 def _text(path: Path) -> str:
     if not path.exists():
-        told = f"{path.parent}: holds no finished run: there is no {path.name}"
-        raise TmdError(told, hint=PredictionRecord.REPAIR)
+        message = f"{path.parent}: holds no finished run: there is no {path.name}"
+        raise TmdError(message, hint=PredictionRecord.REPAIR)
     return read_text(path)
 
 
@@ -79,7 +89,11 @@ def predicted_plan(
     """
     domain = _domain(run)
     file = run / "predictions.jsonl"
-    row = _chosen(PredictionRecord.from_lines(read_text(file), str(file)), example, model)
+    rows = _filtered(PredictionRecord.from_lines(read_text(file), str(file)), "model", "--model", model)
+    rows = _filtered(rows, "id", "--example", example)
+    if not rows:
+        raise TmdError("the run has no predictions", hint=PredictionRecord.REMAKE)
+    row = rows[0]
     _, world = roots.world(row.environment, domain)
     return world.task.problem, tuple(parse_instruction(text, file=str(file)) for text in row.predicted)
 
@@ -103,15 +117,6 @@ def _domain(run: Path) -> str | None:
     return config.get("domain")
 
 
-def _chosen(rows: Sequence[PredictionRecord], example: str | None, model: str | None) -> PredictionRecord:
-    """Return the one prediction that is meant."""
-    left = _filtered(rows, "model", "--model", model)
-    left = _filtered(left, "id", "--example", example)
-    if not left:
-        raise TmdError("the run has no predictions", hint=PredictionRecord.REMAKE)
-    return left[0]
-
-
 def _filtered(rows: Sequence[PredictionRecord], key: str, option: str, value: str | None) -> Sequence[PredictionRecord]:
     known = list(dict.fromkeys(str(getattr(row, key)) for row in rows))
     if value is None:
@@ -121,3 +126,55 @@ def _filtered(rows: Sequence[PredictionRecord], key: str, option: str, value: st
     if value not in known:
         raise TmdError(f"the run has no prediction with {option} {value}", hint=nearest(value, known, what=f"{key}s"))
     return [row for row in rows if str(getattr(row, key)) == value]
+
+
+@dataclass(frozen=True, slots=True)
+class Trials:
+    """All trials of a run, or why there are none.
+
+    Attributes:
+        directory: Where they lie.
+        found: By environment.
+        skipped: Why there are none.
+    """
+
+    directory: Path
+    found: tuple[Trial, ...] = ()
+    skipped: str = ""
+
+
+def read_trials(run: Path) -> Trials | None:
+    """Return the trials in a run's directory; ``None`` where nobody asked for any.
+
+    Raises:
+        TmdError: A record is damaged.
+    """
+    folder = run / FOLDER
+    if not folder.is_dir():
+        return None
+    files = sorted(path for path in folder.glob("*.json") if path.name != SKIPPED)
+    found = tuple(read_trial(path) for path in files)
+    skip = folder / SKIPPED
+    if not found and not skip.is_file():
+        return None
+    return Trials(folder, found, "" if found else Skip.from_text(read_text(skip), str(skip)).reason)
+
+
+def read_trial(path: Path) -> Trial:
+    """Return one record.
+
+    Raises:
+        TmdError: It is damaged, or cannot be read.
+    """
+    return Trial.from_text(read_text(path), str(path))
+
+
+def films(trials: Trials | None) -> dict[str, str]:
+    """Return films, posters and filmstrips by file name, as addresses relative to the run's directory."""
+    found = trials.found if trials else ()
+    names = [name for trial in found for name in (trial.film, trial.strip, trial.poster)]
+    return {
+        name: f"{trials.directory.name}/{quote(Path(name).name)}"
+        for name in filter(None, names)
+        if trials and Path(name).suffix in _MEDIA and (trials.directory / Path(name).name).is_file()
+    }

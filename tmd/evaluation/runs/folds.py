@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from tmd.diagnostics import TmdError
 from tmd.evaluation.runs.config import VEIL500, ExperimentConfig
 from tmd.evaluation.runs.dataset import ALL, Dataset, Example
-from tmd.evaluation.runs.protocol import training_groups
+from tmd.pddl.reading.syntax import nearest
 
 VEIL_PAIRS = ((1, 2), (3, 4), (5, 6), (7, 8))
 """The folds over environments 1-8 of VEIL-500; 9 and 10 are the authors' test set."""
@@ -36,9 +36,6 @@ class Fold:
     training_set: str = ""
 
 
-_ELSEWHERE = "give other --train-tasks, or demonstrations in a second environment"
-
-
 def folds_of(config: ExperimentConfig, data: Dataset) -> list[Fold]:
     """Return the folds of a run: for each group of tasks that are trained together its own.
 
@@ -49,18 +46,29 @@ def folds_of(config: ExperimentConfig, data: Dataset) -> list[Fold]:
         raise TmdError(
             f"there are no demonstrations of '{config.task}'", hint="--task all takes all tasks that there are"
         )
-    tasks = {example.task for example in data.pool}
-    tested = [example.task for example in data.examples]
-    groups = training_groups(tested, data.trained_with, config.train_tasks, tasks)
     found = []
-    for group in groups:
-        test = [e for e in data.examples if e.task in group.tested]
-        pool = [e for e in data.pool if e.task in group.trained]
-        label = _label(group.trained, data.pool)
-        prefix = f"{_label(group.tested, data.pool)}-" if len(groups) > 1 else ""
+    groups = _groups(config, data)
+    for trained, tested in groups.items():
+        test = [e for e in data.examples if e.task in tested]
+        pool = [e for e in data.pool if e.task in trained]
+        label = _label(sorted(trained), data.pool)
+        prefix = f"{_label(tested, data.pool)}-" if len(groups) > 1 else ""
         for fold in _split(config, test, pool):
             numbers = {example.number for example in fold.train}
             found.append(Fold(prefix + fold.name, fold.train, fold.test, f"{label}_{ranges(numbers)}"))
+    return found
+
+
+def _groups(config: ExperimentConfig, data: Dataset) -> dict[frozenset[str], list[str]]:
+    """Return the tested tasks, sorted, by the tasks that they are trained with."""
+    tasks = sorted({example.task for example in data.pool})
+    for task in config.train_tasks or ():
+        if task not in tasks:
+            raise TmdError(f"--train-tasks: there is no task '{task}'", hint=nearest(task, tasks))
+    found: dict[frozenset[str], list[str]] = {}
+    for task in sorted({example.task for example in data.examples}):
+        trained = data.trained_with(task) if config.train_tasks is None else frozenset(config.train_tasks)
+        found.setdefault(trained, []).append(task)
     return found
 
 
@@ -73,7 +81,7 @@ def _split(config: ExperimentConfig, test: Sequence[Example], pool: Sequence[Exa
 def given_fold(
     examples: Sequence[Example], pool: Sequence[Example], train: Collection[int] | None, test: Collection[int] | None
 ) -> list[Fold]:
-    """Return the one fold that environment numbers say; what is not said is all the others.
+    """Return the one fold that environment numbers define; a side without numbers is all other environments.
 
     Args:
         examples: Candidates for testing.
@@ -117,7 +125,8 @@ def halves(examples: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
         train = tuple(e for e in pool if e.environment != environment)
         if not train:
             raise TmdError(
-                f"there is no environment but {environment} that the training tasks were done in", hint=_ELSEWHERE
+                f"there is no environment but {environment} that the training tasks were done in",
+                hint="give other --train-tasks, or demonstrations in a second environment",
             )
         test = [e for e in examples if e.environment == environment]
         for half in range(min(HALVES, len(test))):

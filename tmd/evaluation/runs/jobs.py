@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import json
 import zlib
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -94,7 +93,7 @@ def leave_out(example: Example, probability: float, seed: int) -> Example:
 
 
 GO_ON = "what is done is kept: the same command goes on from there"
-"""What is said where a run ends before its time."""
+"""The hint where a run ends early."""
 _PREDICT = zlib.crc32(b"predict")
 
 
@@ -118,7 +117,7 @@ class EvaluationJob:
     model: str
     training_set: str
     folds: tuple[str, ...]
-    saved: dict[str, Any] | None = None
+    saved: Mapping[str, WorldFit] | None = None
 
     @property
     def name(self) -> str:
@@ -133,7 +132,7 @@ class JobOutcome:
     Attributes:
         unit: The unit.
         parts: For each fold the text of its file: a line for each prediction.
-        fit: The text of the file on what was learned, if the model tells.
+        fit: The text of the file on what was learned; ``None`` for a model that learns no weights.
     """
 
     unit: EvaluationJob
@@ -168,7 +167,7 @@ def do(config: ExperimentConfig, unit: EvaluationJob, fits: Path | None) -> JobO
 def _fitted(
     config: ExperimentConfig, unit: EvaluationJob, fold: Fold, data: Dataset, fits: Path | None
 ) -> tuple[Model, str | None]:
-    """Return the model, learned or restored, and the text that tells what it learned."""
+    """Return the model, learned or restored, and the text of its file in ``fits/``."""
     model = make_model(unit.model)
     if unit.saved is not None and isinstance(model, Crf):
         return model.restore(fold.train, data, unit.saved), None
@@ -183,7 +182,7 @@ def _fitted(
 
 @contextmanager
 def _journal(model: Model, unit: EvaluationJob, fits: Path | None) -> Iterator[None]:
-    """Give the model its journal. Where another process is at the same unit, that one has it, and this one has none."""
+    """Give the model its journal, unless another process works on the same unit and has it."""
     if fits is None or not isinstance(model, Crf):
         yield
         return

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import logging
 import subprocess
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
@@ -22,7 +22,7 @@ from tmd.evaluation.runs.folds import Fold
 from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, journal_files
 from tmd.files import make_directory, write_text
 from tmd.pddl.reading.syntax import read_text
-from tmd.records.fit import Fit
+from tmd.records.fit import Fit, WorldFit
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
 
@@ -33,10 +33,10 @@ LOG = "tmd.experiment"
 
 
 class _Log(logging.FileHandler):
-    """A log that cannot be written stops nothing: what matters is written elsewhere, and complains there."""
+    """A log file whose write errors are ignored: all that matters is written elsewhere."""
 
     def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802
-        """Say nothing."""
+        """Ignore the error."""
 
 
 class RunDirectory:
@@ -137,7 +137,7 @@ class RunDirectory:
     def _part_path(self, model: str, fold: str) -> Path:
         return self.path / "parts" / f"{model}-{fold}.jsonl"
 
-    def _saved(self, unit: EvaluationJob) -> dict[str, Any] | None:
+    def _saved(self, unit: EvaluationJob) -> Mapping[str, WorldFit] | None:
         path = self.fits / f"{unit.name}.json"
         if not path.exists():
             return None
@@ -145,7 +145,7 @@ class RunDirectory:
         try:
             saved = Fit.from_text(read_text(path), str(path))
             if saved.model == unit.model:
-                return saved.to_value()
+                return saved.worlds
         except TmdError as error:
             reason = error.message
         self.log.warning("damaged, so to be learned again: %s: %s", path.name, reason)
@@ -181,7 +181,7 @@ class RunDirectory:
 
 
 def _lacks_success(line: PredictionRecord, example: Example) -> bool:
-    """Return whether a line does not tell what its example's goal asks for; one of an earlier version does not."""
+    """Return whether a line lacks ``success`` although its example has a goal, as in files of earlier versions."""
     return (example.goal is None) != (line.success is None)
 
 

@@ -1,4 +1,4 @@
-"""Errors of predictions by the verb of the clause, and by instruction."""
+"""The predictions of a model as a report shows them: the best and the worst, and errors by verb and by instruction."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
-from tmd.view.alignment import Mark, align, name
+from tmd.view.alignment import AlignedStep, Mark, align, name
 
 # Stands for the verb where people did something for words in which no clause was found.
 NO_CLAUSE = "(no clause)"
@@ -50,19 +50,6 @@ class VerbErrors:
         return self.matched + self.missed.total() + self.arguments.total() + self.substituted.total()
 
 
-@dataclass(slots=True)
-class _Share:
-    """Share of an alignment that belongs to one clause."""
-
-    steps: list[tuple[Mark, str, str]] = field(default_factory=list)
-
-    def ied(self) -> float:
-        predicted = sum(mark is not Mark.MISSING for mark, _, _ in self.steps)
-        recorded = sum(mark is not Mark.SUPERFLUOUS for mark, _, _ in self.steps)
-        wrong = sum(mark is not Mark.MATCH for mark, _, _ in self.steps)
-        return 100.0 * (1 - min(1.0, wrong / max(predicted, recorded, 1)))
-
-
 def by_verb(lines: Iterable[PredictionRecord]) -> list[VerbErrors]:
     """Return the verbs, most frequent first.
 
@@ -91,22 +78,20 @@ def _count(found: dict[str, VerbErrors], clauses: Sequence[PredictedClause], rec
     """Add what became of the clauses of one segment."""
     predicted = [step for clause in clauses for step in clause.steps]
     owner = [n for n, clause in enumerate(clauses) for _ in clause.steps]
-    shares = [_Share() for _ in clauses] or [_Share()]
+    shares: list[list[tuple[Mark, str, str]]] = [[] for _ in clauses] or [[]]
     current = 0
     for step in align(predicted, recorded):
         if step.predicted is not None:
             current = owner[step.predicted]
-        mine = NOTHING if step.predicted is None else name(predicted[step.predicted])
-        gold = NOTHING if step.gold is None else name(recorded[step.gold])
-        shares[current].steps.append((step.mark, gold, mine))
-    if not clauses and not shares[0].steps:
+        shares[current].append((step.mark, *_names(step, predicted, recorded)))
+    if not clauses and not shares[0]:
         return
     verbs = [clause.verb for clause in clauses] or [NO_CLAUSE]
     for verb, share in zip(verbs, shares, strict=True):
         errors = found.setdefault(verb, VerbErrors(verb))
         errors.clauses += len(clauses) > 0
-        errors.scores.append(share.ied())
-        for mark, gold, mine in share.steps:
+        errors.scores.append(_ied([mark for mark, _, _ in share]))
+        for mark, gold, mine in share:
             if mark is Mark.MATCH:
                 errors.matched += 1
             elif mark is Mark.MISSING:
@@ -117,6 +102,19 @@ def _count(found: dict[str, VerbErrors], clauses: Sequence[PredictedClause], rec
                 errors.arguments[gold] += 1
             else:
                 errors.substituted[gold, mine] += 1
+
+
+def _names(step: AlignedStep, predicted: Sequence[str], recorded: Sequence[str]) -> tuple[str, str]:
+    """Return the names of the recorded and of the predicted instruction of a step of an alignment."""
+    gold = NOTHING if step.gold is None else name(recorded[step.gold])
+    return gold, NOTHING if step.predicted is None else name(predicted[step.predicted])
+
+
+def _ied(marks: Sequence[Mark]) -> float:
+    """Return the IED of the share of an alignment that belongs to one clause."""
+    predicted, recorded = len(marks) - marks.count(Mark.MISSING), len(marks) - marks.count(Mark.SUPERFLUOUS)
+    wrong = len(marks) - marks.count(Mark.MATCH)
+    return 100.0 * (1 - min(1.0, wrong / max(predicted, recorded, 1)))
 
 
 def belonging(text: str, clauses: Sequence[PredictedClause], segments: Sequence[SegmentRecord]) -> list[int | None]:
@@ -155,7 +153,77 @@ def by_instruction(lines: Iterable[PredictionRecord]) -> Counter[tuple[str, str]
     found: Counter[tuple[str, str]] = Counter()
     for line in lines:
         for step in align(line.predicted, line.gold):
-            gold = NOTHING if step.gold is None else name(line.gold[step.gold])
-            mine = NOTHING if step.predicted is None else name(line.predicted[step.predicted])
-            found[gold, mine] += 1
+            found[_names(step, line.predicted, line.gold)] += 1
     return found
+
+
+# How many of the best, and how many of the worst.
+SHOWN = 10
+# Each mark has a sign, so that nothing hangs on colour.
+SYMBOLS = {Mark.MATCH: "✓", Mark.SUBSTITUTED: "≠", Mark.MISSING: "−", Mark.SUPERFLUOUS: "+"}
+
+
+@dataclass(frozen=True, slots=True)
+class ExampleStep:
+    """Line of an alignment as it is shown.
+
+    Attributes:
+        mark: The kind of the step.
+        symbol: Its sign.
+        predicted: The predicted instruction, empty if one is missing.
+        gold: The recorded instruction, empty if the predicted one is superfluous.
+        clause: The number of the clause it was predicted for, from 1; ``None`` where it is not known.
+        latent: Whether it was left unsaid.
+    """
+
+    mark: Mark
+    symbol: str
+    predicted: str
+    gold: str
+    clause: int | None
+    latent: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ShownPrediction:
+    """Prediction as it is shown, aligned with the recorded instructions; ``longest`` is its largest weighed factor."""
+
+    line: PredictionRecord
+    steps: tuple[ExampleStep, ...]
+    longest: float
+
+
+def best_and_worst(
+    lines: Sequence[PredictionRecord], count: int = SHOWN
+) -> tuple[list[ShownPrediction], list[ShownPrediction]]:
+    """Return the best by success, IED, END and EED, best first; and of the others the worst, worst first.
+
+    What has no goal stands between what reached its goal and what did not.
+    """
+    order = sorted(lines, key=_rank)
+    best, rest = order[:count], order[count:]
+    return [shown(line) for line in best], [shown(line) for line in reversed(rest[-count:])]
+
+
+def _rank(line: PredictionRecord) -> tuple[int, float, float, float, str, str]:
+    success = {True: 0, None: 1, False: 2}[line.success]
+    return success, -line.IED, -line.END, -line.EED, line.environment, str(line.id)
+
+
+def shown(line: PredictionRecord) -> ShownPrediction:
+    """Return a prediction as it is shown."""
+    origins = [
+        (number, latent)
+        for number, clause in enumerate(line.clauses, 1)
+        for steps, latent in ((clause.latent, True), (clause.said, False))
+        for _ in steps
+    ]
+    whole = line.whole
+    steps = []
+    for step in align(line.predicted, line.gold):
+        origin = origins[step.predicted] if whole and step.predicted is not None else (None, False)
+        predicted = "" if step.predicted is None else line.predicted[step.predicted]
+        gold = "" if step.gold is None else line.gold[step.gold]
+        steps.append(ExampleStep(step.mark, SYMBOLS[step.mark], predicted, gold, *origin))
+    longest = max((abs(value) for clause in line.clauses for value in clause.factors.values()), default=0.0)
+    return ShownPrediction(line, tuple(steps), longest)

@@ -1,19 +1,20 @@
-"""``tmd view``: one HTML page of a plan, a run or a demonstration."""
+"""``tmd view`` and ``tmd studio``: plans, runs and demonstrations in the browser."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
 
-from tmd.cli.inputs.options import (
-    GroundingOptions,
+from tmd.cli.options import (
+    PATH,
+    GivenText,
     ReadingOptions,
     grounding_options,
+    learned_option,
     reading_options,
-    said,
     text_options,
 )
 from tmd.cli.output import emit
@@ -22,8 +23,9 @@ from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.view.sources import FoundSubject
+    from tmd.world.corpus import Corpus
 
-_OF_GROUNDING = ("top", "planner", "model_name", "weights", "beam", "trim", "reader", "llm_model", "llm_url", "verify")
+_OF_GROUNDING = ("top", "planner", "model", "weights", "beam", "trim", "reader", "llm_model", "llm_url", "verify")
 
 
 @click.command("view", short_help="Write one HTML page of a plan, a run or a demonstration.")
@@ -31,15 +33,15 @@ _OF_GROUNDING = ("top", "planner", "model_name", "weights", "beam", "trim", "rea
 @click.option(
     "--environment", metavar="FILE|NAME", help="Where: for a text, for a plan file, or instead of what a file names."
 )
-@text_options
-@click.option("--problem", type=click.Path(path_type=Path), metavar="FILE", help="Of a plan file: its PDDL problem.")
+@text_options()
+@click.option("--problem", type=PATH, metavar="FILE", help="Of a plan file: its PDDL problem.")
 @click.option(
     "--domain", "domain_name", metavar="NAME|FILE", help="The domain; otherwise the environment's or problem's own."
 )
 @click.option("--id", "demonstration", metavar="ID", help="Of a file of demonstrations: which one.")
 @click.option(
     "--strip",
-    type=click.Path(path_type=Path),
+    type=PATH,
     metavar="FILE.png",
     help="Of a run: its filmstrip; beside the log if not.",
 )
@@ -47,18 +49,17 @@ _OF_GROUNDING = ("top", "planner", "model_name", "weights", "beam", "trim", "rea
 @grounding_options
 @reading_options
 @click.pass_context
-def command(
+def view(
     ctx: click.Context,
     source: str | None,
     environment: str | None,
-    text: str | None,
-    text_file: str | None,
+    spoken: GivenText,
     problem: Path | None,
     domain_name: str | None,
     demonstration: str | None,
     strip: Path | None,
     out: str | None,
-    options: GroundingOptions,
+    options: dict[str, Any],
     reading: ReadingOptions,
 ) -> ExitCode:
     """Write one HTML page: what was said, what it means here, the plan step by step, and the candidates.
@@ -69,19 +70,17 @@ def command(
     """
     roots: Roots = ctx.obj
     given = [name for name in _OF_GROUNDING if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE]
-    if source is not None and (given or text is not None or text_file is not None):
+    if source is not None and (given or spoken):
         raise click.UsageError("a text, and how it is grounded, are for --environment without PLAN|RUN")
     if source is None and (environment is None or (problem, demonstration, strip) != (None, None, None)):
         raise click.UsageError("give PLAN|RUN, or --environment and --text")
 
     from tmd.files import write_text
-    from tmd.language.parser import short_enough
     from tmd.view.page import render
     from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
     if source is None:
-        spoken = short_enough(said(text, text_file))
-        found = _subject_of_text(roots, spoken, environment or "", domain_name, options, reading)
+        found = _subject_of_text(roots, spoken.request(), environment or "", domain_name, reading, options)
     else:
         found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, demonstration, strip))
     target = out or (STANDARD if source == STANDARD else str(found.beside))
@@ -102,21 +101,20 @@ def _subject_of_text(
     text: str,
     environment: str,
     domain: str | None,
-    options: GroundingOptions,
     reading: ReadingOptions,
+    options: dict[str, Any],
 ) -> FoundSubject:
     """Ground a text now.
 
     Raises:
         TmdError: The environment, or how it is to be grounded, is wrong.
     """
-    from tmd.cli.inputs.grounding import answer
-    from tmd.cli.show.grounding import remarks
+    from tmd.cli.grounding import answer, remarks
     from tmd.view.sources import FoundSubject, made_rows
     from tmd.view.subject import text_subject
 
-    found = answer(roots, text, environment, domain, options, reading)
-    rows = made_rows({**found.made_with, "domain": found.corpus.folder.name, "environment": environment})
+    found = answer(*roots.world(environment, domain), environment, text, reading, **options)
+    rows = made_rows({**found.made_with, "domain": found.domain, "environment": environment})
     told = tuple(remarks(found.grounded))
     return FoundSubject(
         text_subject(found.grounded, rows),
@@ -132,3 +130,57 @@ def _refuse_to_overwrite(target: str, *shown: str | Path | None) -> None:
     for path in shown:
         if path is not None and target != "-" and Path(target).resolve() == Path(path).resolve():
             raise click.UsageError(f"the page would overwrite {path}: give another --out")
+
+
+LOCAL = "127.0.0.1"
+USUAL = "kitchen"
+
+
+@click.command("studio", short_help="Watch plans, correct them and demonstrate, in the browser.")
+@click.option(
+    "--domain", "domain_name", metavar="NAME", help="The domain; that of the environment, or kitchen, by default."
+)
+@click.option("--environment", metavar="FILE|NAME", help="Where visitors come to first; the first one by default.")
+@click.option("--host", default=LOCAL, show_default=True, metavar="ADDRESS", help="Where to listen.")
+@click.option("--port", type=click.IntRange(0, 65535), default=8080, show_default=True, help="0 takes a free one.")
+@learned_option
+@click.pass_obj
+def studio(
+    roots: Roots, domain_name: str | None, environment: str | None, host: str, port: int, learned: Path | None
+) -> ExitCode:
+    """Open a studio: a page with the environment in 3D.
+
+    Type a text and see how it is understood, which plans there are and why the others lost; step through them; point at
+    objects; show how a thing is done, and save it beside the domain's demonstrations. Ctrl-C ends it.
+    """
+    from tmd.studio.server import Server, free_port, need_viser
+    from tmd.studio.studio import open_studio
+
+    need_viser()
+    free_port(host, port)  # before anything that takes time
+    corpus, path = _opened(roots, domain_name, environment)
+    emit(f"Looking at what the demonstrations of {corpus.folder.name} teach …\n", error=True)
+    server = Server(open_studio(corpus, path, learned), host, port)
+    try:
+        emit(f"The studio of {corpus.folder.name} is open: {server.url}\n")
+        emit(f"Demonstrations are saved below {corpus.directory}.\n")
+        if host == LOCAL:
+            forward = f"ssh -L {server.port}:{LOCAL}:{server.port} THIS-MACHINE"
+            emit(f"Only who has this address can see it, from this machine. To share it: {forward}\n", error=True)
+        else:
+            emit(f"Whoever has this address and reaches {host} can see it and save demonstrations.\n", error=True)
+        server.serve()
+    finally:
+        server.close()
+    return ExitCode.OK
+
+
+def _opened(roots: Roots, domain: str | None, environment: str | None) -> tuple[Corpus, Path | None]:
+    """Return the domain: that of the environment, unless one is named; and the environment's file."""
+    from tmd.world.environment import load_environment
+
+    path = roots.environment(environment, domain) if environment else None
+    if path is not None and domain is None:
+        bundled = path.suffix == ".pddl" and path.parent.name == "environments"
+        domain = path.parent.parent.name if bundled else load_environment(path).domain
+    return roots.corpus(roots.folder(domain or USUAL)), path

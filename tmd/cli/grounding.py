@@ -1,12 +1,22 @@
-"""A grounded text as lines for people: clauses, what was skipped, goals, plans."""
+"""Texts grounded with the options of the command line, and the answers as lines for people."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import zip_longest
+from pathlib import Path
+from typing import Any
 
+import click
+
+from tmd import __version__
+from tmd.cli.options import ReadingOptions
+from tmd.diagnostics import ExitCode
+from tmd.domain_kit import DomainKit
 from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded
+from tmd.inference.config import DEFAULT
 from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan
 from tmd.json_record import rounded
@@ -14,9 +24,105 @@ from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier, pri
 from tmd.pddl.model import Problem
 from tmd.pddl.validator import Verdict
 from tmd.pddl.writer import format_formula, format_problem
+from tmd.planning.backends import IN_PROCESS
 from tmd.readers.interface import Question, Usage
+from tmd.records.grounding import GroundingRecord
 from tmd.view.goals import ShownGoal, in_words
-from tmd.view.grounding_record import flat, option_texts
+from tmd.view.grounding_record import flat, grounding_record, option_texts
+from tmd.world.corpus import Corpus
+from tmd.world.world import World
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """A grounded text, with where and how that was done.
+
+    Attributes:
+        grounded: The plans.
+        domain: The name of the domain.
+        environment: The environment as it was given.
+        made_with: What decides the outcome, text and environment excepted.
+    """
+
+    grounded: Grounded
+    domain: str
+    environment: str
+    made_with: dict[str, object]
+
+    @property
+    def code(self) -> ExitCode:
+        """The exit code."""
+        if self.grounded.reason:
+            return ExitCode.NOT_GROUNDED
+        return ExitCode.OK if self.grounded.question is None else ExitCode.QUESTION
+
+    def record(self) -> GroundingRecord:
+        """Return what ``tmd ground --json`` prints."""
+        file = environment_file(self.environment)
+        return grounding_record(self.grounded, domain=self.domain, environment_file=file, made_with=self.made_with)
+
+
+def answer(
+    corpus: Corpus,
+    world: World,
+    environment: str,
+    text: str,
+    reading: ReadingOptions,
+    *,
+    learned: Path | None = None,
+    planner: str | None = None,
+    **options: Any,  # noqa: ANN401 - arguments of DomainKit.ground
+) -> Answer:
+    """Ground a text in an environment; ``environment`` is its name or file, as it was given.
+
+    Raises:
+        TmdError: The model, the planner or the weights are missing or wrong.
+    """
+    grounded = DomainKit(corpus, learned).ground(
+        text,
+        world,
+        planner=planner or IN_PROCESS,
+        reader=reading.reader,
+        llm=reading.settings(),
+        verify=reading.verify,
+        **options,
+    )
+    made_with = {
+        "version": __version__,
+        "model": options.get("model", DEFAULT),
+        "weights": options.get("weights") or grounded.config.weights,
+        "planner": planner or IN_PROCESS,
+        "beam": grounded.config.beam or 0,
+        "trim": grounded.config.trim,
+        "top": options.get("top", 1),
+    }
+    return Answer(grounded, corpus.folder.name, environment, made_with)
+
+
+def environment_file(name: str) -> str | None:
+    """Return the file of an environment as it was given; ``None`` for the name of a bundled one."""
+    path = Path(name)
+    return name if path.suffix or "/" in name or path.is_file() else None
+
+
+def ask_on_terminal(problem: Problem, question: Question) -> int | None:
+    """Ask the user a question on standard error; ``None`` for an empty line, and where standard input ends."""
+    texts = option_texts(question, problem)
+    click.echo(question.text, err=True)
+    for number, text in enumerate(texts, start=1):
+        click.echo(f"  {number}. {text}", err=True)
+    while True:
+        try:
+            given = click.prompt("Number (empty: the first with a plan)", default="", show_default=False, err=True)
+        except click.Abort:
+            click.echo(err=True)
+            return None
+        if not given.strip():
+            return None
+        if given.strip().isdecimal() and 1 <= int(given) <= len(texts):
+            return int(given) - 1
+        click.echo(f"Give a number from 1 to {len(texts)}.", err=True)
+
 
 _MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
 
@@ -63,7 +169,7 @@ def _condition_text(condition: Condition) -> str:
 
 
 def _within(clause: Clause) -> str:
-    """Return a clause of a condition, what else was said within its brackets."""
+    """Return a clause of a condition, with its notes inside the brackets."""
     return "; ".join([print_clause(clause).removesuffix(")"), *_notes(clause)]) + ")"
 
 
@@ -81,11 +187,13 @@ def _flat(text: str) -> str:
     return " ".join(text.split())
 
 
-def goals_text(plan: RankedPlan, clauses: Sequence[Clause], problem: Problem) -> str:
-    """Return the goals of a plan's steps: in words, as PDDL, and where their meaning comes from."""
+def _goals_text(plan: RankedPlan, clauses: Sequence[Clause], problem: Problem) -> str:
+    """Return the goals of a plan's steps in words and as PDDL, and their sources; empty if the model has no goals."""
+    if not plan.goals:
+        return ""
     lines = ["goals"]
     for shown in in_words(plan.goals, problem):
-        lines.append(f"  {shown.goal.clause + 1}. {_of_part(shown, clauses)}{_told(shown)}")
+        lines.append(f"  {shown.goal.clause + 1}. {_of_part(shown, clauses)}{_goal_words(shown)}")
         lines += [f"     {line}" for line in _below(shown)]
     return "\n".join(lines) + "\n"
 
@@ -97,7 +205,7 @@ def _of_part(shown: ShownGoal, clauses: Sequence[Clause]) -> str:
     return "" if shown.goal.text == whole else f'"{shown.goal.text}": '
 
 
-def _told(shown: ShownGoal) -> str:
+def _goal_words(shown: ShownGoal) -> str:
     return f"{shown.told} (already so)" if shown.asked and shown.goal.already else shown.told
 
 
@@ -153,18 +261,11 @@ def grounded_text(grounded: Grounded) -> str:
     parts = [parsed_text(grounded.parsed)]
     told: list[str] = []
     for number, (plan, verdict) in enumerate(zip(grounded.plans, grounded.verdicts, strict=True), start=1):
-        goals = _goals_text(plan, grounded)
+        goals = _goals_text(plan, grounded.parsed.clauses, grounded.world.task.problem)
         parts += [goals] if goals and goals not in told[-1:] else []
         told.append(goals)
         parts.append(_plan_text(number, plan, verdict))
     return "\n".join(parts)
-
-
-def _goals_text(plan: RankedPlan, grounded: Grounded) -> str:
-    """Return the goals of the steps; empty where the model has no goals."""
-    if not plan.goals:
-        return ""
-    return goals_text(plan, grounded.parsed.clauses, grounded.world.task.problem)
 
 
 def _plan_text(number: int, plan: RankedPlan, verdict: Verdict) -> str:

@@ -8,8 +8,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Literal, Self
 
-from tmd.cli.inputs.plan import Orders
-from tmd.cli.output import emit, emit_json
+from tmd.cli.output import emit
+from tmd.cli.plans import Orders
 from tmd.diagnostics import OutputError
 from tmd.json_record import JsonRecord
 from tmd.pddl.model import GroundAtom
@@ -17,7 +17,6 @@ from tmd.records.run import (
     BeginEvent,
     EndEvent,
     PlanEvent,
-    RanStep,
     RunRecord,
     RunRequest,
     StepEvent,
@@ -28,6 +27,7 @@ from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
+from tmd.robot_trials.plan_runner import StepRecorder
 
 _FACTS = 2
 """Maximum number of facts of each kind on a line."""
@@ -35,7 +35,7 @@ _SILENCE = 10.0
 """Seconds of no movement after which the current search is shown."""
 
 
-class Telling:
+class RunReport(StepRecorder):
     """The report of a run as it goes: a line for each instruction, or one JSON value in the end; and the log.
 
     Args:
@@ -48,27 +48,20 @@ class Telling:
         heading: What is done, where and how, in a few words.
     """
 
-    def __init__(
-        self,
-        asked: RunRequest,
-        orders: Sequence[Order],
-        journal: RunLog | None,
-        *,
-        as_json: bool,
-    ) -> None:
+    def __init__(self, asked: RunRequest, orders: Sequence[Order], journal: RunLog | None, *, as_json: bool) -> None:
+        super().__init__()
         self._asked = asked
         self._journal = journal
         self._begun = self._last_told = 0.0
         self._title: Title | None = None
         self._as_json = as_json
-        self._steps: list[RanStep] = []
         self._width = max((len(str(order.instruction)) for order in orders), default=0)
         self._origin = max((len(_origin(order)) for order in orders), default=0)
         how = "under physics" if asked.mode == "physics" else "without physics"
         self.heading = f"{_count(len(orders), 'instruction')} in {asked.environment}, {how}"
 
     def prepare(self, session: SimulationSession) -> tuple[Self]:
-        """Return the run begins in this simulation; see :data:`tmd.robot.run_plan.Prepare`."""
+        """Report the plan when its simulation is ready; see :data:`tmd.robot.run_plan.Prepare`."""
         session.cell.doing = self._looks_for
         self._print(f"plan: {self.heading}\n")
         self._log(PlanEvent(event="plan", **self._asked.given()))
@@ -90,9 +83,8 @@ class Telling:
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """Print and log an instruction that is over."""
-        told = RanStep.of(title, step)
-        self._steps.append(told)
-        self._log(StepEvent(event="step", **told.given()))
+        super().end(title, step)
+        self._log(StepEvent(event="step", **self.steps[-1].given()))
         origin = "repair" if title.order is None else _origin(title.order)
         number = "+" if title.repair else str(title.number)
         self._print(f"  {number:>3}. {step.instruction!s:<{self._width}}  {origin:<{self._origin}}  {_found(step)}\n")
@@ -104,8 +96,8 @@ class Telling:
     def print_ending(self, execution: Execution, steps: int) -> None:
         """Print the outcome, or the whole record, when all files are written."""
         if self._as_json:
-            record = RunRecord.of(self._asked, self._steps, execution, steps)
-            emit_json(record.to_value())
+            record = RunRecord.of(self._asked, self.steps, execution, steps)
+            emit(record.to_value())
         else:
             emit(_ending(execution, steps))
             for left in execution.lasting:
@@ -168,7 +160,7 @@ def _ending(execution: Execution, steps: int) -> str:
 
 
 def _known_by(execution: Execution) -> str:
-    """Return how many effects are measured, inferred and assumed, and which are assumed."""
+    """Return the numbers of measured, inferred and assumed effects, and the assumed ones."""
     effects = [effect for step in execution.steps for effect in step.effects]
     counts = [(basis, sum(effect.basis is basis for effect in effects)) for basis in Basis]
     told = ", ".join(f"{count} {basis}" for basis, count in counts if count)

@@ -1,24 +1,31 @@
-"""Significance: paired tests between rows that were tested on the same examples.
+"""From predictions to the table: means with standard errors by task and on average, the floor, and paired tests.
 
+The tests are between rows that were tested on the same examples.
 Examples with the same text are not independent, whatever the environment: models read the same words. So what is
 drawn, and what is flipped, is a text with all its examples.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations, product
 from math import comb
+from statistics import fmean, stdev
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
+
+from tmd.records.metrics import COLUMNS, SUCCESS, TESTED
 
 Floats: TypeAlias = NDArray[np.float64]
 _Key: TypeAlias = tuple[str, str]
 _Rows: TypeAlias = Mapping[str, Mapping[_Key, Mapping[str, Any]]]
 """The predictions of each row, by example."""
 
+EMPTY = "empty"
+"""The model that predicts nothing. Its row is the floor of each metric."""
 RESAMPLES = 9999
 """How many sign patterns, and how many bootstrap samples, are drawn."""
 LEVEL = 0.95
@@ -29,6 +36,53 @@ _PARTS = ("difference", "low", "high", "p", "p_holm")
 _DIGITS = 4
 _SLACK = 1e-9
 """Sums that differ by less are equal: the order of adding must not decide a tie."""
+
+
+def summarise(predictions: Sequence[dict[str, Any]], models: Sequence[str]) -> dict[str, Any]:
+    """Return the numbers of ``metrics.json``.
+
+    Returns:
+        ``{"models": {NAME: {"n", METRIC, METRIC_se, …, "tasks": {TASK: …}, "average": …}}, "floor", "significance"}``.
+        A model's own numbers are means over examples, ``_se`` their standard errors. ``average`` is the mean of the
+        tasks' means, as the paper's Table II averages; its standard error takes the tasks as given. ``success`` and
+        ``executable`` are percentages. ``goals`` is the number of examples that have a goal; where none has,
+        ``success`` is ``None``. ``floor`` is the row ``empty``, ``None`` if that was not asked for. ``significance`` is
+        what :func:`compare` finds.
+    """
+    table: dict[str, Any] = {}
+    for model in models:
+        own = [p for p in predictions if p["model"] == model]
+        tasks = {t: _means([p for p in own if p["task"] == t]) for t in sorted({p["task"] for p in own})}
+        table[model] = _means(own) | {"tasks": tasks, "average": average(tasks.values())}
+    return {"models": table, "floor": table.get(EMPTY), "significance": compare(predictions, models, TESTED)}
+
+
+def average(tasks: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
+    """Return the mean of the means of tasks; ``n`` is the number of examples, ``goals`` that of goals."""
+    rows = list(tasks)
+    found: dict[str, Any] = {"n": sum(row["n"] for row in rows), "goals": sum(row["goals"] for row in rows)}
+    for column in COLUMNS:
+        told = [row for row in rows if row[column] is not None]
+        spread = math.sqrt(math.fsum(row[f"{column}_se"] ** 2 for row in told)) / max(len(told), 1)
+        found |= _column(column, fmean([row[column] for row in told] or [0.0]), spread, len(told))
+    return found
+
+
+def _means(predictions: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    goals = sum(p.get(SUCCESS) is not None for p in predictions)
+    found: dict[str, Any] = {"n": len(predictions), "goals": goals}
+    for column in COLUMNS:
+        values = [value for p in predictions if (value := score(p, column)) is not None]
+        error = stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0.0
+        found |= _column(column, fmean(values or [0.0]), error, len(values))
+    return found
+
+
+def _column(column: str, mean: float, error: float, count: int) -> dict[str, float | None]:
+    """Return a mean and its standard error; success is ``None`` without goals, for 0 would mean that all failed."""
+    if column == SUCCESS and not count:
+        return {column: None, f"{column}_se": None}
+    return {column: round(mean, _DIGITS), f"{column}_se": round(error, _DIGITS)}
 
 
 def score(prediction: Mapping[str, Any], metric: str) -> float | None:
@@ -127,14 +181,13 @@ def intervals(totals: Floats, sizes: Floats) -> tuple[Floats, Floats]:
 
 
 def holm(values: Sequence[float]) -> list[float]:
-    """Holm's step-down correction: the p values of a family of tests, such that the least may be looked for."""
-    order = sorted(range(len(values)), key=lambda i: values[i])
-    corrected = [1.0] * len(values)
-    most = 0.0
-    for rank, i in enumerate(order):
-        most = max(most, min(1.0, (len(values) - rank) * values[i]))
-        corrected[i] = most
-    return corrected
+    """Return the p values of a family of tests after Holm's step-down correction: the least may be looked for."""
+    count = len(values)
+    order = np.argsort(values, kind="stable")
+    corrected = np.empty(count)
+    scaled = np.minimum(1.0, np.arange(count, 0, -1) * np.array(values)[order])
+    corrected[order] = np.maximum.accumulate(scaled)
+    return [float(value) for value in corrected]
 
 
 def mcnemar(only_a: int, only_b: int) -> float:

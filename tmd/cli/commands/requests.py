@@ -1,15 +1,27 @@
-"""``tmd test``: sentence tests of a domain's author: does each request end in what was asked?"""
+"""``tmd parse``, ``tmd ground`` and ``tmd test``: requests to clauses and to plans, and tests of both."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmd.cli.inputs.options import ReadingOptions, json_option, learned_option, reading_options
-from tmd.cli.output import emit, emit_json
+from tmd.cli.options import (
+    PATH,
+    GivenText,
+    ReadingOptions,
+    environment_domain_option,
+    environment_option,
+    grounding_options,
+    json_option,
+    learned_option,
+    reading_options,
+    text_options,
+)
+from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.inference.config import DEFAULT
 from tmd.world.roots import Roots
@@ -19,11 +31,86 @@ if TYPE_CHECKING:
     from tmd.world.sentence_file import SentenceTest
 
 
+@click.command("parse", short_help="Split a text into verb clauses.")
+@text_options()
+@click.option("--domain", "domain_name", metavar="NAME", help="Use the words of this domain as well.")
+@json_option
+@click.pass_obj
+def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: bool) -> None:
+    """Split a text into verb clauses, and show what no clause accounts for."""
+    from tmd.cli.grounding import parsed_text
+    from tmd.language import parse
+    from tmd.records.clauses import ParsedRecord
+
+    parsed = parse(spoken.read(), roots.lexicon(domain_name) if domain_name else None)
+    emit(ParsedRecord.of(parsed).to_value() if as_json else parsed_text(parsed))
+
+
+@click.command("ground", short_help="Ground a text in an environment: ranked, validated plans.")
+@environment_option("An environment (YAML), a PDDL problem, or the name of a bundled environment.")
+@text_options()
+@environment_domain_option
+@grounding_options
+@reading_options
+@click.option("--ask", is_flag=True, help="Ask on the terminal which of several readings is meant.")
+@click.option("--verbose", is_flag=True, help="Print tokens, seconds, corrections and reasons of the language model.")
+@click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
+@click.option("--goal-only", is_flag=True, help="Print what shall hold at the end as a PDDL problem, and no plan.")
+@json_option
+@click.pass_obj
+def ground(
+    roots: Roots,
+    environment: str,
+    spoken: GivenText,
+    domain_name: str | None,
+    options: dict[str, Any],
+    reading: ReadingOptions,
+    ask: bool,
+    verbose: bool,
+    show_prompt: bool,
+    goal_only: bool,
+    as_json: bool,
+) -> ExitCode:
+    """Ground what was said in an environment.
+
+    What the words mean here is learned from the domain's demonstrations: now, or before by `tmd learn`, which saves
+    the time. Ends with 12 where no plan was found, and with 15 where two readings of the request differ and nobody said
+    which one is meant; the plan is then for the first one that has a plan.
+    """
+    from tmd.cli.grounding import answer, ask_on_terminal, grounded_text, remarks, whole_goal_text
+    from tmd.inference.config import preset
+
+    if goal_only and not preset(options["model"]).goals:
+        raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
+    if ask and spoken.text_file == "-":
+        raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
+    request, settings = spoken.request(), reading.settings()
+    if show_prompt and settings is None:
+        raise click.UsageError("--show-prompt is for --reader llm")
+    corpus, world = roots.world(environment, domain_name)
+    if show_prompt and settings is not None:
+        from tmd.readers.llm.reader import llm_reader
+
+        prompt = llm_reader(corpus, settings).prompt(request, world, world.task.init)
+        emit(f"{prompt.system}\n\n{prompt.user}\n")
+        return ExitCode.OK
+    asking = partial(ask_on_terminal, world.task.problem) if ask else None
+    found = answer(corpus, world, environment, request, reading, ask=asking, **options)
+    if as_json:
+        record = found.record()
+        emit((record.goal_only() if goal_only else record).to_value())
+    else:
+        emit((whole_goal_text if goal_only else grounded_text)(found.grounded))
+    for line in remarks(found.grounded, verbose=verbose):
+        emit(line, error=True)
+    return found.code
+
+
 @click.command("test", short_help="Run sentence tests: does each request end in what was asked?")
 @click.argument("domain", metavar="[DOMAIN]", required=False)
 @click.option(
     "--cases",
-    type=click.Path(path_type=Path),
+    type=PATH,
     multiple=True,
     metavar="FILE",
     help="Sentence tests to run instead of *.sentences.jsonl beside the problems of DOMAIN.",
@@ -36,7 +123,7 @@ if TYPE_CHECKING:
 @learned_option
 @json_option
 @click.pass_obj
-def command(
+def test(
     roots: Roots,
     domain: str | None,
     cases: tuple[Path, ...],
@@ -56,27 +143,22 @@ def command(
     from tmd.evaluation.sentence_tests import compared, report
 
     tests = _tests(roots, domain, cases)
-    options = {
-        "model": model_name, "guess": guess, "reader": reading.reader, "llm": reading.settings(),
-        "verify": reading.verify, "jobs": jobs,
-    }  # fmt: skip
+    options = {"model": model_name, "guess": guess, "jobs": jobs}
     if compare is not None:
+        ways: dict[str, dict[str, Any]] = {
+            "rules": {"reader": "rules", "llm": None, "verify": False},
+            "llm": {"reader": "llm", "llm": reading.model_settings(), "verify": reading.verify},
+        }
         readers = _two_readers(compare)
-        model = {"reader": "llm", "llm": reading.model_settings()}
-        rules = {"reader": "rules", "llm": None, "verify": False}
-        found = [_run(roots, tests, learned, {**options, **(model if r == "llm" else rules)}) for r in readers]
+        found = [_run(roots, tests, learned, {**options, **ways[reader]}) for reader in readers]
         comparison = compared(found[0], found[1], readers)
-        if as_json:
-            emit_json(comparison.to_value())
-        else:
-            emit(_side_by_side(found, readers, comparison.p))
-        return ExitCode.OK if all(r.outcome.passed for results in found for r in results) else ExitCode.TESTS_FAILED
-    results = _run(roots, tests, learned, options)
-    if as_json:
-        emit_json(report(results, reading.reader).to_value())
+        emit(comparison.to_value() if as_json else _side_by_side(found, readers, comparison.p))
     else:
-        emit(_text(results))
-    return ExitCode.OK if all(result.outcome.passed for result in results) else ExitCode.TESTS_FAILED
+        how = {"reader": reading.reader, "llm": reading.settings(), "verify": reading.verify}
+        found = [_run(roots, tests, learned, {**options, **how})]
+        emit(report(found[0], reading.reader).to_value() if as_json else _text(found[0]))
+    passed = all(result.outcome.passed for results in found for result in results)
+    return ExitCode.OK if passed else ExitCode.TESTS_FAILED
 
 
 def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[SentenceTest]:

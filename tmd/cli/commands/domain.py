@@ -1,0 +1,325 @@
+"""``tmd new``, ``learn``, ``check``, ``fmt`` and ``compile``: what the author of a domain does with its files."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmd.cli.errors import fault_of, one_line, pointed
+from tmd.cli.options import PATH, json_option, learned_option, seed_option
+from tmd.cli.output import emit
+from tmd.diagnostics import ExitCode, OutputError, TmdError
+from tmd.world.roots import Roots
+
+if TYPE_CHECKING:
+    from tmd.check.diagnostic import Diagnostic
+    from tmd.check.report import CheckReport
+    from tmd.evaluation.learn import LearnedDomain
+    from tmd.world.corpus import Corpus
+    from tmd.world.scaffold import Scaffold
+
+
+@click.command("new", short_help="Begin a domain of your own: a small one that works.")
+@click.argument("domain", metavar="DOMAIN")
+@click.option(
+    "--from",
+    "start",
+    default="graph",
+    show_default=True,
+    metavar="plain|graph",
+    help="Begin with plain PDDL, or with classes of things that have parts.",
+)
+@json_option
+@click.pass_obj
+def new(roots: Roots, domain: str, start: str, as_json: bool) -> None:
+    """Begin the domain DOMAIN.
+
+    Writes domains/DOMAIN and problems/DOMAIN here (--domains and --problems say where else): a domain with a lexicon,
+    two environments, a problem, three demonstrations and three sentence tests. Nothing is overwritten.
+    """
+    from tmd.world.scaffold import scaffold
+
+    made = scaffold(domain, start, roots.domains or Path("domains"), roots.problems or Path("problems"))
+    files = [path.as_posix() for path in made.files]
+    emit({"domain": domain, "from": start, "files": files} if as_json else _next_steps(domain, start, made))
+
+
+def _next_steps(domain: str, start: str, made: Scaffold) -> str:
+    place = made.environments[-1]
+    said = "Put the red block on the green block." if start == "plain" else "Put the key on the table."
+    problem = next(path for path in made.files if path.suffix == ".pddl" and path.parent == made.problems)
+    compiled = [f"  tmd compile {domain}"] if start == "graph" else []
+    lines = [
+        *(path.as_posix() for path in made.files),
+        "",
+        "try next:",
+        *compiled,
+        f"  tmd check {made.folder.as_posix()} {made.problems.as_posix()}",
+        f"  tmd plan {domain} {problem.as_posix()}",
+        f'  tmd ground --environment {place} --text "{said}"',
+        f"  tmd test {domain}",
+        f"  tmd learn {domain}",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+@click.command("learn", short_help="Learn a domain's library, policy and weights from its demonstrations.")
+@click.argument("domain", metavar="DOMAIN")
+@click.option(
+    "--out",
+    type=PATH,
+    metavar="DIR",
+    help="Save in DIR/DOMAIN, for `tmd ground --learned DIR`; learned/ beside the demonstrations by default.",
+)
+@learned_option
+@click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
+@seed_option()
+@json_option
+@click.pass_obj
+def learn(
+    roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int, as_json: bool
+) -> None:
+    """Learn from the demonstrations of DOMAIN, and save it.
+
+    `tmd ground` uses what was saved for as long as the domain, its environments and demonstrations, and tmd itself, are
+    what it was learned from; otherwise it learns again each time. The weights are used when asked for:
+    `tmd ground --weights learned`.
+    """
+    from tmd.evaluation.learn import learn_domain
+
+    if not no_weights and sys.stderr.isatty():
+        emit("the weights take a while to learn; --no-weights leaves them out\n", error=True)
+    corpus = roots.corpus(roots.folder(domain))
+    report = _learned(corpus, learn_domain(corpus, out or learned, weights=not no_weights, seed=seed))
+    emit(report if as_json else _learned_text(report))
+
+
+def _learned(corpus: Corpus, found: LearnedDomain) -> dict[str, object]:
+    from tmd.json_record import rounded
+
+    library, reward = found.knowledge.library, found.knowledge.reward
+    verbs = sorted(library.verbs(), key=lambda verb: (-len(library.templates(verb)), verb))
+    curve = found.tuned.curve if found.tuned else ()
+    return {
+        "domain": corpus.folder.name,
+        "demonstrations": len(corpus.demonstrations()),
+        "goals": sum(d.goal is not None for d in corpus.demonstrations()),
+        "environments": sorted({d.environment for d in corpus.demonstrations()}),
+        "templates": {verb: len(library.templates(verb)) for verb in verbs},
+        "unaligned": len(library.unaligned),
+        "policy": {"before": rounded(reward.before), "after": rounded(reward.after)} if reward else None,
+        "weights": {"before": rounded(curve[0]["loss"]), "after": rounded(min(p["loss"] for p in curve))}
+        if curve
+        else None,
+        "saved": str(found.directory),
+    }
+
+
+def _learned_text(report: dict[str, object]) -> str:
+    templates, places = report["templates"], report["environments"]
+    assert isinstance(templates, dict)
+    assert isinstance(places, list)
+    width = max(map(len, templates), default=0)
+    lines = [
+        f"{report['domain']}: {report['demonstrations']} demonstrations in {', '.join(places)}",
+        f"{sum(templates.values())} templates",
+        *(f"  {verb:<{width}}  {count:>4}" for verb, count in templates.items()),
+    ]
+    if report["unaligned"]:
+        lines.append(f"{report['unaligned']} pieces of text with instructions, but without a verb, taught nothing")
+    for name, what in (("policy", "mean ln P of what was shown"), ("weights", "mean loss of the plans chosen")):
+        part = report[name]
+        if isinstance(part, dict):
+            lines.append(f"{name}: {what} {part['before']:.4f} before, {part['after']:.4f} after")
+    return "\n".join([*lines, f"saved in {report['saved']}"]) + "\n"
+
+
+@click.command("check", short_help="Find everything that is wrong with domains, problems and their files.")
+@click.argument("paths", metavar="PATH...", nargs=-1)
+@click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
+@click.option("--strict", is_flag=True, help="Treat warnings as errors.")
+@click.option("--notes", is_flag=True, help="Print notes as well.")
+@click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
+@click.option("--explain", metavar="VERB", help="Print all that is known of a verb, in the domains that are named.")
+@json_option
+@click.pass_obj
+def check(
+    roots: Roots,
+    paths: tuple[str, ...],
+    domain: str | None,
+    strict: bool,
+    notes: bool,
+    fix: bool,
+    explain: str | None,
+    as_json: bool,
+) -> ExitCode:
+    """Check files and folders, and tell every problem with its place and what to do.
+
+    PATH is a file, a folder, or the name of a bundled domain. Ends with 0 where there are no errors, 13 otherwise.
+    With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
+    """
+    if explain is not None:
+        if any((domain, strict, notes, fix)):
+            raise click.UsageError("--explain takes domains and --json only")
+        return _explain(roots, explain, paths, as_json)
+    if not paths:
+        raise click.UsageError("Missing argument 'PATH...'.")
+    given = roots.pddl_file(domain) if domain else None
+    chosen = [roots.path(path) for path in paths]
+    from tmd.check.report import check_paths
+
+    report = check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
+    return _print_report(report, strict=strict, notes=notes, as_json=as_json)
+
+
+def _print_report(report: CheckReport, *, strict: bool, notes: bool, as_json: bool) -> ExitCode:
+    """Print what was found; return how the program ends."""
+    from tmd.check.diagnostic import Severity
+
+    shown = [d for d in report.diagnostics if notes or d.severity is not Severity.NOTE]
+    if as_json:
+        emit(_all_json(report))
+    else:
+        emit("".join(map(_text, shown)))
+        emit("".join(f"{file}: fixed\n" for file in report.fixed))
+        emit(_summary(report, notes))
+    count = report.counts
+    faulty = count[Severity.ERROR] or (strict and count[Severity.WARNING])
+    return ExitCode.FAULTS_FOUND if faulty else ExitCode.OK
+
+
+def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> ExitCode:
+    """Print what is known of a verb, in English and in each of the domains."""
+    from tmd.check.explain import explain, explanation_text
+
+    found = explain(verb, [roots.corpus(roots.folder(name)) for name in names])
+    emit(found.to_value() if as_json else explanation_text(found))
+    return ExitCode.OK
+
+
+def _summary(report: CheckReport, shown: bool) -> str:
+    """Return the numbers of files and problems; notes only where there are some."""
+    errors, warnings, notes = report.counts.values()
+    said = f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)"
+    if notes:
+        said += f", {notes} note(s)" + ("" if shown else " (--notes prints them)")
+    return said + "\n"
+
+
+def _all_json(report: CheckReport) -> dict[str, object]:
+    return {
+        "files": len(report.files),
+        **{f"{severity}s": number for severity, number in report.counts.items()},
+        "fixed": [str(file) for file in report.fixed],
+        "diagnostics": [_json(diagnostic) for diagnostic in report.diagnostics],
+    }
+
+
+def _text(diagnostic: Diagnostic) -> str:
+    head = f"{diagnostic.location}: {diagnostic.severity}[{diagnostic.code}]: {one_line(diagnostic.message)}"
+    lines = [head]
+    if diagnostic.source is not None:
+        lines += pointed(diagnostic.source, diagnostic.location.column)
+    if diagnostic.hint:
+        lines.append(f"  hint: {one_line(diagnostic.hint)}")
+    return "\n".join(lines) + "\n"
+
+
+def _json(diagnostic: Diagnostic) -> dict[str, object]:
+    place = diagnostic.location
+    return {
+        "file": place.file,
+        "line": place.line,
+        "column": place.column,
+        "severity": str(diagnostic.severity),
+        "code": diagnostic.code,
+        "message": one_line(diagnostic.message),
+        "hint": one_line(diagnostic.hint) if diagnostic.hint else None,
+    }
+
+
+@click.command("fmt", short_help="Format PDDL and YAML files.")
+@click.argument("paths", metavar="PATH...", nargs=-1, required=True)
+@click.option("--check", "only_check", is_flag=True, help="Write nothing; exit with 13 if a file would be reformatted.")
+@click.pass_obj
+def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
+    """Lay out files, or all PDDL and YAML files of folders; comments and line breaks stay.
+
+    A file with a fault that makes laying it out impossible is left as it is, and told; then this ends with 31.
+    """
+    from tmd.check.checker import files_of
+    from tmd.format.files import SUFFIXES, format_file
+
+    changed = 0
+    failed: list[TmdError] = []
+    files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix in SUFFIXES]
+    for file in files:
+        try:
+            if not format_file(file, write=not only_check):
+                continue
+        except OutputError:
+            raise
+        except TmdError as error:
+            failed.append(error)
+            continue
+        changed += 1
+        emit(f"{file}: {'would be reformatted' if only_check else 'reformatted'}\n")
+    for fault in failed:
+        emit(fault_of(fault).text(), error=True)
+    emit(f"{len(files)} file(s): {changed} {'to change' if only_check else 'changed'}, {len(failed)} failed\n")
+    if failed:
+        return ExitCode.BAD_INPUT
+    return ExitCode.FAULTS_FOUND if only_check and changed else ExitCode.OK
+
+
+@click.command("compile", short_help="Compile object graphs to PDDL.")
+@click.argument("what", metavar="DOMAIN|ENVIRONMENT.yaml")
+@click.option("--check", is_flag=True, help="Write nothing; end with 13 if the domain.pddl there has drifted.")
+@click.option("--output", type=PATH, metavar="FILE", help="Write the PDDL problem to this file.")
+@click.option("--goal", metavar="CONDITION", help='The goal of the PDDL problem, such as "(hot pot1)".')
+@click.pass_obj
+def compile(roots: Roots, what: str, check: bool, output: Path | None, goal: str | None) -> ExitCode:
+    """Compile a domain folder to its domain.pddl, or an environment to a PDDL problem.
+
+    The domain.pddl is written into the folder, the problem to standard output.
+    """
+    if Path(what).suffix not in (".yaml", ".yml"):
+        if output or goal:
+            raise click.UsageError("--output and --goal are for environments")
+        return _domain(roots, what, check)
+    if check:
+        raise click.UsageError("--check is for domains")
+    return _environment(roots, Path(what), output, goal)
+
+
+def _domain(roots: Roots, name: str, check: bool) -> ExitCode:
+    from tmd.world.compile import update_domain
+
+    folder = roots.sources(name)
+    target, changed = folder.path / "domain.pddl", update_domain(folder, write=not check)
+    if check:
+        emit(f"{target} {'has drifted: run `tmd compile`' if changed else 'is up to date'}\n")
+        return ExitCode.FAULTS_FOUND if changed else ExitCode.OK
+    emit(f"{target} {'written' if changed else 'was up to date'}\n")
+    return ExitCode.OK
+
+
+def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None) -> ExitCode:
+    from tmd.files import write_text
+    from tmd.pddl.reading.reader import with_goal
+    from tmd.pddl.writer import format_problem
+    from tmd.world.compile import compile_problem
+    from tmd.world.environment import load_environment
+
+    environment = load_environment(path)
+    problem = compile_problem(environment, roots.folder(environment.domain))
+    text = format_problem(with_goal(problem, goal) if goal else problem)
+    if output:
+        write_text(output, text)
+    else:
+        emit(text)
+    return ExitCode.OK

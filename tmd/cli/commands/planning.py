@@ -1,0 +1,244 @@
+"""``tmd plan``, ``tmd validate`` and ``tmd export``: PDDL problems and plans, for planners and other tools."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmd.cli.errors import one_line
+from tmd.cli.options import (
+    PATH,
+    GivenText,
+    json_option,
+    limit_options,
+    overwrite_option,
+    reading_options,
+    text_options,
+)
+from tmd.cli.output import emit
+from tmd.diagnostics import ExitCode
+from tmd.world.roots import Roots
+
+if TYPE_CHECKING:
+    from tmd.pddl.model import Problem
+
+
+@click.command("plan", short_help="Find a plan for a PDDL problem.")
+@click.argument("domain")
+@click.argument("problem", type=PATH)
+@click.option("--planner", metavar="NAME", help="auto (default), kairos, fast-downward, in-process or up:ENGINE.")
+@click.option(
+    "--optimal/--satisficing", default=False, help="Only a plan that is proven to be optimal, or any (the default)."
+)
+@limit_options
+@click.option("--output", type=PATH, metavar="FILE", help="Write the plan to this file.")
+@json_option
+@click.pass_obj
+def plan(
+    roots: Roots,
+    /,
+    domain: str,
+    problem: Path,
+    planner: str | None,
+    optimal: bool,
+    output: Path | None,
+    as_json: bool,
+    **limits: Any,  # noqa: ANN401 - arguments of solve
+) -> ExitCode:
+    """Find a plan for PROBLEM, one (action argument ...) a line.
+
+    DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. A comment says whether the plan is optimal
+    or just found. Ends with 0 for a plan, 10 where it is proven that there is none, 20 where the planner gave up at
+    its limit, and 35 where it failed.
+    """
+    from tmd.cli.plans import answer_json, exit_code, plan_text, why_none
+    from tmd.pddl.reading.reader import read_problem
+    from tmd.planning.backends import AUTO, solve
+    from tmd.planning.result import Solved
+
+    name = planner or AUTO
+    wanted = read_problem(problem, roots.domain(domain))
+    answer = solve(wanted, name, optimal=optimal, **limits)
+    if isinstance(answer, Solved) and output:
+        from tmd.files import write_text
+
+        write_text(output, plan_text(answer, wanted.domain))
+    if as_json:
+        emit(answer_json(answer, name))
+    elif isinstance(answer, Solved) and not output:
+        emit(plan_text(answer, wanted.domain))
+    if not isinstance(answer, Solved):
+        emit(f"no plan: {why_none(answer)}\n", error=True)
+    return exit_code(answer)
+
+
+@click.command("validate", short_help="Tell whether a plan works, and where it breaks.")
+@click.argument("domain")
+@click.argument("problem", metavar="PROBLEM|ENVIRONMENT")
+@click.argument("plan", type=PATH)
+@json_option
+@click.pass_obj
+def validate(roots: Roots, domain: str, problem: str, plan: Path, as_json: bool) -> ExitCode:
+    """Execute PLAN in PROBLEM and name the first precondition that does not hold.
+
+    DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. An environment is a YAML file or the name of
+    a bundled one, and of its plans only that they can be executed is asked. PLAN has one (action argument ...) a line;
+    plans with times are read as well, as VAL, POPF and PlanSys2 have them. Ends with 0 for a plan that works and 11
+    for one that does not.
+    """
+    from tmd.export.strips import restored
+    from tmd.pddl.plan_file import read_plan
+    from tmd.pddl.validator import validate
+
+    world = _read(roots, domain, problem)
+    told = read_plan(plan)
+    if told.overlap:
+        emit(f"warning: {told.overlap}: instructions overlap in time; they are taken one after the other\n", error=True)
+    verdict = validate(world, restored(world, told.instructions))
+    place = told.locations[verdict.step - 1] if verdict.step else None
+    if as_json:
+        emit(
+            {
+                "valid": verdict.valid,
+                "status": str(verdict.status),
+                "step": verdict.step,
+                "line": place.line if place else None,
+                "instruction": verdict.instruction.pddl() if verdict.instruction else None,
+                "broken": verdict.broken.text if verdict.broken else None,
+                "reason": verdict.reason or None,
+                "cost": verdict.cost,
+            }
+        )
+    elif verdict.valid:
+        emit(f"valid: {len(told.instructions)} instructions, cost {verdict.cost}\n")
+    else:
+        emit(f"invalid: {f'{place}: ' if place else ''}{verdict.reason}\n")
+    return ExitCode.OK if verdict.valid else ExitCode.INVALID_PLAN
+
+
+def _read(roots: Roots, domain: str, name: str) -> Problem:
+    """Return the problem in a PDDL file, or that of an environment, which has no goal.
+
+    Raises:
+        TmdError: It is missing or wrong.
+    """
+    from tmd.pddl.reading.reader import read_problem
+
+    path = Path(name)
+    if path.suffix not in (".yaml", ".yml") and (path.is_file() or path.suffix or len(path.parts) > 1):
+        return read_problem(path, roots.domain(domain))
+    from tmd.pddl.model import TRUE
+    from tmd.world.compile import compile_problem
+    from tmd.world.environment import load_environment
+
+    folder = roots.folder(str(Path(domain).absolute().parent) if domain.endswith(".pddl") else domain)
+    found = roots.environment(name, folder.name)
+    if found.suffix == ".pddl":
+        return replace(read_problem(found, folder.domain), goal=TRUE)
+    return compile_problem(load_environment(found), folder)
+
+
+_ALL = "all"
+
+
+@click.command("export", short_help="Write a problem and its plan for other tools.")
+@click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json|RUN")
+@click.argument("directory", type=PATH, metavar="DIR")
+@click.option(
+    "--format",
+    "formats",
+    multiple=True,
+    metavar="A,B|all",
+    help="adl (default), ipc, strips, durative, anml, protobuf, plansys2, bt, sas, json.",
+)
+@click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
+@click.option("--plan", type=PATH, metavar="FILE", help="Take this plan; otherwise one is found.")
+@click.option("--planner", metavar="NAME", help="As for tmd plan, or for tmd ground where there is a text.")
+@limit_options
+@text_options(", for an environment (YAML or PDDL)")
+@reading_options
+@click.option(
+    "--goal",
+    metavar="CONDITION|asked|changed",
+    help="Another goal; of a text what it asks for (the default), or all that its plan changes.",
+)
+@click.option("--example", metavar="ID", help="Of a run: which example.")
+@click.option("--model", metavar="NAME", help="Of a run: whose prediction.")
+@overwrite_option
+@json_option
+@click.pass_obj
+def export(
+    roots: Roots,
+    /,
+    source: str,
+    directory: Path,
+    formats: Sequence[str],
+    spoken: GivenText,
+    overwrite: bool,
+    as_json: bool,
+    **options: Any,  # noqa: ANN401 - fields of ExportRequest
+) -> ExitCode:
+    """Write a problem and a plan for it into DIR.
+
+    The source is a PDDL problem, an environment (with a text, a plan or a goal), a plan of "tmd ground --json", or the
+    directory of an experiment. A plan is executed before it is written: ends with 11 where it does not work, with 10,
+    12 or 20 where none is found. One format fills DIR, several a directory each. A format that fails does not keep the
+    others back: why is told, and the exit code is that of the first failure.
+    """
+    from tmd.cli.export_source import ExportRequest, NotPlannedError, planned_source
+    from tmd.export.directory import check_directory, write_directory
+    from tmd.export.formats import chosen_files
+
+    names = _chosen(formats)
+    check_directory(directory, overwrite=overwrite)
+    request = ExportRequest(source, text=spoken.request() if spoken else None, **options)
+    try:
+        found = planned_source(roots, request)
+    except NotPlannedError as none:
+        emit(f"{'invalid' if none.code is ExitCode.INVALID_PLAN else 'no plan'}: {none}\n", error=True)
+        if as_json:
+            emit(_summary(directory, {}, None, str(none), {}))
+        return none.code
+    written = chosen_files(found, names)
+    failures = written.failures
+    if not written.files:
+        raise next(iter(failures.values()))
+    flat = {path: data for files in written.files.values() for path, data in files.items()}
+    write_directory(directory, flat, overwrite=overwrite)
+    if as_json:
+        listed = {name: list(files) for name, files in written.files.items()}
+        emit(_summary(directory, listed, found.cost, None, {name: str(error) for name, error in failures.items()}))
+    else:
+        emit("".join(f"{directory / path}\n" for path in flat))
+    for name, error in failures.items():
+        emit(f"not written: {name}: {one_line(str(error))}\n", error=True)
+    return next((error.exit_code for error in failures.values()), ExitCode.OK)
+
+
+def _summary(
+    directory: Path, written: Mapping[str, list[str]], cost: int | None, reason: str | None, failed: Mapping[str, str]
+) -> Mapping[str, object]:
+    return {"directory": str(directory), "written": written, "cost": cost, "reason": reason, "failed": failed}
+
+
+def _chosen(given: Sequence[str]) -> list[str]:
+    """Return the names of the formats that were asked for, each once.
+
+    Raises:
+        click.UsageError: There is no such format.
+    """
+    from tmd.export.formats import DEFAULT, FORMATS
+    from tmd.pddl.reading.syntax import nearest
+
+    names = [name.strip() for text in given or (DEFAULT,) for name in text.split(",")]
+    if names == [_ALL]:
+        return list(FORMATS)
+    for name in names:
+        if name not in FORMATS:
+            hint = nearest(name, list(FORMATS)) or f"there are {', '.join(FORMATS)}, all"
+            raise click.UsageError(f"there is no format '{name}': {hint}")
+    return list(dict.fromkeys(names))

@@ -1,0 +1,277 @@
+"""``tmd run`` and ``tmd scene``: a simulated PR2 in an environment, to carry out a plan, or to be looked at."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from tmd.cli.options import (
+    PATH,
+    GivenText,
+    ReadingOptions,
+    environment_domain_option,
+    environment_option,
+    json_option,
+    learned_option,
+    overwrite_option,
+    reading_options,
+    robot_options,
+    seed_option,
+    text_options,
+)
+from tmd.cli.output import emit
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.world.roots import Roots
+
+if TYPE_CHECKING:
+    from tmd.robot.skills.reachability_report import ReachabilityEntry, Stance
+    from tmd.world.environment import Environment
+    from tmd.world.folder import DomainFolder
+
+
+class _File(click.Path):
+    """A file to be written, of a kind that its suffix tells."""
+
+    def __init__(self, *suffixes: str) -> None:
+        super().__init__(path_type=Path)
+        self._suffixes = suffixes
+
+    def convert(self, value: str | os.PathLike[str], param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        path = Path(value)
+        if path.suffix not in self._suffixes:
+            self.fail(f"'{path}' does not end in {' or '.join(self._suffixes)}", param, ctx)
+        return path
+
+
+def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """Return width and height in pixels, which must be even for films."""
+    if value is None:
+        return None
+    width, _, height = value.partition("x")
+    if not (width.isdigit() and height.isdigit()):
+        raise click.BadParameter(f"'{value}' is not WxH, as in 960x720", ctx, param)
+    found = int(width), int(height)
+    if any(pixels % 2 or not 80 <= pixels <= 4096 for pixels in found):
+        raise click.BadParameter(f"'{value}': width and height must be even numbers from 80 to 4096", ctx, param)
+    return found
+
+
+@click.command("run", short_help="Let a simulated PR2 carry out what was said, and check every step.")
+@environment_option("An environment (YAML), or the name of a bundled one.")
+@text_options()
+@click.option("--plan", "plan_file", type=PATH, metavar="FILE", help="Carry out this plan, not a text.")
+@click.option("--goal", metavar="CONDITION", help="Find a plan for this PDDL condition, such as (on a b).")
+@environment_domain_option
+@learned_option
+@reading_options
+@click.option("--planner", metavar="NAME", help="Planner for gaps and replanning; in-process by default.")
+@click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="Maximum number of replannings.")
+@click.option("--kinematic", is_flag=True, help="Kinematic mode: no physics; faster, less realistic.")
+@seed_option()
+@robot_options
+@click.option("--gui", is_flag=True, help="Show the run in a window.")
+@click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
+@click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
+@click.option(
+    "--size", callback=_size, metavar="WxH", help="Pixels of the pictures of film and strip; 640x480 and 400x300."
+)
+@click.option("--log", type=PATH, metavar="FILE", help="Write every step to a JSON Lines file.")
+@click.option(
+    "--trajectory",
+    type=_File(".jsonl", ".mcap"),
+    metavar="FILE",
+    help="Record joints, base and things: out.jsonl or out.mcap (ROS 2).",
+)
+@click.option(
+    "--rate",
+    type=click.FloatRange(0.1, 240.0),
+    metavar="HZ",
+    help="Samples a second of simulated time; 10 by default.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Print the whole record as JSON.")
+@click.pass_obj
+def run(
+    roots: Roots,
+    /,
+    environment: str,
+    spoken: GivenText,
+    plan_file: Path | None,
+    goal: str | None,
+    domain_name: str | None,
+    learned: Path | None,
+    reading: ReadingOptions,
+    planner: str | None,
+    model: dict[str, Any],
+    log: Path | None,
+    as_json: bool,
+    **settings: Any,  # noqa: ANN401 - fields of PlanRunner
+) -> ExitCode:
+    """Carry out what was said, in simulation.
+
+    A text is grounded as by "tmd ground", a goal is planned for as by "tmd plan". A PR2 does one instruction after the
+    other; after each, the state is read back from the simulation and compared with what PDDL predicts. Where the two
+    differ, the executor replans.
+
+    Ends with 12 where a text gives no plan, with 10 where it is proven that no plan reaches the goal, and with 14
+    where the robot stopped before everything was done.
+    """
+    if sum(given is not None for given in (spoken.text, spoken.text_file, plan_file, goal)) != 1:
+        raise click.UsageError("give one of --text, --text-file, --plan and --goal")
+    if settings["rate"] is not None and settings["trajectory"] is None:
+        raise click.UsageError("--rate is for --trajectory")
+
+    from tmd.cli.grounding import answer, environment_file
+    from tmd.cli.plans import orders_of_file, orders_of_goal, orders_of_text
+    from tmd.cli.run_report import RunLog, RunReport, without_plan
+    from tmd.files import check_writable
+    from tmd.planning.backends import IN_PROCESS
+    from tmd.robot.skills.results import SkillStatus
+    from tmd.robot_trials.plan_runner import PlanRunner
+
+    request = spoken.request() if spoken else None
+    path = roots.environment(environment, domain_name)
+    if path.suffix == ".xml":
+        raise TmdError(
+            f"{path}: the robot does not act in rooms of VEIL-500: their instructions have no skills",
+            hint="tmd scene shows the room",
+        )
+    room, folder = roots.room(environment, domain_name)
+    if log is not None:
+        check_writable(log)
+    corpus, world = roots.world(environment, domain_name)
+    problem = world.task.problem
+    runner = PlanRunner(room, folder, problem, planner=planner or IN_PROCESS, **model, **settings)
+    with ExitStack() as stack:
+        stack.enter_context(runner)  # before what takes long: whether films can be made is known at once
+        if plan_file is not None:
+            orders = orders_of_file(plan_file, problem)
+        elif goal is not None:
+            orders = orders_of_goal(goal, problem, planner)
+        else:
+            text = request or ""
+            found = answer(corpus, world, environment, text, reading, learned=learned, planner=planner)
+            orders = orders_of_text(found)
+        for line in orders.remarks:
+            emit(line, error=True)
+        file, goal_given = environment_file(environment), {} if goal is None else {"goal": goal}
+        asked = runner.request(orders.orders, request, environment_file=file, grounding=orders.grounding, **goal_given)
+        if orders.status:
+            if as_json:
+                emit(without_plan(asked, orders))
+            return orders.code
+        journal = stack.enter_context(RunLog(log)) if log else None
+        report = RunReport(asked, orders.orders, journal, as_json=as_json)
+        ran = runner.run(orders.orders, report.prepare, report.heading, request or "")
+        report.log_ending(ran.execution, ran.sim_steps)
+    report.print_ending(ran.execution, ran.sim_steps)
+    return ExitCode.NOT_EXECUTED if ran.execution.status is SkillStatus.STOPPED else ExitCode.OK
+
+
+@click.command("scene", short_help="Show an environment as the robot's room.")
+@environment_option("An environment (YAML), the name of a bundled one, or a room of VEIL-500 (XML).")
+@environment_domain_option
+@click.option("--reach", is_flag=True, help="Print a base pose for grasping every object.")
+@seed_option("Seed for placement jitter; 0 disables it.")
+@robot_options
+@click.option("--picture", type=PATH, metavar="FILE", help="A picture of the room: out.png.")
+@click.option("--export", type=PATH, metavar="DIR", help="Write the room for other simulators.")
+@click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), mjcf.")
+@overwrite_option
+@json_option
+@click.pass_obj
+def scene(
+    roots: Roots,
+    environment: str,
+    domain_name: str | None,
+    reach: bool,
+    seed: int,
+    model: dict[str, Any],
+    picture: Path | None,
+    export: Path | None,
+    formats: Sequence[str],
+    overwrite: bool,
+    as_json: bool,
+) -> None:
+    """Build the room of an environment, put a PR2 into it, and say what stands where.
+
+    With --export the room is written as URDF or MJCF, its meshes beside it, without the robot.
+    """
+    if export is None and (formats or overwrite):
+        raise click.UsageError("--format and --overwrite are for --export")
+    if picture is not None and picture.suffix != ".png":
+        raise click.UsageError(f"--picture: '{picture}' does not end in .png")
+
+    from tmd.robot.pr2.urdf import packaged_robot
+    from tmd.robot.skills.reachability_report import survey_scene
+
+    urdf = model["urdf"] if model["robot"] is None else packaged_robot(model["robot"])
+    room, folder, remarks = _read(roots, environment, domain_name)
+    for remark in remarks:
+        emit(f"note: {remark}\n", error=True)
+    found = survey_scene(room, folder, reach=reach, seed=seed, urdf=urdf, picture=picture)
+    stances = found.stances if reach else None
+    written = _exported(room, folder, export, formats, overwrite) if export is not None else []
+    if as_json:
+        emit({"environment": found.name, "objects": [_json(entry, stances) for entry in found.entries]})
+    else:
+        emit(_text(found.name, found.entries, stances))
+        emit("".join(f"{path}\n" for path in written))
+
+
+def _exported(
+    room: Environment, folder: DomainFolder, directory: Path, formats: Sequence[str], overwrite: bool
+) -> list[Path]:
+    """Write the files of a scene, and return their paths without those of the meshes."""
+    from tmd.export.directory import check_directory, write_directory
+    from tmd.export.scene_files import FORMATS, scene_files
+
+    check_directory(directory, overwrite=overwrite)
+    names = tuple(dict.fromkeys(name.strip() for text in formats or FORMATS[:1] for name in text.split(",")))
+    files = scene_files(room, folder, FORMATS if names == ("all",) else names)
+    write_directory(directory, files, overwrite=overwrite)
+    return [directory / path for path in files if "/" not in path]
+
+
+def _read(roots: Roots, name: str, domain: str | None) -> tuple[Environment, DomainFolder, tuple[str, ...]]:
+    path = roots.environment(name, domain)
+    if path.suffix == ".xml":
+        from tmd.datasets.veil500.scene import read_room, scene_of
+
+        veil = scene_of(read_room(path))
+        return veil.environment, veil.folder, veil.remarks
+    return *roots.room(name, domain), ()
+
+
+def _text(name: str, entries: Sequence[ReachabilityEntry], stances: Mapping[str, Stance | None] | None) -> str:
+    items = sum(entry.item for entry in entries)
+    lines = [f"{name}: {len(entries) - items} pieces of furniture, {items} things to carry"]
+    width = max((len(entry.name) for entry in entries), default=0)
+    wide = max((len(entry.kind) for entry in entries), default=0)
+    for entry in entries:
+        place = f"{entry.place[1]} {entry.place[0]}" if entry.place else ""
+        x, y, z = entry.position
+        line = f"  {entry.name:<{width}}  {entry.kind:<{wide}}  at {x:5.2f} {y:5.2f} {z:5.2f}  {place}"
+        if stances is not None:
+            found = stances[entry.name]
+            line += f"{', ' if place else ''}{found or 'out of reach as it stands now'}"
+        lines.append(line.rstrip())
+    return "\n".join(lines) + "\n"
+
+
+def _json(entry: ReachabilityEntry, stances: Mapping[str, Stance | None] | None) -> dict[str, object]:
+    found: dict[str, object] = {
+        "name": entry.name,
+        "kind": entry.kind,
+        "item": entry.item,
+        "position": [round(value, 3) for value in entry.position],
+        "at": {"thing": entry.place[0], "relation": entry.place[1]} if entry.place else None,
+    }
+    if stances is not None:
+        where = stances[entry.name]
+        found["stance"] = where and {"base": [round(value, 3) for value in where.base], "hand": where.side or None}
+    return found

@@ -1,0 +1,292 @@
+"""The options that several commands share."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from functools import wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from tmd.diagnostics import TmdError
+from tmd.inference.config import DEFAULT, PRESETS
+
+if TYPE_CHECKING:
+    from tmd.readers.llm.client import CacheMode, ModelSettings
+
+VARIABLE = "TMD_LEARNED"
+# Longer texts are files that were given by mistake.
+MAX_CHARACTERS = 1_000_000
+# Larger numbers of states and instructions are typing errors.
+_MOST = 1_000_000
+_MEGABYTE = 1 << 20
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+_Decorator = Callable[[Any], Any]
+
+PATH = click.Path(path_type=Path)
+
+
+def _together(*options: _Decorator) -> Callable[[_Command], _Command]:
+    """Return a decorator that adds options, in their order."""
+
+    def decorate(command: _Command) -> _Command:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return decorate
+
+
+def _gathered(name: str, kind: Callable[..., object], *options: _Decorator) -> Callable[[_Command], Callable[..., Any]]:
+    """Return a decorator that adds options, which the command gets as one argument ``name``, made by ``kind``."""
+
+    def decorate(command: _Command) -> Callable[..., Any]:
+        @wraps(command)
+        def gathering(*args: Any, **given: Any) -> Any:  # noqa: ANN401 - what the command takes and gives
+            made = kind(**{option: given.pop(option) for option in names})
+            if isinstance(made, ReadingOptions):
+                made.check(compare=bool(given.get("compare")))
+            return command(*args, **{name: made}, **given)
+
+        others = len(getattr(gathering, "__click_params__", ()))
+        _together(*options)(gathering)
+        names = [parameter.name for parameter in vars(gathering)["__click_params__"][others:]]
+        return gathering
+
+    return decorate
+
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+overwrite_option = click.option(
+    "--overwrite", is_flag=True, help="DIR may hold files; those of the same names are replaced."
+)
+
+
+def environment_option(about: str) -> _Decorator:
+    """Return the required option ``--environment``; ``about`` is its help."""
+    return click.option("--environment", required=True, metavar="FILE|NAME", help=about)
+
+
+def seed_option(about: str = "Random seed.") -> _Decorator:
+    """Return the option ``--seed``."""
+    return click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help=about)
+
+
+environment_domain_option = click.option(
+    "--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default."
+)
+learned_option = click.option(
+    "--learned",
+    type=PATH,
+    metavar="DIR",
+    envvar=VARIABLE,
+    help=f"What `tmd learn --out DIR` saved; ${VARIABLE}, or else learned/ beside the demonstrations, by default.",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class GivenText:
+    """The options ``--text`` and ``--text-file``."""
+
+    text: str | None
+    text_file: str | None
+
+    def __bool__(self) -> bool:
+        return self.text is not None or self.text_file is not None
+
+    def read(self) -> str:
+        """Return the text.
+
+        Raises:
+            click.UsageError: Both options are given, or none.
+            TmdError: There is no text, it is too long, or it is not UTF-8.
+        """
+        from tmd.pddl.reading.syntax import read_standard_input, read_text
+
+        text, file = self.text, self.text_file
+        if (text is None) == (file is None):
+            raise click.UsageError("give one of --text and --text-file")
+        place = "--text" if file is None else "standard input" if file == "-" else file
+        if file is not None:
+            text = read_standard_input() if file == "-" else read_text(Path(file))
+        found = text or ""
+        if not found.strip():
+            raise TmdError(f"{place}: the text is empty", hint='say what is to be done: --text "boil some water"')
+        if len(found) > MAX_CHARACTERS:
+            message = f"{place}: the text has {len(found):,} characters, more than {MAX_CHARACTERS:,}"
+            raise TmdError(message, hint="split it")
+        try:
+            found.encode("utf-8")
+        except UnicodeEncodeError as error:
+            raise TmdError(f"{place}: character {error.start + 1} is not UTF-8", hint="send UTF-8") from error
+        return found
+
+    def request(self) -> str:
+        """Return the text, which must be short enough to be grounded.
+
+        Raises:
+            click.UsageError: As :meth:`read`.
+            TmdError: As :meth:`read`, or the text has too many words.
+        """
+        from tmd.language.parser import short_enough
+
+        return short_enough(self.read())
+
+
+def text_options(about: str = "") -> Callable[[_Command], Callable[..., Any]]:
+    """Return a decorator that adds ``--text``, with more ``about`` it, and ``--text-file``, gathered as ``spoken``."""
+    return _gathered(
+        "spoken",
+        GivenText,
+        click.option("--text", metavar="TEXT", help=f"What was said{about}."),
+        click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input."),
+    )
+
+
+class _Memory(click.IntRange):
+    """Megabytes, given to the command in bytes."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:  # noqa: ANN401
+        return int(super().convert(value, param, ctx)) * _MEGABYTE
+
+
+class _Seconds(click.FloatRange):
+    """A time that can pass: not nan, which is below no limit."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401
+        found = float(super().convert(value, param, ctx))
+        return found if found == found else self.fail(f"'{value}' is no time.", param, ctx)
+
+
+limit_options = _together(
+    click.option(
+        "--time-limit",
+        "seconds",
+        type=_Seconds(min=0, min_open=True),
+        metavar="SECONDS",
+        help="Stop the planner after this time; 300 by default.",
+    ),
+    click.option(
+        "--memory-limit",
+        "memory",
+        type=_Memory(min=100, max=1 << 40),
+        metavar="MB",
+        help="What the planner may take; 80 % of the machine's memory by default.",
+    ),
+)
+"""``--time-limit`` and ``--memory-limit``; the command gets them as ``seconds`` and ``memory``, in bytes."""
+
+
+def _one_robot(robot: str | None, urdf: Path | None) -> dict[str, Any]:
+    if robot is not None and urdf is not None:
+        raise click.UsageError("give one of --robot and --urdf")
+    return {"robot": robot, "urdf": urdf}
+
+
+robot_options = _gathered(
+    "model",
+    _one_robot,
+    click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro."),
+    click.option("--urdf", type=PATH, metavar="FILE", help="Another PR2 or TIAGo Pro than the packaged."),
+)
+"""``--robot`` and ``--urdf``, of which at most one may be given, gathered as ``model``."""
+
+
+@dataclass(frozen=True, slots=True)
+class ReadingOptions:
+    """The options that say how requests are read; the fields are the options."""
+
+    reader: str = "rules"
+    llm_model: str | None = None
+    llm_url: str | None = None
+    llm_cache: CacheMode = "on"
+    llm_timeout: float = 600.0
+    verify: bool = False
+
+    def settings(self) -> ModelSettings | None:
+        """Return how the language model is reached; ``None`` where none is asked."""
+        return self.model_settings() if self.reader == "llm" else None
+
+    def model_settings(self) -> ModelSettings:
+        """Return how the language model is reached, for any reader."""
+        from tmd.readers.llm.client import ModelSettings
+
+        return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache, timeout=self.llm_timeout)
+
+    def check(self, *, compare: bool = False) -> None:
+        """Refuse options of a language model where none is asked, and settings with which none can be.
+
+        Args:
+            compare: Whether a language model is asked even if the reader is another.
+
+        Raises:
+            click.UsageError: There are options for a language model without ``--reader llm``.
+            ModelError: There is no model, or no key for a server that needs one.
+        """
+        given = [f.name for f in fields(self) if f.name != "reader" and getattr(self, f.name) != f.default]
+        if compare or self.reader == "llm":
+            self.model_settings().resolved()
+        elif given:
+            raise click.UsageError(f"--{given[0].replace('_', '-')} is for --reader llm")
+
+
+reading_options = _gathered(
+    "reading",
+    ReadingOptions,
+    click.option(
+        "--reader",
+        type=click.Choice(["rules", "llm"]),
+        default="rules",
+        show_default=True,
+        help="Read requests by grammar and lexicon, or with a language model.",
+    ),
+    click.option("--llm-model", metavar="NAME", help="The language model; $OPENAI_MODEL by default."),
+    click.option("--llm-url", metavar="URL", help="Its server; $OPENAI_BASE_URL, or else OpenAI's, by default."),
+    click.option(
+        "--llm-cache",
+        type=click.Choice(["on", "off", "only"]),
+        default="on",
+        show_default=True,
+        help="Use replies that were kept; 'only' never asks the server.",
+    ),
+    click.option(
+        "--llm-timeout",
+        type=click.FloatRange(0.1, 86_400),
+        default=600.0,
+        show_default=True,
+        metavar="SECONDS",
+        help="How long to wait for a reply.",
+    ),
+    click.option("--verify", is_flag=True, help="Ask the language model whether the plan does what was asked."),
+)
+"""The options that say how a request is read, gathered as ``reading``."""
+
+grounding_options = _gathered(
+    "options",
+    dict,
+    click.option("--top", type=click.IntRange(1, 100), default=1, show_default=True, help="How many plans to show."),
+    click.option("--planner", metavar="NAME", help="in-process (default), fast-downward or up:ENGINE."),
+    click.option(
+        "--model",
+        default=DEFAULT,
+        show_default=True,
+        metavar="NAME",
+        help=f"What is minimised: {', '.join(PRESETS)}; the last is the paper's as printed.",
+    ),
+    click.option("--guess", is_flag=True, help="Plan even where what was said is not understood or cannot be done."),
+    click.option("--weights", metavar="NAME|FILE", help="The factors' weights; the model's own by default."),
+    learned_option,
+    click.option(
+        "--beam",
+        type=click.IntRange(0, _MOST),
+        help=f"How many states to follow from clause to clause, {PRESETS[DEFAULT].beam} by default; 0 follows all.",
+    ),
+    click.option(
+        "--trim",
+        type=click.IntRange(0, _MOST),
+        help="How many leading instructions of a template may be dropped; any by default.",
+    ),
+)
+"""The options of ``tmd ground`` that say how, gathered as ``options``: arguments of ``answer``."""

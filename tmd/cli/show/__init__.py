@@ -1,1 +1,0 @@
-"""The results of commands as lines for people: clauses, goals, plans, runs and warnings."""

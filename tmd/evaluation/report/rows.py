@@ -1,0 +1,174 @@
+"""The rows of the table: their names and order, the paper's numbers, the reference row, and the results in sentences.
+
+The paper's numbers (Table II, RSS 2014) were measured on VEIL-200, which was not released: they show what kind of
+number each row gave there, and compare with no other data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from tmd.evaluation.summary import EMPTY
+from tmd.records.metrics import SUCCESS, TESTED, Metrics, Pair
+
+# The tasks of Table II, in its order.
+TASKS = ("coffee", "boiling_water", "ramen", "affogato")
+# The metrics of Table II, normalised to 100, larger is better.
+METRICS = ("IED", "EED")
+
+
+@dataclass(frozen=True, slots=True)
+class PaperRow:
+    """A row of Table II.
+
+    Attributes:
+        title: What the paper calls it.
+        scores: IED and EED for each of :data:`TASKS`.
+        average: IED and EED, as printed under *Average*.
+    """
+
+    title: str
+    scores: tuple[tuple[float, float], ...]
+    average: tuple[float, float]
+
+    def of(self, task: str) -> tuple[float, float]:
+        """Return IED and EED of one of :data:`TASKS`."""
+        return self.scores[TASKS.index(task)]
+
+
+def _row(title: str, *numbers: float) -> PaperRow:
+    pairs = tuple(zip(numbers[::2], numbers[1::2], strict=True))
+    return PaperRow(title, pairs[:-1], pairs[-1])
+
+
+# The rows of Table II by our short names, in its order.
+TABLE_2: dict[str, PaperRow] = {
+    "chance": _row("Chance", 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2),
+    "templates": _row("Predefined Templates", 14.3, 22.8, 21.5, 38.8, 32.8, 28.7, 14.0, 17.0, 20.7, 26.8),
+    "tree": _row("Instruction-Tree", 14.4, 25.7, 11.2, 38.8, 26.3, 25.6, 12.5, 15.9, 16.1, 26.5),
+    "no_nl": _row("No NL Instructions", 39.2, 43.9, 21.8, 43.3, 1.2, 15.7, 12.8, 11.5, 18.8, 28.6),
+    "nearest": _row("Nearest Environment Instantiation", 63.4, 47.3, 43.5, 50.1, 52.1, 51.4, 45.4, 49.2, 51.1, 49.5),
+    "no_domain": _row("Our model, No Domain Knowledge", 78.6, 71.7, 55.7, 55.2, 66.1, 49.5, 51.2, 51.3, 62.9, 56.9),
+    "no_latent": _row("Our model, No latent nodes", 78.9, 73.8, 57.0, 58.4, 66.3, 53.9, 51.5, 51.2, 63.4, 59.3),
+    "full": _row("Our full model", 76.5, 78.3, 54.5, 61.3, 67.3, 49.4, 53.5, 56.2, 63.0, 61.3),
+}
+
+# Titles of rows that the paper does not have.
+OURS = {
+    "paper": "Full model, weights set by hand",
+    "paper_extended": "Extended model, weights set by hand",
+    "paper_extended_learned": "Extended model: Δ_cover, akin nouns, nouns paired in order",
+    "policy": "Extended model with a policy that proposes and judges",
+    "goals": "Extended model with plans for what the clauses state",
+    "goals_learned": "Extended model with plans for what the clauses state, weights learned",
+    "bayes_risk": "The least expected loss, among plans and what the policy draws",
+    "ranked": "Candidates of all proposers, ranked by weights that were learned on the metrics",
+    "bayes_risk_plans": "The least expected loss, among the plans of least energy alone",
+    "empty": "Empty prediction",
+}
+
+
+def title(model: str) -> str:
+    """Return the title of a row: that of the paper, or of :data:`OURS`, or its name."""
+    if model in TABLE_2:
+        return TABLE_2[model].title
+    return OURS.get(model, model)
+
+
+def in_order(models: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Return the rows that the paper has, in its order, and the others, in their own."""
+    given = list(models)
+    return [name for name in TABLE_2 if name in given], [name for name in given if name not in TABLE_2]
+
+
+# The paper's full model: the others are measured against it.
+FULL = "full"
+# A corrected p below this is marked.
+ALPHA = 0.05
+
+
+def reference(models: Iterable[str]) -> str | None:
+    """Return the row that the others are measured against: ``full``, or the last one that predicts anything."""
+    rows = [name for name in models if name != EMPTY]
+    if FULL in rows:
+        return FULL
+    return rows[-1] if rows else None
+
+
+def differing(pairs: Iterable[Pair], against: str) -> frozenset[tuple[str, str]]:
+    """Return the rows that differ from one in a metric, with the metric: corrected p below :data:`ALPHA`."""
+    own = [pair.seen_from(against) for pair in pairs if against in (pair.a, pair.b)]
+    tested = [(pair.b, metric, found) for pair in own for metric in TESTED if (found := pair.of(metric)) is not None]
+    return frozenset((other, metric) for other, metric, found in tested if found.p_holm < ALPHA)
+
+
+# The rows of Table II that the paper's own model is measured against.
+BASELINES = ("chance", "templates", "tree", "no_nl", "nearest")
+_WORDS = {SUCCESS: "success"}
+# Points below which two means read alike on the page.
+_LEAST = 0.05
+
+
+def in_words(metrics: Metrics) -> list[str]:
+    """Return the sentences, by success first; none where no row predicts anything."""
+    rows = [row for row in metrics.models if row != EMPTY]
+    if not rows:
+        return []
+    found = []
+    if SUCCESS in metrics.columns:
+        found.append(
+            "A prediction succeeds if it can be executed and the goal of its text holds at its end; the other metrics "
+            "compare it with what one person did, who may have done it otherwise."
+        )
+        found += _leader(metrics, rows, SUCCESS)
+    found += _leader(metrics, rows, METRICS[0])
+    return [*found, *_as_in_the_paper(metrics, rows)]
+
+
+def _leader(metrics: Metrics, rows: Sequence[str], metric: str) -> list[str]:
+    """Return a sentence on the leading row of a metric, averaged over tasks, and its lead."""
+    means = {row: mean for row in rows if (mean := metrics.models[row].average.mean(metric)) is not None}
+    order = sorted(means, key=lambda row: -means[row])
+    word = _WORDS.get(metric, metric)
+    if len(order) < 2:
+        return [f"By {word}, {title(row)} has {means[row]:.1f}." for row in order]
+    first, second = order[:2]
+    ahead = means[first] - means[second]
+    if ahead < _LEAST:
+        return [f"By {word}, {title(first)} and {title(second)} are level at {means[first]:.1f}."]
+    sure = _sure(metrics, first, second, metric)
+    return [
+        f"By {word}, {title(first)} leads with {means[first]:.1f}, {ahead:.1f} points ahead of {title(second)} "
+        f"({means[second]:.1f}){sure}."
+    ]
+
+
+def _sure(metrics: Metrics, one: str, other: str, metric: str) -> str:
+    """Return whether the test tells two rows apart; empty where they were not compared."""
+    pairs = (pair for pair in metrics.significance.pairs if {pair.a, pair.b} == {one, other})
+    tested = next((found for pair in pairs if (found := pair.of(metric)) is not None), None)
+    if tested is None:
+        return ""
+    if tested.p_holm < ALPHA:
+        return "; over the examples, chance does not explain the difference"
+    return "; over the examples, the difference may be chance"
+
+
+def _as_in_the_paper(metrics: Metrics, rows: Sequence[str]) -> list[str]:
+    """Return whether the paper's full model is ahead of the baselines here, as it is there."""
+    baselines = [row for row in BASELINES if row in rows]
+    if FULL not in rows or not baselines:
+        return []
+    metric = METRICS[0]
+    here = {row: metrics.models[row].average.mean(metric) or 0.0 for row in (FULL, *baselines)}
+    best = max(baselines, key=lambda row: here[row])
+    there = max(baselines, key=lambda row: TABLE_2[row].average[0])
+    paper = TABLE_2[FULL].average[0] - TABLE_2[there].average[0]
+    ahead = here[FULL] - here[best]
+    how = f"{ahead:.1f} points ahead of" if ahead >= 0 else f"{-ahead:.1f} points behind"
+    as_there = "as in the paper, where it is" if ahead >= _LEAST else "unlike in the paper, where it is"
+    return [
+        f"By {metric}, {title(FULL)} ({here[FULL]:.1f}) is {how} the best baseline here, {title(best)} "
+        f"({here[best]:.1f}), {as_there} {paper:.1f} points ahead of {title(there)}, on other data."
+    ]
