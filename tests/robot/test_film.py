@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -19,6 +20,7 @@ pytest.importorskip("imageio_ffmpeg", reason="needs the extra robot")
 
 from tests.bundled import corpus
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.files import draft_of
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.robot.monitor.listeners import Order, Recorder, Title
@@ -187,6 +189,16 @@ def test_a_film_without_pictures_leaves_nothing(tmp_path: Path, name: str) -> No
     with MovieFile(tmp_path / name, (64, 48), 10):
         pass
     assert not list(tmp_path.iterdir())
+
+
+def test_the_draft_of_a_run_that_was_killed_is_removed(tmp_path: Path) -> None:
+    left = draft_of(tmp_path / "out.mp4")
+    left = left.with_name(left.name.replace(str(os.getpid()), str(2**22 + 1)))  # beyond the highest process number
+    left.write_bytes(b"cut off")
+    with MovieFile(tmp_path / "out.mp4", (64, 48), 10) as movie:
+        for picture in noise(4):
+            movie.add(picture)
+    assert [path.name for path in tmp_path.iterdir()] == ["out.mp4"]
 
 
 def test_what_cannot_be_written_is_refused_at_once(tmp_path: Path) -> None:

@@ -111,7 +111,7 @@ class Server:
         with self._lock:
             visitor = self._visitors.pop(client.client_id, None)
         if visitor is not None:
-            visitor.leave()
+            visitor.stop()
             self.studio.drafts.leave(visitor.identity)
 
     def _follow(self) -> None:
