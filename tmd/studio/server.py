@@ -115,7 +115,7 @@ class Server:
             self.studio.drafts.leave(visitor.identity)
 
     def _follow(self) -> None:
-        """Tell every visitor how far learning is, while it goes on."""
+        """Show the progress of learning to every visitor."""
         told = False
         while not self._ended.wait(_LOOK):
             learning, training = self.studio.teacher.learning, self.studio.teacher.training

@@ -311,7 +311,7 @@ class Visitor(PanelContext):
         self.say.saved(demonstration)
 
     def learning(self, share: float | None) -> None:
-        """Tell how far the learning is that goes on; ``None`` when it is done."""
+        """Show the progress of learning; ``None`` when it is done."""
         self._bar.visible = self._bar_title.visible = share is not None
         if share is None:
             self.guarded(self.say.learned)(None)

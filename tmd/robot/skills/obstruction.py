@@ -21,7 +21,7 @@ _POSTURES = 2
 
 
 def named(counted: Counter[str], of: int = 0) -> str:
-    """Say what is in the way most often, and of how many ways; nothing for nothing."""
+    """Name the things that are in the way most often, with the number of ways; empty for none."""
     most = sorted(counted.items(), key=lambda pair: (-pair[1], pair[0]))[:_NAMES]
     if not most:
         return ""

@@ -14,7 +14,6 @@ from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction
-from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.semantics import bind, get_constraints
 from tmd.pddl.task import Bits
 from tmd.planning.backends import IN_PROCESS, make
@@ -22,6 +21,7 @@ from tmd.planning.result import Filled, Planner, Unreachable
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
 from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, History, Session
+from tmd.studio.object_info import require_object
 from tmd.view.wording import Wording
 from tmd.world.world import World
 
@@ -220,10 +220,8 @@ class Correction:
 
     def _replaced(self, old: str, new: str) -> Mapping[str, str]:
         """Map ``old`` and its parts to ``new`` and its parts."""
-        known = self.world.objects.types_of
         for name in (old, new):
-            if name not in known:
-                raise TmdError(f"there is no object '{name}'", hint=nearest(name, list(known), what="objects"))
+            require_object(name, self.world)
         parts = self.world.profiles.parts
         theirs = dict(parts.get(new, ()))
         return {old: new} | {part: theirs[short] for short, part in parts.get(old, ()) if short in theirs}

@@ -207,7 +207,7 @@ class Session:
         self._cursor = step
 
     def mark(self, step: int, clause: int) -> None:
-        """Say which clause a step serves.
+        """Mark the clause that a step serves.
 
         Steps before it that serve a later clause, and steps behind it that serve an earlier one, move along; where
         one of them was marked otherwise, that mark goes.

@@ -137,7 +137,7 @@ def side_by_side(plans: Sequence[RankedPlan], world: World, wording: Wording) ->
 
 
 def _rows(one: RankedPlan, other: RankedPlan, wording: Wording) -> list[tuple[str, str]]:
-    """Return align two plans, with a sign at each step that is in one of them only."""
+    """Align two plans, with a sign at each step that is in one of them only."""
     left, right = one.instructions, other.instructions
     rows = []
     for line in align([*map(str, left)], [*map(str, right)]):

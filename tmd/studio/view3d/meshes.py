@@ -45,7 +45,7 @@ class MeshPiece:
     mesh: trimesh.Trimesh
 
     def glb(self) -> bytes:
-        """Return as binary glTF."""
+        """Return the mesh as binary glTF."""
         buffer = io.BytesIO()
         self.mesh.export(buffer, file_type="glb")
         return buffer.getvalue()
