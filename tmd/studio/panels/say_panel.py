@@ -40,7 +40,6 @@ from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
-from tmd.view.wording import Wording
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
@@ -350,9 +349,8 @@ class SayPanel:
         self._robot.visible = self._visitor.studio.executable(self._visitor.setting)
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
-        world_words = Wording(world.task.problem)
         self._energies.content = fragment(
-            side_by_side(grounded.plans, world, world_words)
+            side_by_side(grounded.plans, world, self._visitor.wording)
             + candidates(grounded.plans, lines, grounded.rejected, narrow=True)
             + effort(grounded.usage)
         )
