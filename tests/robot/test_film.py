@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -19,6 +20,7 @@ pytest.importorskip("imageio_ffmpeg", reason="needs the extra robot")
 
 from tests.bundled import corpus
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.files import draft_of
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.robot.monitor.listeners import Order, Recorder, Title
@@ -189,6 +191,16 @@ def test_a_film_without_pictures_leaves_nothing(tmp_path: Path, name: str) -> No
     assert not list(tmp_path.iterdir())
 
 
+def test_the_draft_of_a_run_that_was_killed_is_removed(tmp_path: Path) -> None:
+    left = draft_of(tmp_path / "out.mp4")
+    left = left.with_name(left.name.replace(str(os.getpid()), str(2**22 + 1)))  # beyond the highest process number
+    left.write_bytes(b"cut off")
+    with MovieFile(tmp_path / "out.mp4", (64, 48), 10) as movie:
+        for picture in noise(4):
+            movie.add(picture)
+    assert [path.name for path in tmp_path.iterdir()] == ["out.mp4"]
+
+
 def test_what_cannot_be_written_is_refused_at_once(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"none/out\.gif cannot be written: No such directory"):
         MovieFile(tmp_path / "none" / "out.gif", (64, 48), 10)
@@ -293,24 +305,29 @@ def test_steps_have_their_place_in_the_plan(plan: str, steps: str, expected: str
     assert listener.begun == listener.ended
 
 
-def test_a_strip_of_nothing_is_not_written(tmp_path: Path) -> None:
-    with stage(pictures=False) as ready:
-        Film(ready.cell, ready.skills, strip=True).write_strip(tmp_path / "none.png")
+@pytest.fixture(scope="module")
+def ready() -> Iterator[SimulationSession]:
+    """A stage on which nothing is done."""
+    with stage(pictures=False) as made:
+        yield made
+
+
+def test_a_strip_of_nothing_is_not_written(ready: SimulationSession, tmp_path: Path) -> None:
+    Film(ready.cell, ready.skills, strip=True).write_strip(tmp_path / "none.png")
     assert not list(tmp_path.iterdir())
 
 
-def test_a_caption_counts_tries_and_what_was_done(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_caption_counts_tries_and_what_was_done(ready: SimulationSession, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of two instructions the first is done at its second try, and then the run stops."""
     mug = parse_instruction("find(mug1)")
     nothing: State = frozenset()
     told: list[Caption] = []
-    with stage(pictures=False) as ready:
-        film = Film(ready.cell, ready.skills)
-        monkeypatch.setattr(film, "_hold", lambda seconds: told.append(film._caption))
-        for failure in ("it broke", ""):
-            title = Title(mug, 1, 2, False, None)
-            film.begin(title, [])
-            film.end(title, ExecutedStep(mug, False, failure, "", (), (), 0, 0, nothing))
-        film.close(Execution(SkillStatus.STOPPED, "that was all", (), 1, nothing))
+    film = Film(ready.cell, ready.skills)
+    monkeypatch.setattr(film, "_hold", lambda seconds: told.append(film._caption))
+    for failure in ("it broke", ""):
+        title = Title(mug, 1, 2, False, None)
+        film.begin(title, [])
+        film.end(title, ExecutedStep(mug, False, failure, "", (), (), 0, 0, nothing))
+    film.close(Execution(SkillStatus.STOPPED, "that was all", (), 1, nothing))
     assert [caption.number for caption in told] == ["1/2", "1/2, try 2", ""]
     assert told[-1].said == "1 of 2 instructions went as predicted; repairs of the plan: 1"

@@ -278,19 +278,3 @@ def test_nobody_reads_the_table(tmp_path: Path) -> None:
     os.close(writing)
     assert (done.returncode, "Traceback" in done.stderr) == (ExitCode.OK, False)
     assert (tmp_path / "run" / "report.html").exists()
-
-
-def test_a_file_is_filmed_by_one_run_at_a_time(tmp_path: Path) -> None:
-    pytest.importorskip("imageio_ffmpeg")
-    import numpy as np
-
-    from tmd.diagnostics import OutputError
-    from tmd.robot.video.movie_file import MovieFile
-
-    (tmp_path / "out.unfinished.mp4").write_bytes(b"of a run that was killed")
-    picture = np.zeros((48, 64, 3), np.uint8)
-    with MovieFile(tmp_path / "out.mp4", (64, 48), 10) as film:
-        film.add(picture, 5)
-        with pytest.raises(OutputError, match="another run is filming there"):
-            MovieFile(tmp_path / "out.mp4", (64, 48), 10)
-    assert [path.name for path in tmp_path.iterdir()] == ["out.mp4"]

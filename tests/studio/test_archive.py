@@ -225,7 +225,7 @@ def test_ten_threads_save_at_once(table: Corpus) -> None:
 
 
 def test_processes_save_at_once(table: Corpus) -> None:
-    names = ("Ann", "Bob", "Cid", "Dot")
+    names = ("Ann", "Bob")
     domain = str(ROOT / "domains" / "02_table")
     started = [
         subprocess.Popen([sys.executable, "-c", WRITER, domain, str(table.directory), name, "8", *PLAN])
@@ -233,7 +233,7 @@ def test_processes_save_at_once(table: Corpus) -> None:
     ]
     assert [process.wait() for process in started] == [0] * len(names)
     found = read_demonstrations(table.directory / "shown" / "demonstrations.jsonl")
-    assert [d.id for d in found] == [f"shown-corner1-{n:02d}" for n in range(1, 33)]
+    assert [d.id for d in found] == [f"shown-corner1-{n:02d}" for n in range(1, 17)]
     assert {(d.who, d.text) for d in found} == {
         (name, f"Put the cup on the shelf for {name} {n}.") for name in names for n in range(8)
     }

@@ -4,12 +4,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.inference.ranking import StepGoal
-from tmd.pddl.model import GroundAtom
+from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.studio.applicable_actions import Offers
 from tmd.studio.object_info import about
-from tmd.studio.panels.html import changed, fragment, goal_list, notice, object_facts, refused, step_list
+from tmd.studio.panels.html import StepLine, changed, fragment, goal_list, notice, object_facts, refused, step_list
 from tmd.view.goals import in_words
 from tmd.world.world import World
 
@@ -20,7 +20,7 @@ def test_what_people_type_is_text(typed: str) -> None:
     for html in (
         notice(said, said),
         notice(said, fault=True),
-        step_list([(said, said, True)], 1),
+        step_list([StepLine(Instruction(said, (said,)), said, latent=True)], 1),
         "".join(changed([GroundAtom("p", (said,))], [])),
     ):
         assert "<script" not in html
@@ -45,7 +45,8 @@ def test_goals_are_ticked_where_they_hold(kitchen1: World) -> None:
 
 
 def test_the_step_that_was_taken_last_is_told_by_a_sign_too() -> None:
-    html = step_list([("find(pot1)", "clause 1", False), ("moveto(pot1)", "clause 1", True)], 1, ["<i>news</i>"])
+    lines = [StepLine(parse_instruction(text), "clause 1") for text in ("find(pot1)", "moveto(pot1)")]
+    html = step_list(lines, 1, ["<i>news</i>"])
     first, _, second = html.partition("moveto")
     assert 'aria-current="step"' in first and "▸" in first and "news" in first
     assert "aria-current" not in second
@@ -68,8 +69,8 @@ def test_an_instruction_is_told_in_words(kitchen1: World) -> None:
         ("juggle(a, b)", "juggle a, b"),
     ):
         assert wording.instruction(parse_instruction(instruction)) == words
-    steps = [("wait()", "clause 1", False), ("find(x)", "clause 1", False)]
-    html = step_list(steps, 1, words=["Let <time> pass", "y"])
+    steps = [StepLine(parse_instruction(text), "clause 1") for text in ("wait()", "find(x)")]
+    html = step_list(steps, 1, in_words=lambda instruction: "y" if instruction.args else "Let <time> pass")
     assert "▸ Let &lt;time&gt; pass</span>" in html and "<code>wait()</code>" in html
     assert 'title="find(x)"' in html and ">y</span>" in html and "<code>find(x)" not in html
 

@@ -1,33 +1,35 @@
-"""Texts to draw from: of each task and environment one, and each can be done where it is offered."""
+"""Example texts: one of each task and environment, and each can be done where it is offered."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.demonstrations.tasks import task_texts
+from tmd.studio.studio import example_texts
 from tmd.world.corpus import Corpus
 
 ROOT = Path(__file__).parents[2]
 
 
 def test_each_task_has_a_text_in_each_environment(kitchen: Corpus) -> None:
-    found = task_texts(kitchen)
-    assert found == task_texts(Corpus(kitchen.folder, kitchen.directory))
-    assert {(t.environment, t.task) for t in found if t.task} == {
-        (e, t) for e in kitchen.environments() for t in kitchen.tasks()
-    }
-    assert [t.environment for t in found] == sorted(t.environment for t in found)
+    found = example_texts(kitchen)
+    assert found == example_texts(Corpus(kitchen.folder, kitchen.directory))
+    shown = {(d.environment, d.task, d.text) for d in kitchen.demonstrations()}
+    for environment in kitchen.environments():
+        tasks = {task for where, task, text in shown if where == environment and text in found[environment]}
+        assert tasks == set(kitchen.tasks())
+        assert len(found[environment]) == len(set(found[environment]))
+        for text in found[environment]:
+            assert Session(kitchen.world(environment), text, kitchen.lexicon).text == text.strip()
     spoken = " ".join((kitchen.directory / "p01-ramen-kitchen1.nl").read_text().split())
-    assert spoken in [" ".join(t.text.split()) for t in found if t.environment == "kitchen1" and not t.task]
-    for entry in found:
-        assert Session(kitchen.world(entry.environment), entry.text, kitchen.lexicon).text == entry.text.strip()
+    assert spoken in [" ".join(text.split()) for text in found["kitchen1"]]
 
 
 def test_what_cannot_be_read_is_left_out(table: Corpus) -> None:
-    before = task_texts(table)
+    before = example_texts(table)
     (table.directory / "set_table" / "demonstrations.jsonl").write_text("{")
     (table.directory / "p09-nobody.nl").write_text("Go away.")
     (table.directory / "p10-x-corner1.nl").write_bytes(b"\xff")
-    assert {t.task for t in task_texts(table)} == {""}
-    assert {t.text for t in task_texts(table)} < {t.text for t in before}
+    after = example_texts(table)
+    assert after.keys() == before.keys() == set(table.environments())
+    assert {text for texts in after.values() for text in texts} < {text for texts in before.values() for text in texts}

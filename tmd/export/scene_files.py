@@ -20,9 +20,9 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.robot.assets.room import build_room
 from tmd.robot.pr2.kinematics import angles
 from tmd.robot.scene.scene import Scene
-from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
+from tmd.robot.sim.urdf_files import CUBE
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 

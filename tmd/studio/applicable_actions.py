@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction, State
-from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Operator
+from tmd.studio.object_info import require_object
 from tmd.view.wording import Wording
 from tmd.world.world import World
 
@@ -69,9 +68,7 @@ class Offers:
         Raises:
             TmdError: There is no such object.
         """
-        known = self.world.objects.types_of
-        if name not in known:
-            raise TmdError(f"there is no object '{name}'", hint=nearest(name, list(known), what="objects"))
+        require_object(name, self.world)
         names = [name, *(part for _, part in self.world.profiles.parts.get(name, ()) if parts)]
         return self._groups((o for n in names for o in self._by_object.get(n, ())), state)
 

@@ -92,7 +92,7 @@ class EditedEnvironment:
         entry.pop("yaw", None)
 
     def add(self, kind: str, relation: str, place: str) -> str:
-        """Return add a thing of a class, and return its name."""
+        """Add a thing of a class, and return its name."""
         self._entry(place)
         if len(self._objects) >= _MOST:
             raise TmdError(f"an environment has at most {_MOST} objects here")

@@ -1,12 +1,16 @@
-"""An environment made ready for visitors: its world, its lexicon, and what there is to see of it."""
+"""An environment made ready for visitors: its world, its shapes, and the states that a plan leads through."""
 
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from threading import Lock
 
 from tmd.diagnostics import TmdError
+from tmd.pddl.model import Instruction, State
+from tmd.pddl.task import Bits
 from tmd.robot.assets.room import build_room
 from tmd.robot.skills.skill_file import visible
 from tmd.robot.video.symbolic_renderer import Picture, Still
@@ -15,6 +19,9 @@ from tmd.world.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 from tmd.world.world import World
+
+# Drawing is quick, and who draws keeps notes in what all visitors of a setting share.
+_DRAWING = Lock()
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +68,53 @@ class Setting:
             return sorted(self.look.still.blueprints)
         parts = {part for known in self.world.profiles.parts.values() for _, part in known}
         return sorted(name for name in self.world.objects.types_of if name not in parts)
+
+
+class Reel:
+    """A sequence of states, the first one that of the environment.
+
+    Args:
+        setting: The environment.
+
+    Attributes:
+        states: As bits of the environment's task; never empty.
+    """
+
+    def __init__(self, setting: Setting) -> None:
+        self.setting = setting
+        self.states: tuple[Bits, ...] = (setting.world.task.init,)
+        self._pictures: list[Picture] = [] if setting.look is None else [setting.look.first]
+
+    def become(self, states: Sequence[Bits]) -> None:
+        """Hold other states; what is drawn of the same beginning stays."""
+        same = 0
+        while same < min(len(states), len(self.states)) and states[same] == self.states[same]:
+            same += 1
+        self.states = tuple(states)
+        del self._pictures[max(same, 1) :]
+
+    def follow(self, plan: Iterable[Instruction]) -> None:
+        """Hold the states that the instructions of a plan lead through; each of them must apply."""
+        task = self.setting.world.task
+        states = [task.init]
+        for instruction in plan:
+            states.append(task.by_instruction[instruction].apply(states[-1]))
+        self.become(states)
+
+    def facts(self, step: int) -> State:
+        """Return the facts after a number of steps."""
+        return self.setting.world.task.decode(self.states[step])
+
+    def picture(self, step: int) -> Picture | None:
+        """Return the picture after a number of steps; ``None`` where there is nothing to see."""
+        look = self.setting.look
+        if look is None:
+            return None
+        with _DRAWING:
+            while len(self._pictures) <= step:
+                facts = self.facts(len(self._pictures))
+                self._pictures.append(look.still.draw(facts, self._pictures[-1]))
+        return self._pictures[step]
 
 
 def open_setting(corpus: Corpus, world: World, path: Path) -> Setting:

@@ -46,9 +46,7 @@ def about(name: str, world: World, state: Bits) -> About:
     Raises:
         TmdError: There is no such object.
     """
-    if name not in world.objects.types_of:
-        hint = nearest(name, list(world.objects.types_of), what="objects")
-        raise TmdError(f"there is no object '{name}'", hint=hint)
+    require_object(name, world)
     profiles, static = world.profiles, world.task.static
     states, relations = _divided(name, world.task.names(state), world)
     traits, edges = _divided(name, static, world)
@@ -63,6 +61,17 @@ def about(name: str, world: World, state: Bits) -> About:
         tuple(e for e in edges if e.predicate != PART_OF and e._replace(args=e.args[::-1]) not in static),
         traits,
     )
+
+
+def require_object(name: str, world: World) -> None:
+    """Make sure that an environment has an object.
+
+    Raises:
+        TmdError: It has none of that name.
+    """
+    known = world.objects.types_of
+    if name not in known:
+        raise TmdError(f"there is no object '{name}'", hint=nearest(name, list(known), what="objects"))
 
 
 def _empty(trait: GroundAtom, world: World) -> bool:

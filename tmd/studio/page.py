@@ -1,4 +1,4 @@
-"""The studio's own script and style in viser's page, and what that script asks the server for.
+"""The studio's own script and style in viser's page, and the requests of that script.
 
 The script (``data/page.js``) does in the browser what a program on the server cannot: it says when the studio has ended
 and loads the page again when it is back, keeps what the window looks at in its address, follows the system's dark mode,
@@ -220,7 +220,7 @@ class Window:
         self._event.on_update(lambda _: self._happened())
 
     def _happened(self) -> None:
-        """Tell what has happened since the last time; the script sends the last few events together."""
+        """Pass on the events since the last time; the script sends the last few events together."""
         try:
             events = json.loads(self._event.value[:_LONGEST])
         except (TypeError, ValueError, RecursionError):
@@ -247,7 +247,7 @@ class Window:
             self._tell({"link": link.query()})
 
     def call(self, asked: object, words: str) -> None:
-        """Say what the pointer rests on, for the event ``asked``; empty for nothing that has a name."""
+        """Name the object under the pointer, for the event ``asked``; empty for none."""
         self._tell({"name": {"asked": asked, "words": words}})
 
     def show_tab(self, name: str) -> None:

@@ -111,11 +111,11 @@ class Server:
         with self._lock:
             visitor = self._visitors.pop(client.client_id, None)
         if visitor is not None:
-            visitor.leave()
+            visitor.stop()
             self.studio.drafts.leave(visitor.identity)
 
     def _follow(self) -> None:
-        """Tell every visitor how far learning is, while it goes on."""
+        """Show the progress of learning to every visitor."""
         told = False
         while not self._ended.wait(_LOOK):
             learning, training = self.studio.teacher.learning, self.studio.teacher.training

@@ -12,19 +12,19 @@ from pathlib import Path
 from threading import RLock
 
 from tmd.diagnostics import MissingToolError, TmdError
-from tmd.pddl.reading.syntax import nearest
+from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.studio.applicable_actions import Offers
-from tmd.studio.demonstrations.demo_store import Archive
+from tmd.studio.demonstrations.clause_spans import clean
+from tmd.studio.demonstrations.demo_store import FILE, Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.demonstrations.tasks import task_texts
 from tmd.studio.environment_edit import EditedEnvironment
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
-from tmd.studio.view3d.robot_mesh import Figure
+from tmd.studio.view3d.meshes import Figure
 from tmd.world.compile import compile_problem
 from tmd.world.corpus import Corpus
-from tmd.world.demonstration import Demonstration
+from tmd.world.demonstration import Demonstration, read_demonstrations
 from tmd.world.environment import load_environment
 from tmd.world.world import make_world
 
@@ -54,7 +54,7 @@ class Studio:
         self.teacher = teacher
         self.archive = Archive(corpus)
         self.drafts = Drafts(place(corpus))
-        self._texts = task_texts(corpus)
+        self._texts = example_texts(corpus)
         self._lock = RLock()
         self._settings: dict[str, Setting] = {}
         self._offers: dict[str, Offers] = {}
@@ -173,7 +173,7 @@ class Studio:
 
     def examples(self, name: str) -> list[str]:
         """Return the example texts of an environment."""
-        return [known.text for known in self._texts if known.environment == name]
+        return self._texts.get(name, [])
 
     def nearest_example(self, text: str, name: str) -> str:
         """Return the example text of an environment with most words of ``text``; empty for none."""
@@ -191,6 +191,27 @@ class Studio:
             self.figure()
             if texts:
                 self.teacher.ground(texts[0], self.setting(self.start).world, top=1)
+
+
+def example_texts(corpus: Corpus) -> dict[str, list[str]]:
+    """Return the texts of a domain by environment: always the same, in the same order.
+
+    First come those of demonstrations, by task: the first of each task in the environment, so each can be carried out
+    there. Then come those of ``pNN-*.nl``, whose names end with the environment. Files that cannot be read are left
+    out.
+    """
+    found: dict[str, dict[str, str]] = {name: {} for name in corpus.environments()}
+    for task in corpus.tasks():
+        with suppress(TmdError):
+            for each in read_demonstrations(corpus.directory / task / FILE):
+                if each.environment in found:
+                    found[each.environment].setdefault(task, each.text)
+    for path in sorted(corpus.directory.glob("*.nl")):
+        environment = path.stem.rpartition("-")[2]
+        if environment in found:
+            with suppress(TmdError):
+                found[environment][f"~{path.stem}"] = clean(read_text(path))
+    return {name: list(dict.fromkeys(text for _, text in sorted(texts.items()))) for name, texts in found.items()}
 
 
 @cache

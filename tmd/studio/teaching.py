@@ -1,8 +1,8 @@
 """Learning from a domain's demonstrations while more of them are saved.
 
-A demonstration that was just saved is in the library at once; the policy and what verbs mean, which take longer, are
-learned in the background. Whoever grounds a text meanwhile has what was known when they began, all of one piece; at
-the end it is what ``tmd ground`` has of the same files.
+A demonstration that was just saved is in the library at once; the policy and the meanings of verbs, which take longer,
+are learned in the background. A text that is grounded meanwhile is grounded with the knowledge of its beginning, all of
+one piece. At the end the knowledge is that of ``tmd ground`` for the same files.
 """
 
 from __future__ import annotations
@@ -21,11 +21,7 @@ from tmd.goals.sources.table import GoalTable
 from tmd.ground import Ask, ground
 from tmd.grounded import Grounded
 from tmd.inference.policy.model import Reward
-from tmd.knowledge import (
-    Knowledge,
-    digest,
-    known,
-)
+from tmd.knowledge import Knowledge, digest, known
 from tmd.library.library import Library, learn, teach
 from tmd.readers.interface import Reader
 from tmd.readers.llm.client import URL, ModelSettings
@@ -36,9 +32,9 @@ from tmd.world.demonstration import Demonstration
 from tmd.world.folder import DomainFolder
 from tmd.world.world import World
 
-# The share of the work that learning is, roughly; the rest is saving.
+# Share of the work that is learning, roughly; the rest is saving.
 _SHARE = 0.95
-# How much the process that learns stands back behind the studio's own (POSIX).
+# Niceness of the process that learns (POSIX): the studio's own goes first.
 _NICE = 10
 # Maximum number of language-model readers that are kept.
 _READERS = 8
@@ -48,17 +44,9 @@ _NO_KEY = "none"
 
 @dataclass(frozen=True, slots=True)
 class Trained:
-    """Result of learning.
-
-    Attributes:
-        made_from: The digest of the files that it was learned from.
-        demonstrations: How many were learned from.
-        reward: What the policy was learned to be.
-        goals: What verbs were learned to mean.
-    """
+    """Result of learning: the digest of its files, the policy, and the meanings of verbs."""
 
     made_from: str
-    demonstrations: int
     reward: Reward | None
     goals: GoalTable | None
 
@@ -68,7 +56,7 @@ class Training:
 
     Args:
         corpus: The demonstrations.
-        root: Where what is learned is kept; beside the demonstrations where none is given.
+        root: The directory of what is learned; beside the demonstrations where none is given.
         finish: Called in a separate thread with the result, before :meth:`wait` returns; ``None`` if it failed.
 
     Attributes:
@@ -92,13 +80,8 @@ class Training:
         self._thread = threading.Thread(target=self._listen, daemon=True)
         self._thread.start()
 
-    @property
-    def running(self) -> bool:
-        """Return whether it goes on."""
-        return self._thread.is_alive()
-
     def wait(self, timeout: float | None = None) -> bool:
-        """Wait for the end, at most so many seconds; whether it came.
+        """Wait for the end, at most so many seconds; return whether it came.
 
         Raises:
             TmdError: Learning failed.
@@ -106,27 +89,27 @@ class Training:
         self._thread.join(timeout)
         if self.error is not None:
             raise self.error
-        return not self.running
+        return not self._thread.is_alive()
 
     def stop(self) -> None:
-        """End it; what was learned so far is lost, what was known before stays."""
+        """End it, if it goes on: what was learned so far is lost, and what was known before stays."""
+        if not self._thread.is_alive():
+            return
         self._stopped = True
         self._process.terminate()
         self._thread.join()
 
     def _listen(self) -> None:
         try:
-            while True:
-                kind, value = self._mine.recv()
-                if kind == "share":
+            while self.trained is None:
+                value = self._mine.recv()
+                if isinstance(value, float):
                     self.share = value
-                    continue
-                if kind == "error":
-                    self.error = TmdError(value)
-                else:
+                elif isinstance(value, Trained):
                     self._finish(value)
                     self.trained, self.share = value, 1.0
-                break
+                else:
+                    raise TmdError(value)
         except (EOFError, OSError):
             why = "was stopped" if self._stopped else "ended before it was done"
             self.error = TmdError(f"learning {why}; what was known before is used", hint="train again")
@@ -143,18 +126,17 @@ def _work(connection: Connection, folder: Path, directory: Path, root: Path | No
     """Learn in a process, and send the progress and the result."""
 
     def tell(share: float) -> None:
-        connection.send(("share", _SHARE * share))
+        connection.send(_SHARE * share)
 
     os.nice(_NICE)
     try:
         corpus = Corpus(DomainFolder(folder), directory)
         made_from = digest(corpus)
         knowledge = known(corpus, root, tell)
-        trained = Trained(made_from, len(corpus.demonstrations()), knowledge.reward, knowledge.goals)
-        connection.send(("done", trained))
+        connection.send(Trained(made_from, knowledge.reward, knowledge.goals))
     except TmdError as error:
         with suppress(BrokenPipeError):
-            connection.send(("error", str(error)))
+            connection.send(str(error))
     except BrokenPipeError:
         return  # the studio has ended
 
@@ -189,24 +171,28 @@ class Teacher:
         self.learning = False
         self._readers: dict[tuple[ModelSettings, bool], Reader] = {}
 
-    def learn_one(self, demonstration: Demonstration) -> Knowledge:
-        """Take up a demonstration that was just saved, and any that others have saved since.
+    def learn_one(self, demonstration: Demonstration | None = None) -> None:
+        """Take up the demonstrations as the files have them now, among them one that was just saved.
 
-        The library is then what ``tmd learn`` makes of the same files. The policy, and what verbs mean, stay as they
+        The library is then that of ``tmd learn`` for the same files. The policy and the meanings of verbs stay as they
         are until :meth:`retrain` is done.
 
         Args:
-            demonstration: As :meth:`tmd.studio.demonstrations.demo_store.Archive.save` gave it back.
-
-        Returns:
-            What is known now.
+            demonstration: The return value of :meth:`tmd.studio.demonstrations.demo_store.Archive.save`.
 
         Raises:
             TmdError: A file of demonstrations is wrong, or the demonstration is in none. What was known stays.
         """
         with self._guard:
-            self._take_up(demonstration)
-            return self.knowledge
+            made_from = digest(self.corpus)
+            self.corpus.reread()
+            found = tuple(self.corpus.demonstrations())
+            if demonstration is not None and demonstration not in found:
+                raise TmdError(f"'{demonstration.id}' is not among the demonstrations", hint="save it first")
+            library = self._library(found)
+            self.habits = Habits.of(library)
+            self.knowledge = replace(self.knowledge, library=library)
+            self._learned_from, self._digest = found, made_from
 
     def retrain(self) -> Training:
         """Learn everything from all demonstrations, in a separate process, as ``tmd ground`` does.
@@ -245,12 +231,12 @@ class Teacher:
     def ground(
         self, text: str, world: World, top: int = 1, *, reader: Reader | None = None, ask: Ask | None = None
     ) -> Grounded:
-        """Ground a text with what is known now, as ``tmd ground`` does with its usual options.
+        """Ground a text with the current knowledge, as ``tmd ground`` does with its usual options.
 
-        What others did to the files since is taken up first, and learned in the background.
+        Changes that others made to the files are taken up first, and learned in the background.
 
         Args:
-            text: What is to be done.
+            text: The request.
             world: The environment.
             top: The number of distinct plans.
             reader: The reader; by default the offline reader of grammar and lexicon.
@@ -261,16 +247,15 @@ class Teacher:
         """
         with self._guard:
             if digest(self.corpus) != self._digest:
-                self._take_up()
+                self.learn_one()
                 self.retrain()
             now = self.knowledge
         return ground(text, world, now.library, reward=now.reward, goals=now.goals, top=top, reader=reader, ask=ask)
 
     def close(self) -> None:
         """End what is under way."""
-        training = self.training
-        if training is not None and training.running:
-            training.stop()
+        if self.training is not None:
+            self.training.stop()
 
     def _library(self, found: tuple[Demonstration, ...]) -> Library:
         """Return the library of ``found``, learning only new ones if none was removed and each id is unique."""
@@ -281,25 +266,13 @@ class Teacher:
         new = [teach(d, corpus.world(d.environment), corpus.lexicon) for d in found if d not in before]
         return self.knowledge.library.extended(new, order)
 
-    def _take_up(self, wanted: Demonstration | None = None) -> None:
-        """Have a library of the files as they are now; ``wanted`` must be in them."""
-        made_from = digest(self.corpus)
-        self.corpus.reread()
-        found = tuple(self.corpus.demonstrations())
-        if wanted is not None and wanted not in found:
-            raise TmdError(f"'{wanted.id}' is not among the demonstrations", hint="save it first")
-        library = self._library(found)
-        self.habits = Habits.of(library)
-        self.knowledge = replace(self.knowledge, library=library)
-        self._learned_from, self._digest = found, made_from
-
     def _become(self, trained: Trained | None) -> None:
         """Use what was learned; the library may know more by now, and then it is learned once more."""
         with self._guard:
             self.learning = False
             if trained is None:
                 return
-            self._take_up()
+            self.learn_one()
             self.knowledge = Knowledge(self.knowledge.library, trained.reward, goals=trained.goals)
             if trained.made_from != self._digest:
                 self.retrain()

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import sys
 import threading
 import time
-import traceback
 from collections.abc import Callable, Sequence
-from functools import partial, wraps
-from html import escape
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,24 +16,21 @@ from tmd.pddl.model import Instruction
 from tmd.robot.monitor.listeners import Title
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
-from tmd.studio.environment_view import Setting
+from tmd.studio.environment_view import Reel
 from tmd.studio.page import Event, PageLink, Window
-from tmd.studio.panels.context import Played
+from tmd.studio.panels.context import PanelContext, Played, put
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
 from tmd.studio.panels.html import fragment, notice
 from tmd.studio.panels.object_panel import ObjectPanel
 from tmd.studio.panels.player_panel import PlayerPanel
 from tmd.studio.panels.say_panel import SayPanel
-from tmd.studio.panels.widgets import put
 from tmd.studio.view3d.performance import perform
-from tmd.studio.view3d.playback import Reel
 from tmd.studio.view3d.scenery import Scenery
-from tmd.view.wording import Wording
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
-    from viser import ClientHandle, NotificationHandle
+    from viser import ClientHandle
 
     from tmd.studio.studio import Studio
 
@@ -51,45 +45,22 @@ WELCOME = (
     "the next sentence uses it. Correct: change a plan that was made."
 )
 ROOM, EYES = "the whole room", "with the robot's eyes"
-# Of messages and of faults, as on the page.
-BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
 # Seconds within which a click in the picture is the one that an object was pointed at with.
 _CLICK = 1.5
-# Seconds that a message over the view stays.
-ALOUD = 8.0
 TABS = ("Say", "Demonstrate", "Correct", "Object")
 # Under this name a browser keeps which visitors its windows are.
 KEY = "tmd-visitor"
 
 
-class Visitor:
-    """One connected browser.
-
-    Args:
-        studio: What all visitors share.
-        client: The browser's side.
-        identity: Who it is: drafts are kept by this.
-
-    Attributes:
-        reel: The states that are looked at.
-        cursor: After how many steps the state is that is seen.
-        selected: The object that was pointed at.
-    """
+class Visitor(PanelContext):
+    """One connected browser, with its panels and its view; arguments as of :class:`PanelContext`."""
 
     def __init__(self, studio: Studio, client: ClientHandle, identity: str) -> None:
-        self.studio = studio
-        self.client = client
-        self.identity = identity
-        self.cursor = 0
-        self.selected: str | None = None
+        super().__init__(studio, client, identity)
         self._pointed_at = -_CLICK
-        self._lock = threading.RLock()
-        self._scenery: Scenery | None = None
         self._first_person = False
         self._aimed: tuple[float, Vector] = (0.0, (0.0, 0.0, 0.0))
-        self._playing: threading.Event | None = None
-        self._voice = threading.Lock()
-        self._aloud: NotificationHandle | None = None
+        self.scenery: Scenery | None = None
         with self._lock:  # who is quick waits until everything is there
             self._furnish()
 
@@ -102,7 +73,7 @@ class Visitor:
         self._width = self.window.width
         gui.main_panel.dock_right()
         gui.main_panel.set_width(min(WIDTH, max(LEAST_WIDTH, self.client.camera.image_width * 2 // 5)))
-        self.setting: Setting = studio.setting(studio.start)
+        self.setting = studio.setting(studio.start)
         self.reel = Reel(self.setting)
         self._message = gui.add_html(
             notice(WELCOME, "Click on a thing in the picture to see what it is. Ctrl-K lists commands and their keys.")
@@ -110,22 +81,21 @@ class Visitor:
         self._bar_title = gui.add_html("", visible=False)
         self._bar = gui.add_progress_bar(0.0, visible=False)
         self._blind = gui.add_html("")
-        self._where = gui.add_dropdown("Environment", studio.environments(), initial_value=studio.start)
+        self._where = self.dropdown("Environment", studio.environments())
+        put(self._where, studio.start)
         self._where.on_update(self.guarded(self._go))
-        view = gui.add_dropdown("View (V)", (ROOM, EYES))
-        view.on_update(self.guarded(lambda: self.first_person(view.value == EYES)))
-        self._view = view
+        self._view = self.dropdown("View (V)", (ROOM, EYES), lambda: self.first_person(self._view.value == EYES))
         self._names = gui.add_checkbox("Names (L)", False)
         self._names.on_update(self.guarded(self._name))
         self.player = PlayerPanel(self)
         tabs = gui.add_tab_group()
-        with tabs.add_tab("Say"):
+        with tabs.add_tab(TABS[0]):
             self.say = SayPanel(self)
-        with tabs.add_tab("Demonstrate"):
+        with tabs.add_tab(TABS[1]):
             self.demonstrate = DemonstratePanel(self)
-        with tabs.add_tab("Correct"):
+        with tabs.add_tab(TABS[2]):
             self.correct = CorrectPanel(self)
-        with tabs.add_tab("Object"):
+        with tabs.add_tab(TABS[3]):
             self.object = ObjectPanel(self)
         self._tab = "Say"
         self._commands()
@@ -146,11 +116,6 @@ class Visitor:
             self.demonstrate.come_back()
         elif link.tab == "Correct":
             self.correct.come_back()
-
-    @property
-    def wording(self) -> Wording:
-        """The words of the environment."""
-        return self.studio.offers(self.setting.name).wording
 
     def _theme(self, *, dark: bool) -> None:
         self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
@@ -190,20 +155,6 @@ class Visitor:
         self.window.show_tab(name)
         self.keep_link()
 
-    def ask(self, title: str, question: str, yes: str, act: Callable[[], Any]) -> None:
-        """Do something if the visitor says so."""
-        gui = self.client.gui
-        box = gui.add_modal(title)
-
-        def agreed() -> None:
-            box.close()
-            act()
-
-        with box:
-            gui.add_html(fragment(f"<p>{escape(question)}</p>"))
-            gui.add_button(yes, color="orange").on_click(self.guarded(agreed))
-            gui.add_button("Cancel").on_click(self.guarded(box.close))
-
     # what is looked at
 
     def _go(self) -> None:
@@ -212,27 +163,23 @@ class Visitor:
 
     def enter(self, name: str) -> None:
         """Go to another environment."""
-        with self._lock:
-            self.stop()
-            self.setting = self.studio.setting(name)
-            names = tuple(self.studio.environments())
-            if self._where.options != names:
-                self._where.options = names
-            self.reel = Reel(self.setting)
-            self.cursor, self.selected = 0, None
-            if self._where.value != name:
-                put(self._where, name)
-            self._build()
-            self.say.entered()
-            self.demonstrate.entered()
-            self.correct.entered()
-            self.object.entered()
+        self.stop()
+        self.setting = self.studio.setting(name)
+        names = tuple(self.studio.environments())
+        if self._where.options != names:
+            self._where.options = names
+        self.reel = Reel(self.setting)
+        self.cursor, self.selected = 0, None
+        put(self._where, name)
+        self._build()
+        for panel in (self.say, self.demonstrate, self.correct, self.object):
+            panel.entered()
         self.keep_link()
 
     def _build(self) -> None:
         self.client.scene.reset()
         look = self.setting.look
-        self._scenery = None
+        self.scenery = None
         self._view.visible = self._names.visible = look is not None
         graphs = "How its objects belong together is drawn under Object."
         self._blind.content = "" if look is not None else notice(self.setting.blind, graphs)
@@ -240,42 +187,36 @@ class Visitor:
             self.client.scene.add_label("/blind", "no picture of this environment")
             return
         with self.client.atomic():
-            self._scenery = Scenery(self.client.scene, look, self.studio.figure(), self._pointed)
-            self._scenery.names(shown=self._names.value)
+            self.scenery = Scenery(self.client.scene, look, self.studio.figure(), self._pointed)
+            self.scenery.names(shown=self._names.value)
         self._camera()
         if self.studio.figure() is None:
             self.tell("The PR2 is not shown: its model is not installed.", "pip install 'tmd[robot]'")
 
     def watch(self, reel: Reel, step: int, by: Played | None = None, instructions: Sequence[Instruction] = ()) -> None:
         """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
-        with self._lock:
-            self.reel, self.cursor = reel, step
-            self.player.show(by, tuple(instructions), step)
-            picture = reel.picture(step)
-            if picture is not None and self._scenery is not None:
-                self._scenery.draw(picture)
-                if self._first_person:
-                    self._camera()
-            self.object.refresh()
-
-    def shows(self, panel: Played) -> bool:
-        """Return whether the steps of no other panel are looked at."""
-        return self.player.owner in (None, panel)
+        self.reel, self.cursor, self.owner = reel, step, by
+        self.player.show(tuple(instructions))
+        picture = reel.picture(step)
+        if picture is not None and self.scenery is not None:
+            self.scenery.draw(picture)
+            if self._first_person:
+                self._camera()
+        self.object.refresh()
 
     def select(self, name: str | None) -> None:
         """Point at an object."""
         if name is not None and name not in self.setting.names():
             raise TmdError(f"there is no object '{name}' here")
-        with self._lock:
-            self.selected = name
-            if self._scenery is not None:
-                self._scenery.mark(name)
-            self.object.refresh()
-            self.demonstrate.offers()
+        self.selected = name
+        if self.scenery is not None:
+            self.scenery.mark(name)
+        self.object.refresh()
+        self.demonstrate.offers()
 
     def _name(self) -> None:
-        if self._scenery is not None:
-            self._scenery.names(shown=self._names.value)
+        if self.scenery is not None:
+            self.scenery.names(shown=self._names.value)
 
     def _pointed(self, name: str) -> None:
         self._pointed_at = time.monotonic()
@@ -283,7 +224,7 @@ class Visitor:
 
     def _called(self, across: float, down: float) -> str:
         """Return the name of what is seen at a place of the picture, the part's where it is one; empty for none."""
-        camera, scenery = self.client.camera, self._scenery
+        camera, scenery = self.client.camera, self.scenery
         if scenery is None:
             return ""
         high = np.tan(camera.fov / 2)
@@ -300,23 +241,18 @@ class Visitor:
         kind = world.mentions.kinds.get(name, "")
         return name if name.rstrip("_0123456789").endswith(kind) else f"{name}: {kind.replace('_', ' ')}"
 
-    @property
-    def scenery(self) -> Scenery | None:
-        """The 3D view; ``None`` where there is nothing to see."""
-        return self._scenery
-
     # the camera
 
     def _camera(self) -> None:
         picture = self.reel.picture(self.cursor)
-        if self._scenery is None or picture is None:
+        if self.scenery is None or picture is None:
             return
         camera = self.client.camera
         if self._first_person:
-            eye, target = self._scenery.eyes(picture)
+            eye, target = self.scenery.eyes(picture)
         else:
             covered = SHEET if (self._width or camera.image_width) <= NARROW else 0.0
-            eye, target = self._scenery.overview(camera.fov, camera.aspect, covered)
+            eye, target = self.scenery.overview(camera.fov, camera.aspect, covered)
         self._aimed = camera.aspect, eye
         with self.client.atomic():
             camera.up_direction = (0.0, 0.0, 1.0)
@@ -326,10 +262,9 @@ class Visitor:
     def _resized(self) -> None:
         """Look at the whole room again in a view of another form, unless the visitor moved the camera."""
         camera = self.client.camera
-        with self._lock:
-            aspect, eye = self._aimed
-            if not self._first_person and aspect != camera.aspect and np.allclose(camera.position, eye, atol=0.01):
-                self._camera()
+        aspect, eye = self._aimed
+        if not self._first_person and aspect != camera.aspect and np.allclose(camera.position, eye, atol=0.01):
+            self._camera()
 
     def first_person(self, on: bool) -> None:
         """See with the robot's eyes, or the whole room."""
@@ -338,26 +273,11 @@ class Visitor:
             put(self._view, EYES if on else ROOM)
             self._camera()
 
-    # playing
-
-    def play(self, frames: Callable[[threading.Event], None]) -> None:
-        """Run something that shows one thing after the other, in the background, until :meth:`stop`."""
-        self.stop()
-        ended = self._playing = threading.Event()
-        threading.Thread(target=self.guarded(lambda: frames(ended)), args=(None,), daemon=True).start()
-
-    def is_playing(self) -> bool:
-        """Return whether something is being played."""
-        return self._playing is not None and not self._playing.is_set()
-
-    def stop(self) -> None:
-        """Stop playing."""
-        if self._playing is not None:
-            self._playing.set()
+    # the robot
 
     def execute(self, plan: RankedPlan) -> None:
         """Let the simulated robot carry a plan out, in the background; :meth:`stop` ends it."""
-        scenery, figure = self._scenery, self.studio.figure()
+        scenery, figure = self.scenery, self.studio.figure()
         if scenery is None:
             raise TmdError(f"the robot cannot do it here. {self.setting.blind}")
         if figure is None:
@@ -380,11 +300,7 @@ class Visitor:
 
         self.play(frames)
 
-    def leave(self) -> None:
-        """Stop playing: the browser is gone."""
-        self.stop()
-
-    # messages
+    # what panels have for one another
 
     def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
@@ -395,7 +311,7 @@ class Visitor:
         self.say.saved(demonstration)
 
     def learning(self, share: float | None) -> None:
-        """Tell how far the learning is that goes on; ``None`` when it is done."""
+        """Show the progress of learning; ``None`` when it is done."""
         self._bar.visible = self._bar_title.visible = share is not None
         if share is None:
             self.guarded(self.say.learned)(None)
@@ -408,46 +324,6 @@ class Visitor:
     def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
         """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""
         self.demonstrate.take(session, goal, taken)
-
-    def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
-        """Say something to the visitor, at the top of the panel.
-
-        Args:
-            message: What.
-            hint: What can be done about it.
-            fault: Something was not done.
-            aloud: Say it over the view as well, for a while: the panel may be scrolled down. Faults always are.
-        """
-        self._message.content = notice(message, hint, fault=fault)
-        if not (fault or aloud):
-            return
-        title, colour = ("Not done", ORANGE) if fault else ("tmd studio", BLUE)
-        said = " – ".join(filter(None, (message, hint)))
-        with self._voice:
-            if self._aloud is not None:
-                self._aloud.remove()
-            self._aloud = self.client.add_notification(title, said, auto_close_seconds=ALOUD, color=colour)
-
-    def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
-        """Return a callback that reports errors to the visitor, never by a traceback."""
-
-        @wraps(act)
-        def called(_: object) -> None:
-            with self._lock:
-                pass
-            try:
-                act()
-            except TmdError as error:
-                self.tell(error.message, error.hint, fault=True)
-            except Exception:
-                traceback.print_exc(file=sys.stderr)
-                self.tell("that is a fault of tmd itself; what was saved is safe.", "See the terminal.", fault=True)
-
-        return called
-
-    def holding(self) -> threading.RLock:
-        """Return the visitor's lock: one thing at a time happens to what it looks at."""
-        return self._lock
 
     # keys
 

@@ -96,9 +96,9 @@ def kitchen_studio(learned: Path, browser: Browser, tmp_path_factory: pytest.Tem
     served.kill()
 
 
-@pytest.fixture
-def table_studio(browser: Browser, tmp_path: Path) -> Iterator[Served]:
-    served = serve(tmp_path, "02_table")
+@pytest.fixture(scope="module")
+def table_studio(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
+    served = serve(tmp_path_factory.mktemp("table"), "02_table")
     served.start()
     yield served
     served.kill()

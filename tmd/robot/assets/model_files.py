@@ -30,9 +30,8 @@ from tmd.robot.assets.fittings import DOWN, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfLink, UrdfModel
 from tmd.robot.assets.vessels import CLEARANCE, WIDEST, contents, grasp, rim_grasps
 from tmd.robot.pr2.kinematics import Tree, angles, origin, set_origin, shape_points
-from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, mesh_library, read_urdf
+from tmd.robot.sim.urdf_files import CUBE, cache_directory, end_of, find_mesh, mesh_library, read_urdf
 from tmd.world.shape import GraspEntry, HandleEntry, RegionEntry, Shape
 
 if TYPE_CHECKING:

@@ -14,8 +14,8 @@ from xml.sax.saxutils import escape
 
 from tmd.robot.assets.colours import rgba
 from tmd.robot.assets.features import Grasp, Grip, Lamp, Opening, Region
-from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.sim.urdf_files import CUBE
 
 # The name of the whole object among its parts and links.
 ROOT = ""

@@ -350,7 +350,7 @@ class Executor:
         return first if first is not None and (first, self.performer.situation()) in self._spent else None
 
     def _lasting(self, plan: Sequence[Instruction], state: State) -> tuple[Mismatch, ...]:
-        """Return the differences from the plan's final state, whatever it is for."""
+        """Return all differences from the plan's final state."""
         end = self.problem.init
         for instruction in plan:
             end = apply(instruction, end, self.problem)

@@ -20,8 +20,8 @@ from tmd.robot.scene.furniture_layout import Room
 from tmd.robot.scene.inventory import Handle, Inventory
 from tmd.robot.scene.placement import Placing
 from tmd.robot.scene.support_relations import Spot, boxes_meet, free_spots, supported
-from tmd.robot.sim.box_mesh import CUBE, cube
 from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.sim.urdf_files import CUBE, cube
 from tmd.world.classes import ROOT as CLASS_ROOT
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder

@@ -14,6 +14,15 @@ from tmd import files
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.files import make_directory, read_bytes
 
+# The mesh that boxes are drawn by, beside this module: a unit cube with a normal for every face. Boxes drawn as boxes
+# are shaded round.
+CUBE = "cube.obj"
+
+
+def cube() -> str:
+    """Return the text of :data:`CUBE`."""
+    return (Path(__file__).parent / "data" / CUBE).read_text(encoding="ascii")
+
 
 def read_urdf(path: Path) -> ET.Element:
     """Parse the ``<robot>`` of a URDF or SRDF.

@@ -21,7 +21,7 @@ _POSTURES = 2
 
 
 def named(counted: Counter[str], of: int = 0) -> str:
-    """Say what is in the way most often, and of how many ways; nothing for nothing."""
+    """Name the things that are in the way most often, with the number of ways; empty for none."""
     most = sorted(counted.items(), key=lambda pair: (-pair[1], pair[0]))[:_NAMES]
     if not most:
         return ""
@@ -38,6 +38,11 @@ def _names(cell: Cell, touched: Iterable[tuple[int, int]]) -> set[str]:
 
 def _met(cell: Cell, collisions: Iterable[Collision]) -> set[str]:
     return _names(cell, [(body, link) for _, body, link, _ in collisions])
+
+
+def _counted(cell: Cell, ways: Iterable[Iterable[Collision]]) -> Counter[str]:
+    """Count the ways on which each thing is met."""
+    return Counter(name for collisions in ways for name in _met(cell, collisions))
 
 
 def of_hand(cell: Cell, ways: Sequence[tuple[str, Sequence[Pose], Ignored]]) -> str:
@@ -65,21 +70,15 @@ def of_arm(cell: Cell, side: str, pose: Pose, bases: Sequence[tuple[float, float
 
 def of_stances(cell: Cell, bases: Sequence[tuple[float, float, float]]) -> str:
     """Name what stands where the robot would have to stand."""
-    counted: Counter[str] = Counter()
-    for base in bases:
-        counted.update(_met(cell, cell.robot.collides(base=base)))
-    return named(counted, len(bases))
+    return named(_counted(cell, (cell.robot.collides(base=base) for base in bases)), len(bases))
 
 
 def of_arm_path(cell: Cell, side: str, goal: Sequence[float]) -> str:
     """Name what is on the straight way of an arm's joints to ``goal``."""
     start = np.array(cell.robot.arm(side))
     end = cell.robot.arm_kinematics[side].near(np.array([goal], dtype=float), start.tolist())[0]
-    counted: Counter[str] = Counter()
-    for share in np.linspace(0.0, 1.0, _LOOKS):
-        arm = (start + float(share) * (end - start)).tolist()
-        counted.update(_met(cell, cell.robot.collides(side=side, arm=arm)))
-    return named(counted)
+    arms = [(start + float(share) * (end - start)).tolist() for share in np.linspace(0.0, 1.0, _LOOKS)]
+    return named(_counted(cell, (cell.robot.collides(side=side, arm=arm) for arm in arms)))
 
 
 def of_straight(cell: Cell, side: str, poses: Sequence[Pose], ignore: Ignored) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import degrees
@@ -10,14 +9,13 @@ from pathlib import Path
 
 import numpy as np
 
-from tmd.files import write_bytes
 from tmd.robot.scene.scene import Scene
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.pick_and_place import pick_options
 from tmd.robot.skills.robot_context import Cell, make_cell
 from tmd.robot.skills.stance_search import Base, candidates, stances, with_room
-from tmd.robot.video.captions import Pixels, pillow
+from tmd.robot.video.captions import pillow, write_picture
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
@@ -93,16 +91,10 @@ def survey_scene(
         entries = survey(cell)
         stances = {entry.name: stance(cell, entry.name) for entry in entries} if reach else {}
         if picture is not None:
-            _draw(picture, sim.picture(*scene.viewpoint(), *PICTURE))
+            from PIL import Image
+
+            write_picture(picture, Image.fromarray(sim.picture(*scene.viewpoint(), *PICTURE)), "PNG")
     return SceneSurvey(environment.name, tuple(entries), stances)
-
-
-def _draw(path: Path, pixels: Pixels) -> None:
-    from PIL import Image
-
-    data = io.BytesIO()
-    Image.fromarray(pixels).save(data, "PNG")
-    write_bytes(path, data.getvalue())
 
 
 def survey(cell: Cell) -> list[ReachabilityEntry]:

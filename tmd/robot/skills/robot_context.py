@@ -432,7 +432,7 @@ class Cell:
         return False
 
     def how_open(self, name: str) -> str:
-        """Say how far a joint is open."""
+        """Return in words how far a joint is open."""
         way = min(max(self.way(name), 0.0), 1.0)
         neither = ", which is neither open nor shut" if self.ajar(name) else ""
         return f"{name} is {100 * way:.0f} % open{neither}"

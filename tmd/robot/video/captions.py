@@ -7,13 +7,15 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
+from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from tmd.diagnostics import MissingToolError
+from tmd.files import write_bytes
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -68,6 +70,17 @@ def pillow() -> None:
         raise MissingToolError(
             "pictures need the package Pillow, which is not installed", hint="pip install 'tmd[robot]'"
         )
+
+
+def write_picture(path: Path, image: Image, kind: str, **options: Any) -> None:  # noqa: ANN401 - as Pillow has them
+    """Write a picture as a ``PNG`` or ``JPEG`` file.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    data = BytesIO()
+    image.save(data, kind, **options)
+    write_bytes(path, data.getvalue())
 
 
 def caption_height(width: int) -> int:

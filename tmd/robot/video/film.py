@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
@@ -11,7 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from tmd.files import write_bytes
 from tmd.pddl.model import GroundAtom
 from tmd.robot.assets.colours import robot_colour
 from tmd.robot.monitor.listeners import Title
@@ -22,7 +20,7 @@ from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.skill_file import Skills
 from tmd.robot.video.camera import FOV, Camera, View
-from tmd.robot.video.captions import Caption, Mark, Pixels, caption_height, filmstrip, pillow, under
+from tmd.robot.video.captions import Caption, Mark, Pixels, caption_height, filmstrip, pillow, under, write_picture
 from tmd.robot.video.movie_file import MovieFile
 
 PICTURE = (640, 480)
@@ -181,11 +179,9 @@ class Film:
             return
         from PIL import Image
 
-        data = io.BytesIO()
         # a third of the bytes; by octree, because a median cut loses small things of a rare colour: the water in a pot
         few = filmstrip(self._tiles).quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
-        few.save(data, "PNG", optimize=True)
-        write_bytes(path, data.getvalue())
+        write_picture(path, few, "PNG", optimize=True)
 
     def _watch(self, sim: Simulator) -> None:
         stepped = sim.steps - self._steps

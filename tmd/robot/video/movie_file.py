@@ -1,20 +1,19 @@
 """Film files, written picture by picture.
 
-A film grows in a neighbour of its file (``out.unfinished.mp4``) and takes its name when it is closed, also after an
-error. If the whole process is killed, the neighbour is of no use; the next film of that name replaces it.
+A film is written to a draft beside its file, and takes the file's name when it is closed, also after an error. If the
+whole process is killed, the draft is of no use; the next film of that name removes it.
 """
 
 from __future__ import annotations
 
 import importlib.util
 from collections.abc import Generator
-from io import BytesIO
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
-from tmd.files import check_writable, try_lock, write_bytes
-from tmd.robot.video.captions import Pixels, pillow
+from tmd.files import check_writable, draft_of, remove_leftovers
+from tmd.robot.video.captions import Pixels, pillow, write_picture
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -44,23 +43,15 @@ class MovieFile:
         self.fps = fps
         self.pictures = 0
         self.last: Pixels | None = None
-        self._draft = path.with_name(f"{path.stem}.unfinished{path.suffix}")
         if path.suffix not in SUFFIXES:
             raise TmdError(f"{path}: films are .mp4 or .gif files", hint=f"call it {path.stem}.mp4")
-        check_writable(path)
+        check_writable(path)  # now, not after the first minute
         pillow()
-        lock = try_lock(self._draft)  # now, not after the first minute
-        if lock is None:
-            raise OutputError(f"{path} cannot be written: another run is filming there", hint="name another file")
-        self._lock = lock
-        try:
-            self._writer: _Mp4 | _Gif | None = (
-                _Gif(self._draft, fps) if path.suffix == ".gif" else _Mp4(self._draft, size, fps, small=small)
-            )
-        except (OSError, MissingToolError) as error:
-            self._draft.unlink(missing_ok=True)
-            self._lock.release()
-            raise (self._error(error) if isinstance(error, OSError) else error) from error
+        remove_leftovers(path)
+        self._draft = draft_of(path)
+        self._writer: _Mp4 | _Gif | None = (
+            _Gif(self._draft, fps) if path.suffix == ".gif" else _Mp4(self._draft, size, fps, small=small)
+        )
 
     def __enter__(self) -> Self:
         return self
@@ -96,9 +87,7 @@ class MovieFile:
             return
         from PIL import Image
 
-        buffer = BytesIO()
-        Image.fromarray(self.last).save(buffer, "JPEG", quality=80)
-        write_bytes(path, buffer.getvalue())
+        write_picture(path, Image.fromarray(self.last), "JPEG", quality=80)
 
     def close(self) -> None:
         """Finish the film and give it its name; a film without pictures leaves nothing.
@@ -113,14 +102,10 @@ class MovieFile:
             writer.close()
             if self.pictures:
                 self._draft.replace(self.path)
-            else:
-                self._draft.unlink(missing_ok=True)
         except OSError as error:
-            if not self.pictures:
-                self._draft.unlink(missing_ok=True)
             raise self._error(error) from error
         finally:
-            self._lock.release()
+            self._draft.unlink(missing_ok=True)
 
     def _error(self, error: OSError) -> OutputError:
         said = error.strerror or (str(error).strip().splitlines() or ["no reason"])[0]
@@ -160,7 +145,7 @@ class _Mp4:
             output_params=[
                 *("-crf", "30" if small else "23", "-preset", "veryfast", "-threads", "1"),
                 *("-g", str((8 if small else 2) * fps)),
-                *("-movflags", "+faststart"),
+                *("-movflags", "+faststart", "-f", "mp4"),
             ],
         )
         self._frames.send(None)
@@ -178,7 +163,7 @@ class _Gif:
     """Kept until it is closed: Pillow then stores of each picture the box that has changed."""
 
     def __init__(self, path: Path, fps: int) -> None:
-        self._file: IO[bytes] = path.open("wb")
+        self._path = path
         self._pause = 10 * round(100 / fps)
         self._images: list[Image] = []
         self._pauses: list[int] = []
@@ -190,7 +175,6 @@ class _Gif:
         self._pauses.append(self._pause * times)
 
     def close(self) -> None:
-        with self._file:
-            if self._images:
-                first, *rest = self._images
-                first.save(self._file, "GIF", save_all=True, append_images=rest, duration=self._pauses, loop=0)
+        if self._images:
+            first, *rest = self._images
+            first.save(self._path, "GIF", save_all=True, append_images=rest, duration=self._pauses, loop=0)

@@ -1,12 +1,11 @@
 """Corrections of a proposed plan: edits, the first broken step after each, and repair by a planner.
 
 Steps are counted from 1, clauses from 0, as in a session. Between two edits a plan may be one that cannot be carried
-out; it becomes a session when it can. Everything may be called from any thread.
+out; it becomes a session when it can.
 """
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -15,15 +14,14 @@ from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction
-from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.semantics import bind, get_constraints
 from tmd.pddl.task import Bits
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Planner, Unreachable
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
-from tmd.studio.demonstrations.history import History
-from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, Session
+from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, History, Session
+from tmd.studio.object_info import require_object
 from tmd.view.wording import Wording
 from tmd.world.world import World
 
@@ -79,7 +77,6 @@ class Correction:
             for step in steps:
                 bind(world.task.problem, step.instruction)
             self._history.add(tuple(steps))
-        self._lock = threading.RLock()
 
     @property
     def steps(self) -> tuple[DemonstratedStep, ...]:
@@ -92,9 +89,8 @@ class Correction:
         Raises:
             TmdError: There is no such step.
         """
-        with self._lock:
-            self._known(step)
-            self._history.add(self.steps[: step - 1] + self.steps[step:])
+        self._known(step)
+        self._history.add(self.steps[: step - 1] + self.steps[step:])
 
     def insert(self, step: int, instruction: Instruction, clause: int | None = None) -> None:
         """Put an instruction in, so that it becomes the step of that number.
@@ -107,13 +103,12 @@ class Correction:
         Raises:
             TmdError: The environment has no such instruction, or the plan no such place.
         """
-        with self._lock:
-            bind(self.world.task.problem, instruction)
-            if not 0 < step <= len(self.steps) + 1:
-                raise TmdError(f"there is no place {step}", hint=f"the plan has {len(self.steps)} steps")
-            if len(self.steps) >= MAX_STEPS:
-                raise TmdError(f"a plan has at most {MAX_STEPS} steps", hint="delete some")
-            self._put_in(step, [instruction], clause)
+        bind(self.world.task.problem, instruction)
+        if not 0 < step <= len(self.steps) + 1:
+            raise TmdError(f"there is no place {step}", hint=f"the plan has {len(self.steps)} steps")
+        if len(self.steps) >= MAX_STEPS:
+            raise TmdError(f"a plan has at most {MAX_STEPS} steps", hint="delete some")
+        self._put_in(step, [instruction], clause)
 
     def move(self, step: int, to: int) -> None:
         """Make a step the one of another number; those between move up or down.
@@ -121,12 +116,11 @@ class Correction:
         Raises:
             TmdError: The plan has no step of one of the numbers.
         """
-        with self._lock:
-            self._known(step)
-            self._known(to)
-            kept = [*self.steps[: step - 1], *self.steps[step:]]
-            kept.insert(to - 1, self.steps[step - 1])
-            self._history.add(tuple(kept))
+        self._known(step)
+        self._known(to)
+        kept = [*self.steps[: step - 1], *self.steps[step:]]
+        kept.insert(to - 1, self.steps[step - 1])
+        self._history.add(tuple(kept))
 
     def swap(self, old: str, new: str, step: int | None = None) -> int:
         """Take another object instead of ``old``, and its parts instead of those of ``old``.
@@ -142,28 +136,25 @@ class Correction:
         Raises:
             TmdError: There is no such object or step, or an instruction cannot have it. Nothing changed.
         """
-        with self._lock:
-            if step is not None:
-                self._known(step)
-            names = self._replaced(old, new)
-            places = range(len(self.steps)) if step is None else [step - 1]
-            changed = {n: _renamed(self.steps[n], names) for n in places}
-            changed = {n: s for n, s in changed.items() if s != self.steps[n]}
-            for other in changed.values():
-                bind(self.world.task.problem, other.instruction)
-            if changed:
-                self._history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
-            return len(changed)
+        if step is not None:
+            self._known(step)
+        names = self._replaced(old, new)
+        places = range(len(self.steps)) if step is None else [step - 1]
+        changed = {n: _renamed(self.steps[n], names) for n in places}
+        changed = {n: s for n, s in changed.items() if s != self.steps[n]}
+        for other in changed.values():
+            bind(self.world.task.problem, other.instruction)
+        if changed:
+            self._history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
+        return len(changed)
 
     def undo(self) -> bool:
         """Take the last edit back; false where there is none."""
-        with self._lock:
-            return self._history.undo()
+        return self._history.undo()
 
     def redo(self) -> bool:
         """Make the edit again that was taken back last; false where there is none."""
-        with self._lock:
-            return self._history.redo()
+        return self._history.redo()
 
     def broken(self) -> Break | None:
         """Return the first step that does not apply; ``None`` where all do."""
@@ -178,15 +169,14 @@ class Correction:
         Raises:
             TmdError: Nothing leads there, or nothing was found; nothing was put in.
         """
-        with self._lock:
-            state, found = self._played(self.steps)
-            if found is None:
-                return ()
-            if self._planner is None:
-                self._planner = make(IN_PROCESS, self.world.task)
-            needed = what_it_needs(found.instruction, state, self.world, self._planner)
-            self._put_in(found.step, needed, self.steps[found.step - 1].clause)
-            return needed
+        state, found = self._played(self.steps)
+        if found is None:
+            return ()
+        if self._planner is None:
+            self._planner = make(IN_PROCESS, self.world.task)
+        needed = what_it_needs(found.instruction, state, self.world, self._planner)
+        self._put_in(found.step, needed, self.steps[found.step - 1].clause)
+        return needed
 
     def session(self, habits: Habits = NO_HABITS) -> Session:
         """Return the corrected plan as a session, with the plan that was proposed.
@@ -230,10 +220,8 @@ class Correction:
 
     def _replaced(self, old: str, new: str) -> Mapping[str, str]:
         """Map ``old`` and its parts to ``new`` and its parts."""
-        known = self.world.objects.types_of
         for name in (old, new):
-            if name not in known:
-                raise TmdError(f"there is no object '{name}'", hint=nearest(name, list(known), what="objects"))
+            require_object(name, self.world)
         parts = self.world.profiles.parts
         theirs = dict(parts.get(new, ()))
         return {old: new} | {part: theirs[short] for short, part in parts.get(old, ()) if short in theirs}

@@ -1,7 +1,7 @@
 """Store of demonstrations: a line of ``<problems>/<domain>/<task>/demonstrations.jsonl`` for each finished session.
 
-The file is replaced as a whole, and one writer at a time has it, whatever thread or process that is. Before anything is
-written the demonstration is played, and its line is read back.
+The file is replaced as a whole, by one thread or process at a time. Before anything is written the demonstration is
+played, and its line is read back.
 """
 
 from __future__ import annotations
@@ -92,7 +92,7 @@ class Archive:
         when: str | None = None,
         goal: str | None = None,
     ) -> Demonstration:
-        """Return append what was demonstrated.
+        """Append a demonstration to the file of its task.
 
         Args:
             session: The demonstration; all its steps, wherever it is looked at.

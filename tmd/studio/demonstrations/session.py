@@ -1,15 +1,14 @@
-"""One person's demonstration under way: what was done for a text, step by step, with undo and redo.
+"""One person's demonstration under way: the steps done for a text, with undo and redo.
 
-Steps are counted from 1, so that ``goto(0)`` is the beginning; clauses from 0, as in a plan. Everything of a session
-may be called from any thread.
+Steps are counted from 1, so that ``goto(0)`` is the beginning; clauses from 0, as in a plan.
 """
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import Generic, TypeVar
 
 from tmd.diagnostics import TmdError
 from tmd.language.lexicon.lexicon import Lexicon
@@ -18,13 +17,45 @@ from tmd.pddl.semantics import bind
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
 from tmd.studio.demonstrations.clause_spans import ClauseSpan, clean, cut
-from tmd.studio.demonstrations.history import History
 from tmd.view.wording import Wording
 from tmd.world.demonstration import Segment
 from tmd.world.world import World
 
 # Longer demonstrations are refused: the longest of the bundled ones has about thirty steps.
 MAX_STEPS = 500
+
+
+_T = TypeVar("_T")
+
+
+class History(Generic[_T]):
+    """The versions of an immutable value, one of them current."""
+
+    def __init__(self, first: _T) -> None:
+        self._versions = [first]
+        self._at = 0
+
+    @property
+    def current(self) -> _T:
+        """The current version."""
+        return self._versions[self._at]
+
+    def add(self, version: _T) -> None:
+        """Make a new version current, in place of all that were undone."""
+        self._versions[self._at + 1 :] = [version]
+        self._at += 1
+
+    def undo(self) -> bool:
+        """Go back to the version before; return false if there is none."""
+        moved = self._at > 0
+        self._at -= moved
+        return moved
+
+    def redo(self) -> bool:
+        """Go to the version after; return false if there is none."""
+        moved = self._at + 1 < len(self._versions)
+        self._at += moved
+        return moved
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +128,6 @@ class Session:
         self.proposed = None if proposed is None else _in_order(proposed, len(self.clauses))
         self._habits = habits
         self._wording = Wording(world.task.problem)
-        self._lock = threading.RLock()
         self._cursor = 0
         states = [world.task.init]
         done = tuple(instructions)
@@ -132,8 +162,7 @@ class Session:
     @property
     def state(self) -> Bits:
         """The state that is looked at, as bits of the environment's task."""
-        with self._lock:
-            return self._history.current.states[self._cursor]
+        return self._history.current.states[self._cursor]
 
     @property
     def states(self) -> tuple[Bits, ...]:
@@ -146,29 +175,26 @@ class Session:
         Raises:
             TmdError: It does not apply, with the broken precondition; or the demonstration is too long.
         """
-        with self._lock:
-            now, at = self._history.current, self._cursor
-            if at >= MAX_STEPS:
-                raise TmdError(f"a demonstration has at most {MAX_STEPS} steps", hint="save it, and begin another")
-            after = self._applied(instruction, now.states[at], at + 1)
-            done = (*(step.instruction for step in now.steps[:at]), instruction)
-            pins = {number: clause for number, clause in now.pins.items() if number < at}
-            self._become(self._version(done, (*now.states[: at + 1], after), pins))
-            return self.steps[-1]
+        now, at = self._history.current, self._cursor
+        if at >= MAX_STEPS:
+            raise TmdError(f"a demonstration has at most {MAX_STEPS} steps", hint="save it, and begin another")
+        after = self._applied(instruction, now.states[at], at + 1)
+        done = (*(step.instruction for step in now.steps[:at]), instruction)
+        pins = {number: clause for number, clause in now.pins.items() if number < at}
+        self._become(self._version(done, (*now.states[: at + 1], after), pins))
+        return self.steps[-1]
 
     def undo(self) -> bool:
         """Take the last change back (a step, a mark); false where there is none."""
-        with self._lock:
-            moved = self._history.undo()
-            self._cursor = len(self.steps) if moved else self._cursor
-            return moved
+        moved = self._history.undo()
+        self._cursor = len(self.steps) if moved else self._cursor
+        return moved
 
     def redo(self) -> bool:
         """Make the change again that was taken back last; false where there is none."""
-        with self._lock:
-            moved = self._history.redo()
-            self._cursor = len(self.steps) if moved else self._cursor
-            return moved
+        moved = self._history.redo()
+        self._cursor = len(self.steps) if moved else self._cursor
+        return moved
 
     def goto(self, step: int) -> None:
         """Look at the state after that many steps; 0 is the beginning. Nothing is undone.
@@ -176,13 +202,12 @@ class Session:
         Raises:
             TmdError: There are not so many.
         """
-        with self._lock:
-            if not 0 <= step <= len(self.steps):
-                raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
-            self._cursor = step
+        if not 0 <= step <= len(self.steps):
+            raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
+        self._cursor = step
 
     def mark(self, step: int, clause: int) -> None:
-        """Say which clause a step serves.
+        """Mark the clause that a step serves.
 
         Steps before it that serve a later clause, and steps behind it that serve an earlier one, move along; where
         one of them was marked otherwise, that mark goes.
@@ -194,18 +219,15 @@ class Session:
         Raises:
             TmdError: There is no such step or clause.
         """
-        with self._lock:
-            now = self._history.current
-            self._known_step(step)
-            if not 0 <= clause < len(self.clauses):
-                raise TmdError(f"there is no clause {clause + 1}", hint=f"the text has {len(self.clauses)}")
-            pins = {
-                n: c for n, c in now.pins.items() if (n < step - 1 and c <= clause) or (n > step - 1 and c >= clause)
-            }
-            done = tuple(s.instruction for s in now.steps)
-            at = self._cursor
-            self._become(self._version(done, now.states, {**pins, step - 1: clause}))
-            self._cursor = at
+        now = self._history.current
+        self._known_step(step)
+        if not 0 <= clause < len(self.clauses):
+            raise TmdError(f"there is no clause {clause + 1}", hint=f"the text has {len(self.clauses)}")
+        pins = {n: c for n, c in now.pins.items() if (n < step - 1 and c <= clause) or (n > step - 1 and c >= clause)}
+        done = tuple(s.instruction for s in now.steps)
+        at = self._cursor
+        self._become(self._version(done, now.states, {**pins, step - 1: clause}))
+        self._cursor = at
 
     def changes(self, step: int) -> StateChanges:
         """Return the facts that a step changed.
@@ -213,11 +235,10 @@ class Session:
         Raises:
             TmdError: There is no such step.
         """
-        with self._lock:
-            self._known_step(step)
-            before, after = self._history.current.states[step - 1 : step + 1]
-            names = self.world.task.names
-            return StateChanges(tuple(names(after & ~before)), tuple(names(before & ~after)))
+        self._known_step(step)
+        before, after = self._history.current.states[step - 1 : step + 1]
+        names = self.world.task.names
+        return StateChanges(tuple(names(after & ~before)), tuple(names(before & ~after)))
 
     def segments(self) -> tuple[Segment, ...]:
         """Return the pieces of the text with what serves each, as a demonstration has them."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
@@ -10,17 +10,10 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.drafts import CorrectionDraft
 from tmd.studio.demonstrations.session import DemonstratedStep
-from tmd.studio.panels.context import PanelContext
+from tmd.studio.environment_view import Reel
+from tmd.studio.panels.context import PanelContext, chosen, put
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
-from tmd.studio.panels.html import fragment, step_list
-from tmd.studio.panels.widgets import chosen, put
-from tmd.studio.view3d.playback import Reel
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from viser import GuiDropdownHandle
-
+from tmd.studio.panels.html import StepLine, fragment, step_list
 
 EVERYWHERE = "in every step"
 HERE = "in this step"
@@ -39,27 +32,23 @@ class CorrectPanel:
         self._insertable: dict[str, Instruction] = {}
         self._at = 0
         self._reel = Reel(visitor.setting)
-        gui, guarded = visitor.client.gui, visitor.guarded
+        gui = visitor.client.gui
         self._text = gui.add_html(fragment(PLAN_FIRST))
-        self._resume = gui.add_button("Go on with the correction", visible=False)
-        self._resume.on_click(guarded(self.resume))
+        self._resume = visitor.button("Go on with the correction", self.resume, visible=False)
         self._all = gui.add_folder("Edit", visible=False)
         with self._all:
-            self._edits = gui.add_button_group("Change", _EDITS)
-            self._edits.on_click(guarded(self._edit))
-            self._old: GuiDropdownHandle[str] = gui.add_dropdown("Instead of", (NOTHING,))
-            self._new: GuiDropdownHandle[str] = gui.add_dropdown("take", (NOTHING,))
-            self._where = gui.add_button_group("Swap", (HERE, EVERYWHERE))
-            self._where.on_click(guarded(self._swap))
-            self._with: GuiDropdownHandle[str] = gui.add_dropdown("Insert with", (NOTHING,))
-            self._with.on_update(guarded(self._instructions))
-            self._what: GuiDropdownHandle[str] = gui.add_dropdown("Instruction", (NOTHING,))
-            gui.add_button("Insert behind this step").on_click(guarded(self._insert))
-            gui.add_button("Let the planner put in what is missing").on_click(guarded(self._mend))
+            self._edits = visitor.buttons("Change", _EDITS, self._edit)
+            self._old = visitor.dropdown("Instead of", (NOTHING,))
+            self._new = visitor.dropdown("take", (NOTHING,))
+            self._where = visitor.buttons("Swap", (HERE, EVERYWHERE), self._swap)
+            self._with = visitor.dropdown("Insert with", (NOTHING,), self._instructions)
+            self._what = visitor.dropdown("Instruction", (NOTHING,))
+            visitor.button("Insert behind this step", self._insert)
+            visitor.button("Let the planner put in what is missing", self._mend)
             self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
-            self._goal.on_update(guarded(self._keep))
-            gui.add_button("Done: look at it, and save it", color="blue").on_click(guarded(self._finish))
-        guarded(self._look_for_draft)(None)
+            self._goal.on_update(visitor.guarded(self._keep))
+            visitor.button("Done: look at it, and save it", self._finish, color="blue")
+        visitor.guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
         """Close the correction in another environment; an unfinished one is kept."""
@@ -87,15 +76,13 @@ class CorrectPanel:
 
     def _open(self, correction: Correction, goal: str = "") -> None:
         visitor = self._visitor
-        with visitor.holding():
-            visitor.stop()
-            self._correction = correction
-            self._reel, self._at = Reel(visitor.setting), 1 if correction.steps else 0
-            names = visitor.setting.names()
-            self._new.options = self._with.options = (NOTHING, *names)
-            self._all.visible, self._resume.visible = True, False
-            put(self._goal, goal)
-            self._refresh()
+        visitor.stop()
+        self._correction = correction
+        self._reel, self._at = Reel(visitor.setting), 1 if correction.steps else 0
+        self._new.options = self._with.options = (NOTHING, *visitor.setting.names())
+        self._all.visible, self._resume.visible = True, False
+        put(self._goal, goal)
+        self._refresh()
 
     # what is not done yet
 
@@ -141,40 +128,35 @@ class CorrectPanel:
 
     def goto(self, step: int) -> None:
         """Choose a step, and look at what it leads to."""
-        with self._visitor.holding():
-            self._at = min(max(step, 0), len(self._going().steps))
-            self._refresh()
+        self._at = min(max(step, 0), len(self._going().steps))
+        self._refresh()
 
     def move(self, step: int, to: int) -> None:
         """Drag a step to the place of another."""
-        with self._visitor.holding():
-            self._going().move(step, to)
-            self._at = to
-            self._refresh()
+        self._going().move(step, to)
+        self._at = to
+        self._refresh()
 
     def _edit(self) -> None:
         correction, at = self._going(), self._at
         edit = chosen(self._edits)
-        with self._visitor.holding():
-            if edit in ("Delete", "Earlier", "Later") and not at:
-                raise TmdError("no step is chosen", hint="click on one")
-            if edit == "Delete":
-                correction.delete(at)
-            elif edit in ("Earlier", "Later"):
-                to = min(max(at + (1 if edit == "Later" else -1), 1), len(correction.steps))
-                correction.move(at, to)
-                self._at = to
-            elif not (correction.undo() if edit == "Undo" else correction.redo()):
-                raise TmdError("there is nothing to take back" if edit == "Undo" else "nothing was taken back")
-            self._refresh()
+        if edit in ("Delete", "Earlier", "Later") and not at:
+            raise TmdError("no step is chosen", hint="click on one")
+        if edit == "Delete":
+            correction.delete(at)
+        elif edit in ("Earlier", "Later"):
+            self._at = min(max(at + (1 if edit == "Later" else -1), 1), len(correction.steps))
+            correction.move(at, self._at)
+        elif not (correction.undo() if edit == "Undo" else correction.redo()):
+            raise TmdError("there is nothing to take back" if edit == "Undo" else "nothing was taken back")
+        self._refresh()
 
     def _swap(self) -> None:
         correction, old, new = self._going(), chosen(self._old), chosen(self._new)
         if NOTHING in (old, new):
             raise TmdError("choose the two objects first")
-        with self._visitor.holding():
-            count = correction.swap(old, new, self._at if self._where.value == HERE else None)
-            self._refresh()
+        count = correction.swap(old, new, self._at if self._where.value == HERE else None)
+        self._refresh()
         self._visitor.tell(f"{count} step{'' if count == 1 else 's'} changed.")
 
     def _instructions(self) -> None:
@@ -191,15 +173,13 @@ class CorrectPanel:
         instruction = self._insertable.get(self._what.value)
         if instruction is None:
             raise TmdError("choose an instruction first")
-        with self._visitor.holding():
-            self._going().insert(self._at + 1, instruction)
-            self._at += 1
-            self._refresh()
+        self._going().insert(self._at + 1, instruction)
+        self._at += 1
+        self._refresh()
 
     def _mend(self) -> None:
-        with self._visitor.holding():
-            added = self._going().repair()
-            self._refresh()
+        added = self._going().repair()
+        self._refresh()
         said = "; ".join(map(self._visitor.wording.instruction, added))
         self._visitor.tell(f"Put in: {said}." if added else "Nothing is missing.")
 
@@ -230,11 +210,9 @@ class CorrectPanel:
         states = self._reel.states
         self._reel.become([*states, *[states[-1]] * (len(steps) - works)])
         visitor.watch(self._reel, self._at, self, [step.instruction for step in steps])
-        why = [] if broken is None else [f"✗ {broken.why}"]
-        lines = [(str(step.instruction), f"clause {step.clause + 1}", False) for step in steps]
-        marked = {broken.step: why} if broken else {}
+        lines = [StepLine(step.instruction, f"clause {step.clause + 1}") for step in steps]
+        faults = {broken.step: [f"✗ {broken.why}"]} if broken else {}
         state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
-        said = f"<p role='status'>{state}</p>"
-        words = [visitor.wording.instruction(step.instruction) for step in steps]
-        listed = step_list(lines, self._at, (), marked, of="correct", draggable=True, words=words)
-        self._text.content = fragment(said) + listed
+        in_words = visitor.wording.instruction
+        listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct", draggable=True)
+        self._text.content = fragment(f"<p role='status'>{state}</p>") + listed

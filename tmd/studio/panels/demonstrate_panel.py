@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
@@ -13,14 +14,9 @@ from tmd.studio.demonstrations.correction import what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import Draft
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.panels.context import PanelContext
-from tmd.studio.panels.html import changed, fragment, refused, step_list
-from tmd.studio.panels.widgets import chosen, put
-from tmd.studio.view3d.playback import Reel
-
-if TYPE_CHECKING:
-    from viser import GuiDropdownHandle
-
+from tmd.studio.environment_view import Reel
+from tmd.studio.panels.context import PanelContext, chosen, put
+from tmd.studio.panels.html import StepLine, changed, fragment, refused, step_list
 
 OWN = "(own words)"
 NONE = "(no object)"
@@ -42,38 +38,32 @@ class DemonstratePanel:
         self._offered: list[Any] = []
         self._numbered: list[Instruction] = []
         self._waiting: dict[str, Instruction] = {}
-        gui, guarded = visitor.client.gui, visitor.guarded
-        self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Tasks", (OWN, *self._texts()))
-        self._examples.on_update(guarded(self._take_example))
+        gui = visitor.client.gui
+        self._examples = visitor.dropdown("Tasks", (OWN, *self._texts()), self._take_example)
         self._text = gui.add_text("Task text", "", multiline=True, hint="What you are going to show.")
-        self._begin = gui.add_button("Begin", color="blue")
-        self._begin.on_click(guarded(self.begin))
-        self._resume = gui.add_button("Go on with what was not saved", visible=False)
-        self._resume.on_click(guarded(self.resume))
+        self._begin = visitor.button("Begin", self.begin, color="blue")
+        self._resume = visitor.button("Go on with what was not saved", self.resume, visible=False)
         self._steps = gui.add_html("")
-        self._clause: GuiDropdownHandle[str] = gui.add_dropdown("It serves", ("1",), visible=False)
-        self._clause.on_update(guarded(self._mark))
-        self._edit = gui.add_button_group("Change", ("Undo", "Redo"), visible=False)
-        self._edit.on_click(guarded(self._changed))
+        self._clause = visitor.dropdown("It serves", ("1",), self._mark, visible=False)
+        self._edit = visitor.buttons("Change", ("Undo", "Redo"), self._changed, visible=False)
         self._do = gui.add_folder("Do", visible=False)
         with self._do:
-            self._object: GuiDropdownHandle[str] = gui.add_dropdown("With", (NONE, *visitor.setting.names()))
-            self._object.on_update(guarded(self._point))
+            self._object = visitor.dropdown("With", (NONE, *visitor.setting.names()), self._point)
             self._buttons = gui.add_folder("Possible now")
-            self._later: GuiDropdownHandle[str] = gui.add_dropdown("Not possible yet", (NOTHING,))
-            gui.add_button("Do that, and first what it needs").on_click(guarded(self._do_later))
+            self._later = visitor.dropdown("Not possible yet", (NOTHING,))
+            visitor.button("Do that, and first what it needs", self._do_later)
         self._keep = gui.add_folder("Save", visible=False)
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
             self._goal = gui.add_text("Goal (optional)", "", hint=GOAL_HINT)
             self._who = gui.add_text("Who (optional)", "")
             self._when = gui.add_checkbox("Save the time as well", False)
-            gui.add_button("Save (K)", color="green").on_click(guarded(self.save))
-            gui.add_button("Throw away").on_click(guarded(self.discard))
+            visitor.button("Save (K)", self.save, color="green")
+            visitor.button("Throw away", self.discard)
         self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False, visible=False)
         with self._refused:
             self._reasons = gui.add_html("")
-        guarded(self._look_for_draft)(None)
+        visitor.guarded(self._look_for_draft)(None)
 
     def _texts(self) -> list[str]:
         return self._visitor.studio.examples(self._visitor.setting.name)
@@ -127,17 +117,15 @@ class DemonstratePanel:
         self._visitor.ask(title, f'"{said}" was shown with {steps} in {draft.environment} and is not saved.', yes, act)
 
     def _open(self, session: Session) -> None:
-        visitor = self._visitor
-        with visitor.holding():
-            visitor.stop()
-            self._session = session
-            put(self._goal, "")
-            self._reel = Reel(visitor.setting)
-            for handle in (self._edit, self._do, self._keep, self._refused):
-                handle.visible = True
-            self._begin.label = "Start over"
-            self._resume.visible = False
-            self.refresh()
+        self._visitor.stop()
+        self._session = session
+        put(self._goal, "")
+        self._reel = Reel(self._visitor.setting)
+        for handle in (self._edit, self._do, self._keep, self._refused):
+            handle.visible = True
+        self._begin.label = "Start over"
+        self._resume.visible = False
+        self.refresh()
 
     def _close(self) -> None:
         self._session = None
@@ -151,21 +139,19 @@ class DemonstratePanel:
     def save(self) -> None:
         """Save the demonstration, and learn from it."""
         visitor = self._visitor
-        with visitor.holding():
-            session = self._going()
-            goal = self._goal.value.strip() or None
-            saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
-            visitor.studio.drafts.discard(visitor.identity, Draft)
-            self._close()
+        session = self._going()
+        goal = self._goal.value.strip() or None
+        saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
+        visitor.studio.drafts.discard(visitor.identity, Draft)
+        self._close()
         visitor.saved(saved)
 
     def discard(self) -> None:
         """Throw the demonstration away."""
         visitor = self._visitor
-        with visitor.holding():
-            self._going()
-            visitor.studio.drafts.discard(visitor.identity, Draft)
-            self._close()
+        self._going()
+        visitor.studio.drafts.discard(visitor.identity, Draft)
+        self._close()
         visitor.tell("Thrown away.", aloud=True)
 
     def _going(self) -> Session:
@@ -204,64 +190,55 @@ class DemonstratePanel:
 
     def do(self, instruction: Instruction) -> None:
         """Carry out an instruction after the step that is looked at."""
-        with self._visitor.holding():
-            self._going().do(instruction)
-            self.refresh()
+        self._going().do(instruction)
+        self.refresh()
 
     def do_numbered(self, number: int) -> None:
         """Carry out the instruction whose button has this number, from 1."""
-        with self._visitor.holding():
-            self._going()
-            if number > len(self._numbered):
-                raise TmdError(f"there is no instruction {number}", hint="point at an object first")
-            self.do(self._numbered[number - 1])
+        self._going()
+        if number > len(self._numbered):
+            raise TmdError(f"there is no instruction {number}", hint="point at an object first")
+        self.do(self._numbered[number - 1])
 
     def _do_later(self) -> None:
         """Carry out an instruction that does not apply yet, after what the planner finds that it needs."""
         visitor = self._visitor
-        with visitor.holding():
-            session, world = self._going(), visitor.setting.world
-            instruction = self._waiting.get(self._later.value)
-            if instruction is None:
-                raise TmdError("choose an instruction first", hint="point at an object")
-            needed = what_it_needs(instruction, session.state, world, make(IN_PROCESS, world.task))
-            for each in (*needed, instruction):
-                session.do(each)
-            self.refresh()
+        session, world = self._going(), visitor.setting.world
+        instruction = self._waiting.get(self._later.value)
+        if instruction is None:
+            raise TmdError("choose an instruction first", hint="point at an object")
+        needed = what_it_needs(instruction, session.state, world, make(IN_PROCESS, world.task))
+        for each in (*needed, instruction):
+            session.do(each)
+        self.refresh()
         visitor.tell(f"Done, with {len(needed)} step{'' if len(needed) == 1 else 's'} before it.")
 
     def undo(self) -> None:
         """Take the last change back."""
-        with self._visitor.holding():
-            if not self._going().undo():
-                raise TmdError("there is nothing to take back")
-            self.refresh()
+        if not self._going().undo():
+            raise TmdError("there is nothing to take back")
+        self.refresh()
 
     def redo(self) -> None:
         """Make it again."""
-        with self._visitor.holding():
-            if not self._going().redo():
-                raise TmdError("nothing was taken back")
-            self.refresh()
+        if not self._going().redo():
+            raise TmdError("nothing was taken back")
+        self.refresh()
 
     def _changed(self) -> None:
         {"Undo": self.undo, "Redo": self.redo}[chosen(self._edit)]()
 
     def goto(self, step: int) -> None:
         """Look at the state after so many steps; nothing is undone."""
-        with self._visitor.holding():
-            session = self._going()
-            if step != session.cursor:
-                session.goto(step)
-            self.refresh()
+        self._going().goto(step)
+        self.refresh()
 
     def _mark(self) -> None:
-        with self._visitor.holding():
-            session = self._going()
-            clause = list(self._clause.options).index(chosen(self._clause))
-            if session.cursor and session.steps[session.cursor - 1].clause != clause:
-                session.mark(session.cursor, clause)
-                self.refresh()
+        session = self._going()
+        clause = list(self._clause.options).index(chosen(self._clause))
+        if session.cursor and session.steps[session.cursor - 1].clause != clause:
+            session.mark(session.cursor, clause)
+            self.refresh()
 
     # showing
 
@@ -282,11 +259,10 @@ class DemonstratePanel:
             wording = visitor.wording
             gains = changed(change.added, change.removed, wording.fact) if change else []
             lines = [
-                (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
+                StepLine(step.instruction, f"clause {step.clause + 1}" + (", marked" if step.marked else ""))
                 for step in session.steps
             ]
-            words = [wording.instruction(step.instruction) for step in session.steps]
-            self._steps.content = step_list(lines, cursor, gains, of="demonstrate", words=words)
+            self._steps.content = step_list(lines, cursor, gains, in_words=wording.instruction, of="demonstrate")
             self._clause.visible = bool(session.steps)
             if session.steps:
                 self._clause.options = tuple(titles)
@@ -303,43 +279,39 @@ class DemonstratePanel:
         session, visitor = self._session, self._visitor
         if session is None:
             return
-        with visitor.holding():
-            name = visitor.selected
-            if self._object.value != (name or NONE):
-                put(self._object, name or NONE)
-            known = visitor.studio.offers(visitor.setting.name)
-            groups = [*(known.of(name, session.state, parts=True) if name else ()), *known.anywhere(session.state)]
-            with visitor.client.atomic(), self._buttons:
-                for handle in self._offered:
-                    handle.remove()
-                self._offered, self._numbered = [], []
-                for group in groups:
-                    self._offer(group)
-            waiting = [offer.instruction for group in groups for offer in group.offers if not offer.applies]
-            waiting.sort(key=lambda instruction: (instruction.args[:1] != (name,), instruction))
-            self._waiting = visitor.wording.by_words(waiting)
-            options = (NOTHING, *self._waiting)
-            if self._later.options != options:
-                self._later.options = options
-            self._reasons.content = fragment(refused(groups, visitor.wording.instruction))
+        name = visitor.selected
+        put(self._object, name or NONE)
+        known = visitor.studio.offers(visitor.setting.name)
+        groups = [*(known.of(name, session.state, parts=True) if name else ()), *known.anywhere(session.state)]
+        with visitor.client.atomic(), self._buttons:
+            for handle in self._offered:
+                handle.remove()
+            self._offered, self._numbered = [], []
+            for group in groups:
+                self._offer(group)
+        waiting = [offer.instruction for group in groups for offer in group.offers if not offer.applies]
+        waiting.sort(key=lambda instruction: (instruction.args[:1] != (name,), instruction))
+        self._waiting = visitor.wording.by_words(waiting)
+        options = (NOTHING, *self._waiting)
+        if self._later.options != options:
+            self._later.options = options
+        self._reasons.content = fragment(refused(groups, visitor.wording.instruction))
 
     def _offer(self, group: ActionGroup) -> None:
-        gui, guarded = self._visitor.client.gui, self._visitor.guarded
+        visitor = self._visitor
         possible = [offer.instruction for offer in group.offers if offer.applies]
-        whole = self._visitor.selected
+        whole = visitor.selected
         possible.sort(key=lambda instruction: (whole not in instruction.args, instruction))
-        told = [*self._visitor.wording.by_words(possible).items()]
+        told = [*visitor.wording.by_words(possible).items()]
         for words, instruction in told[:_FEW]:
             self._numbered.append(instruction)
             number = len(self._numbered)
             icon = f"square-number-{number}" if number <= NUMBERED else None
-            button = gui.add_button(words, icon=icon, hint=str(instruction))  # type: ignore[arg-type]  # icons are told by name
-            button.on_click(guarded(lambda instruction=instruction: self.do(instruction)))  # type: ignore[misc]
-            self._offered.append(button)
+            act = partial(self.do, instruction)
+            self._offered.append(visitor.button(words, act, icon=icon, hint=str(instruction)))
         more = dict(told[_FEW:])
         if more:
             verb = told[0][0].split()[0].lower()
-            choice = gui.add_dropdown(f"More: {verb}", tuple(more))
-            button = gui.add_button(f"Do that: {verb}")
-            button.on_click(guarded(lambda: self.do(more[chosen(choice)])))
+            choice = visitor.dropdown(f"More: {verb}", tuple(more))
+            button = visitor.button(f"Do that: {verb}", lambda: self.do(more[chosen(choice)]))
             self._offered += [choice, button]

@@ -6,7 +6,7 @@ Colours are those of Okabe and Ito, which colour-blind people can tell apart; ea
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
@@ -27,16 +27,12 @@ _NAMED = 6
 _TEMPLATE = "studio.html.j2"
 
 
-@dataclass(frozen=True, slots=True)
-class _ListedStep:
-    number: int
-    instruction: str
+class StepLine(NamedTuple):
+    """A step of a list: its instruction, its purpose, and whether it is latent."""
+
+    instruction: Instruction
     purpose: str
-    latent: bool
-    words: str
-    faults: Sequence[str]
-    gains: Sequence[str]
-    folded: bool
+    latent: bool = False
 
 
 def fragment(content: str) -> str:
@@ -50,39 +46,38 @@ def notice(message: str, hint: str | None = None, *, fault: bool = False) -> str
 
 
 def step_list(
-    lines: Iterable[tuple[str, str, bool]],
+    lines: Iterable[StepLine],
     current: int,
     gains: Sequence[str] = (),
     faults: Mapping[int, Sequence[str]] | None = None,
     *,
+    in_words: Callable[[Instruction], str] = str,
     of: str = "",
     folded: Collection[int] = (),
     draggable: bool = False,
-    words: Sequence[str] = (),
 ) -> str:
-    """Render numbered steps.
+    """Render numbered steps in words; the instruction shows on hover, and below the step that was taken last.
 
     Args:
-        lines: For each step the instruction, its purpose, and whether it is latent.
+        lines: The steps.
         current: The step that was taken last, from 1; 0 is the beginning.
         gains: The facts that it changed, as HTML; shown below it.
         faults: The faults of steps, by number.
+        in_words: Puts an instruction into words.
         of: The panel whose steps they are; it is sent each click on a step.
         folded: The numbers of steps that are counted instead of listed.
         draggable: Whether a step can be dragged to the place of another.
-        words: The words for each step, which are listed in place of its instruction; that shows on hover, and below
-            the step that was taken last.
     """
     wrong = faults or {}
     steps = [
-        _ListedStep(
-            number,
-            *line,
-            words[number - 1] if number <= len(words) else "",
-            wrong.get(number, ()),
-            gains if number == current else (),
-            number in folded and number != current and not wrong.get(number),
-        )
+        {
+            **line._asdict(),
+            "number": number,
+            "words": in_words(line.instruction),
+            "faults": wrong.get(number, ()),
+            "gains": gains if number == current else (),
+            "folded": number in folded and number != current and not wrong.get(number),
+        }
         for number, line in enumerate(lines, start=1)
     ]
     return fragment(macro(_TEMPLATE, "step_list", steps, current, of, draggable))
@@ -142,7 +137,7 @@ def side_by_side(plans: Sequence[RankedPlan], world: World, wording: Wording) ->
 
 
 def _rows(one: RankedPlan, other: RankedPlan, wording: Wording) -> list[tuple[str, str]]:
-    """Return align two plans, with a sign at each step that is in one of them only."""
+    """Align two plans, with a sign at each step that is in one of them only."""
     left, right = one.instructions, other.instructions
     rows = []
     for line in align([*map(str, left)], [*map(str, right)]):

@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
 from tmd.studio.environment_edit import EditedEnvironment, StateChange
 from tmd.studio.object_info import about
-from tmd.studio.panels.context import PanelContext
+from tmd.studio.panels.context import PanelContext, chosen, put
 from tmd.studio.panels.html import changed, fragment, object_facts
-from tmd.studio.panels.widgets import chosen, put
 from tmd.view.markup import style
 from tmd.view.object_graph import GraphChanges, object_graph
-
-if TYPE_CHECKING:
-    from viser import GuiDropdownHandle
 
 NOTHING = "(nothing)"
 # Maximum number of object graphs drawn at once.
@@ -30,24 +25,22 @@ class ObjectPanel:
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
         gui = visitor.client.gui
-        self._which = gui.add_dropdown("Object", (NOTHING, *self._names()))
-        self._which.on_update(visitor.guarded(self._chosen))
+        self._which = visitor.dropdown("Object", (NOTHING, *self._names()), self._chosen)
         self._facts = gui.add_html("")
         self._changes: dict[str, StateChange] = {}
         self._offered: str | None = None
-        guarded = visitor.guarded
         with gui.add_folder("Change the world", expand_by_default=False):
             gui.add_html(fragment("<p>A changed world is a new environment; the file of this one stays as it is.</p>"))
-            self._state: GuiDropdownHandle[str] = gui.add_dropdown("Its state", (NOTHING,))
-            gui.add_button("Make it so").on_click(guarded(self._change))
-            self._relation = gui.add_dropdown("Place", RELATIONS)
-            self._place: GuiDropdownHandle[str] = gui.add_dropdown("of", (NOTHING, *self._names()))
-            gui.add_button("Put the object there").on_click(guarded(self._put))
-            self._kind: GuiDropdownHandle[str] = gui.add_dropdown("A new", (NOTHING,))
-            gui.add_button("Add it there").on_click(guarded(self._add))
-            gui.add_button("Take the object away").on_click(guarded(self._remove))
+            self._state = visitor.dropdown("Its state", (NOTHING,))
+            visitor.button("Make it so", self._change)
+            self._relation = visitor.dropdown("Place", RELATIONS)
+            self._place = visitor.dropdown("of", (NOTHING, *self._names()))
+            visitor.button("Put the object there", self._put)
+            self._kind = visitor.dropdown("A new", (NOTHING,))
+            visitor.button("Add it there", self._add)
+            visitor.button("Take the object away", self._remove)
             self._name = gui.add_text("Name", "", hint="Small letters, digits, _ : a file of this name.")
-            gui.add_button("Save as an environment").on_click(guarded(self._keep))
+            visitor.button("Save as an environment", self._keep)
         self.entered()
 
     def _names(self) -> list[str]:
@@ -119,51 +112,38 @@ class ObjectPanel:
     def _become(self, change: Callable[[EditedEnvironment], object], words: str, name: str | None) -> None:
         """Go to the environment that a change makes of this one."""
         visitor = self._visitor
-        with visitor.holding():
-            visitor.enter(visitor.studio.changed(visitor.setting, change))
-            visitor.select(name)
+        visitor.enter(visitor.studio.changed(visitor.setting, change))
+        visitor.select(name)
         visitor.tell(f"Changed: {words}. Save it as an environment to demonstrate in it.")
 
     def _keep(self) -> None:
         visitor = self._visitor
-        with visitor.holding():
-            name = visitor.studio.keep_environment(visitor.setting, self._name.value.strip())
-            visitor.enter(name)
+        name = visitor.studio.keep_environment(visitor.setting, self._name.value.strip())
+        visitor.enter(name)
         visitor.tell(f"Saved as the environment {name}.", aloud=True)
-
-    def _all(self) -> str:
-        """Return the object graphs of an environment of which there is no picture."""
-        visitor = self._visitor
-        if visitor.setting.look is not None:
-            return ""
-        reel, step = visitor.reel, visitor.cursor
-        now = reel.facts(step)
-        before = reel.facts(step - 1) if step else now
-        changes = GraphChanges(now - before, before - now)
-        return "".join(object_graph(visitor.setting.world, now, name, changes) for name in self._names()[:DRAWN])
 
     def refresh(self) -> None:
         """Show the state that is seen now."""
         visitor = self._visitor
-        name = visitor.selected
-        if name is None:
-            hint = "<p>Click on an object, or choose one: its parts and states are shown.</p>"
-            self._facts.content = fragment(f"<style>{style()}</style>{hint}{self._all()}")
-            return
-        if self._which.value != name:
-            put(self._which, name)
-        if self._offered != name:
-            self._offer()
-        reel, step = visitor.reel, visitor.cursor
-        world = visitor.setting.world
+        name, reel, step, world = visitor.selected, visitor.reel, visitor.cursor, visitor.setting.world
         now = reel.facts(step)
         before = reel.facts(step - 1) if step else now
+        changes = GraphChanges(now - before, before - now)
+        if name is None:
+            hint = "<p>Click on an object, or choose one: its parts and states are shown.</p>"
+            drawn = self._names()[:DRAWN] if visitor.setting.look is None else ()  # where there is no picture
+            graphs = "".join(object_graph(world, now, each, changes) for each in drawn)
+            self._facts.content = fragment(f"<style>{style()}</style>{hint}{graphs}")
+            return
+        put(self._which, name)
+        if self._offered != name:
+            self._offer()
         said = visitor.wording.fact
         came, went = (sorted(a for a in more if name in a.args) for more in (now - before, before - now))
         gains = changed(came, went, said)
         lines = "".join(f"<li>{line}</li>" for line in gains)
         news = f"<h4>Changed by the last step</h4><ul>{lines}</ul>" if lines else ""
-        graph = object_graph(world, now, name, GraphChanges(now - before, before - now))
+        graph = object_graph(world, now, name, changes)
         names = (name, *(part for _, part in world.profiles.parts.get(name, ())))
         facts = "".join(object_facts(about(each, world, reel.states[step]), said) for each in names)
         self._facts.content = fragment(f"<style>{style()}</style>{news}{graph}{facts}")

@@ -7,8 +7,7 @@ import time
 from html import escape
 
 from tmd.pddl.model import Instruction
-from tmd.studio.panels.context import PanelContext, Played
-from tmd.studio.panels.widgets import chosen, put
+from tmd.studio.panels.context import PanelContext, chosen, put
 
 BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
 
@@ -18,33 +17,27 @@ class PlayerPanel:
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
-        self._owner: Played | None = None
-        self._step = self._last = 0
-        gui, guarded = visitor.client.gui, visitor.guarded
+        self._last = 0
+        gui = visitor.client.gui
         self._caption = gui.add_html("")
         self._slider = gui.add_slider("Step", 0, 1, 1, 0, visible=False)
-        self._slider.on_update(guarded(self._slid))
-        self._buttons = gui.add_button_group("Steps", BUTTONS, visible=False)
-        self._buttons.on_click(guarded(self._pressed))
+        self._slider.on_update(visitor.guarded(self._slid))
+        self._buttons = visitor.buttons("Steps", BUTTONS, self._pressed, visible=False)
         self._speed = gui.add_slider("Steps a second", 1, 10, 1, 2, visible=False)
 
-    def show(self, owner: Played | None, instructions: tuple[Instruction, ...], step: int) -> None:
-        """Show where in the steps of a panel the visitor is; nothing where there are none."""
-        self._owner, self._step, self._last = owner, step, len(instructions)
-        found = owner is not None and bool(instructions)
+    def show(self, instructions: tuple[Instruction, ...]) -> None:
+        """Show the place in the steps of the panel that is looked at; nothing where there are none."""
+        visitor, step = self._visitor, self._visitor.cursor
+        self._last = len(instructions)
+        found = visitor.owner is not None and bool(instructions)
         for handle in (self._slider, self._buttons, self._speed):
             if handle.visible != found:
                 handle.visible = found
         if found:
             self._slider.max = self._last
             put(self._slider, step)
-        done = self._visitor.wording.instruction(instructions[step - 1]) if 0 < step <= self._last else "the beginning"
+        done = visitor.wording.instruction(instructions[step - 1]) if 0 < step <= self._last else "the beginning"
         self.say(f"{step} / {self._last} {done}" if found else "")
-
-    @property
-    def owner(self) -> Played | None:
-        """The panel whose steps are looked at."""
-        return self._owner
 
     def say(self, words: str) -> None:
         """Put a caption over the picture."""
@@ -53,7 +46,7 @@ class PlayerPanel:
             self._caption.content = content
 
     def _slid(self) -> None:
-        if self._owner is not None and self._slider.value != self._step:
+        if self._slider.value != self._visitor.cursor:
             self.goto(int(self._slider.value))
 
     def goto(self, step: int) -> None:
@@ -63,14 +56,17 @@ class PlayerPanel:
 
     def move(self, by: int) -> None:
         """Go some steps on, or back."""
-        self.goto(self._step + by)
+        self.goto(self._visitor.cursor + by)
 
     def _go(self, step: int) -> None:
-        if self._owner is not None:
-            self._owner.goto(min(max(step, 0), self._last))
+        visitor = self._visitor
+        with visitor.holding():
+            if visitor.owner is not None:
+                visitor.owner.goto(min(max(step, 0), self._last))
 
     def _pressed(self) -> None:
-        to = {"|◀": 0, "◀": self._step - 1, "▶": self._step + 1, "▶|": self._last}
+        step = self._visitor.cursor
+        to = {"|◀": 0, "◀": step - 1, "▶": step + 1, "▶|": self._last}
         pressed = chosen(self._buttons)
         if pressed in to:
             self.goto(to[pressed])
@@ -80,20 +76,21 @@ class PlayerPanel:
     def toggle(self) -> None:
         """Play, or pause."""
         visitor = self._visitor
-        if self._owner is None:
+        if visitor.owner is None:
             return
         if visitor.is_playing():
             visitor.stop()
             return
-        if self._step >= self._last:
+        if visitor.cursor >= self._last:
             self._go(0)
         visitor.play(self._frames)
 
     def _frames(self, ended: threading.Event) -> None:
+        visitor = self._visitor
         due = time.monotonic()
-        owner = self._owner
-        while not ended.is_set() and self._step < self._last and self._owner is owner:
-            self._go(self._step + 1)
+        owner = visitor.owner
+        while not ended.is_set() and visitor.cursor < self._last and visitor.owner is owner:
+            self._go(visitor.cursor + 1)
             due = max(due + 1 / min(max(self._speed.value, 1), 10), time.monotonic())
             ended.wait(due - time.monotonic())
         ended.set()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -23,21 +22,28 @@ from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.correction import steps_of
+from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
-from tmd.studio.panels.context import PanelContext
-from tmd.studio.panels.html import changed, effort, fragment, goal_list, judgement, side_by_side, step_list
-from tmd.studio.panels.widgets import chosen, put
-from tmd.studio.view3d.playback import Reel
+from tmd.studio.panels.context import PanelContext, chosen, put
+from tmd.studio.panels.html import (
+    StepLine,
+    changed,
+    effort,
+    fragment,
+    goal_list,
+    judgement,
+    side_by_side,
+    step_list,
+)
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
-from tmd.view.wording import Wording
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
-    from viser import GuiButtonHandle, GuiDropdownHandle
+    from viser import GuiButtonHandle
 
 
 # How many plans are ranked.
@@ -85,12 +91,10 @@ class SayPanel:
         self._asked: list[ShownGoal] = []
         self._step = 0
         self._saved: Demonstration | None = None
-        gui, guarded = visitor.client.gui, visitor.guarded
-        self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Examples", (OWN, *self._texts()))
-        self._examples.on_update(guarded(self._take_example))
+        gui = visitor.client.gui
+        self._examples = visitor.dropdown("Examples", (OWN, *self._texts()), self._take_example)
         self._text = gui.add_text("Text", "", multiline=True, hint="What is to be done, in English.")
-        self._button = gui.add_button("Plan it", color="blue")
-        self._button.on_click(guarded(self.plan))
+        self._button = visitor.button("Plan it", self.plan, color="blue")
         with gui.add_folder("Reader settings", expand_by_default=False):
             self._add_settings()
         self._question = gui.add_folder("Which one is meant?", visible=False)
@@ -99,32 +103,26 @@ class SayPanel:
         self._options: list[GuiButtonHandle] = []
         self._understood = gui.add_html("")
         self._judged = gui.add_html("")
-        self._which: GuiDropdownHandle[str] = gui.add_dropdown("Plan", ("1",), visible=False)
-        self._which.on_update(guarded(lambda: self._choose(self._number())))
+        self._which = visitor.dropdown("Plan", ("1",), lambda: self._choose(self._number()), visible=False)
         self._goals = gui.add_html("")
         self._fold = gui.add_checkbox("Main steps only", False, visible=False)
-        self._fold.on_update(guarded(self._look))
+        self._fold.on_update(visitor.guarded(self._look))
         self._steps = gui.add_html("")
-        self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False)
-        self._more.visible = False
+        self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False, visible=False)
         with self._more:
             self._energies = gui.add_html("")
-        self._after = gui.add_folder("What next", expand_by_default=True)
-        self._after.visible = False
+        self._after = gui.add_folder("What next", visible=False)
         with self._after:
-            gui.add_button("Correct this plan").on_click(guarded(self._correct))
-            self._robot = gui.add_button("Let the robot do it (simulated)")
-            self._robot.on_click(guarded(self._execute))
-            gui.add_button("Stop").on_click(guarded(visitor.stop))
-            self._files = gui.add_button_group("Download", _FILES)
-            self._files.on_click(guarded(self._download))
+            visitor.button("Correct this plan", self._correct)
+            self._robot = visitor.button("Let the robot do it (simulated)", self._execute)
+            visitor.button("Stop", visitor.stop)
+            self._files = visitor.buttons("Download", _FILES, self._download)
 
     def _add_settings(self) -> None:
         """Add the settings of the reader. The key is not among them: the page never has it."""
-        gui, guarded = self._visitor.client.gui, self._visitor.guarded
+        gui = self._visitor.client.gui
         model, url = os.environ.get(MODEL, ""), os.environ.get(URL, "")
-        self._reader: GuiDropdownHandle[str] = gui.add_dropdown("Reader", (RULES, LLM))
-        self._reader.on_update(guarded(self._choose_reader))
+        self._reader = self._visitor.dropdown("Reader", (RULES, LLM), self._choose_reader)
         self._model = gui.add_text("Model", model, hint=f"Its name; ${MODEL} if empty.", visible=False)
         self._url = gui.add_text("Server address", url, hint=_URL_HINT, visible=False)
         self._verify = gui.add_checkbox("Check the plan with the model", False, visible=False)
@@ -155,33 +153,26 @@ class SayPanel:
 
     def plan(self) -> None:
         """Ground the text, and show the best plan."""
-        visitor = self._visitor
-        with visitor.holding():
-            if self._button.disabled:
-                return  # it was pressed twice
-            visitor.stop()
-            self._clear()  # what is refused must not leave another sentence's plan below it
-            text = clean(self._text.value)
-            self._plan(Request(text, self._chosen_reader()))
+        if self._button.disabled:
+            return  # it was pressed twice
+        self._visitor.stop()
+        self._clear()  # what is refused must not leave another sentence's plan below it
+        text = clean(self._text.value)
+        self._plan(Request(text, self._chosen_reader()))
 
     def _plan(self, request: Request) -> None:
         """Ground a request, and show the best plan; in the background where a language model is asked."""
         visitor = self._visitor
-        with visitor.holding():
-            if request.reader is not None:
-                # the answer may take minutes: the visitor is not held, and none of viser's few threads waits for it
-                self._waiting = link = PageLink(visitor.setting.name, request.text)
-                self._step, self._button.disabled = 0, True
-                visitor.tell("Asking the language model …", "To wait no longer, choose the reader 'rules'.")
-                self._behind(lambda: self._plan_again(link, request))
-                return
+        self._waiting = link = PageLink(visitor.setting.name, request.text)
+        self._step = 0
+        if request.reader is None:
             visitor.tell("Planning …")
-            begun = time.perf_counter()
-            grounded = self._ground(request)
-            self._show(grounded, request=request)
-            took = time.perf_counter() - begun
-        self._tell(grounded, took)
-        visitor.keep_link()
+            self._plan_again(link, request)
+            return
+        # the answer may take minutes: the visitor is not held, and none of viser's few threads waits for it
+        self._button.disabled = True
+        visitor.tell("Asking the language model …", "To wait no longer, choose the reader 'rules'.")
+        visitor.behind(lambda: self._plan_again(link, request))
 
     def _ground(self, request: Request) -> Grounded:
         visitor = self._visitor
@@ -204,41 +195,34 @@ class SayPanel:
         model = chosen(self._reader) == LLM
         for handle in (self._model, self._url, self._verify):
             handle.visible = model
-        with self._visitor.holding():
-            if self._button.disabled and not model:
-                self._waiting, self._button.disabled = None, False
-                self._visitor.tell("The language model is not waited for any longer.")
+        if self._button.disabled and not model:
+            self._waiting, self._button.disabled = None, False
+            self._visitor.tell("The language model is not waited for any longer.")
 
     def _answer(self, grounded: Grounded, request: Request) -> None:
         """Ground again what a question was asked about, knowing the answer."""
-        with self._visitor.holding():
-            if self._grounded is not grounded:
-                return  # it was pressed twice, or another text was planned
-            self._visitor.stop()
-            self._clear()
-            self._plan(request)
+        if self._grounded is not grounded:
+            return  # it was pressed twice, or another text was planned
+        self._visitor.stop()
+        self._clear()
+        self._plan(request)
 
     def come_back(self, link: PageLink, kept: tuple[PlanStep, ...]) -> None:
         """Show the plan that the window kept at once, and plan what its address says in the background."""
         visitor = self._visitor
-        with visitor.holding():
-            put(self._text, link.say)
-            self._waiting, self._step = link, link.step
-            problem = visitor.setting.world.task.problem
-            works = (Status.VALID, Status.GOAL_NOT_REACHED)  # an environment has no goal
-            if kept and validate(problem, [step.instruction for step in kept]).status in works:
-                self._plans, self._reels = [kept], [self._played(kept)]
-                self._which.options = ("1",)
-                self._fold.visible = True
-                self.goto(link.step)
-                visitor.tell("Here is the plan that you looked at; it is planned again in the background.")
-            else:
-                visitor.tell("Planning …")
-        self._behind(lambda: self._plan_again(link, Request(clean(link.say))))
-
-    def _behind(self, act: Callable[[], None]) -> None:
-        """Do something in the background, and report errors."""
-        threading.Thread(target=self._visitor.guarded(act), args=(None,), daemon=True).start()
+        put(self._text, link.say)
+        self._waiting, self._step = link, link.step
+        problem = visitor.setting.world.task.problem
+        works = (Status.VALID, Status.GOAL_NOT_REACHED)  # an environment has no goal
+        if kept and validate(problem, [step.instruction for step in kept]).status in works:
+            self._plans, self._reels = [kept], [self._played(kept)]
+            self._which.options = ("1",)
+            self._fold.visible = True
+            self.goto(link.step)
+            visitor.tell("Here is the plan that you looked at; it is planned again in the background.")
+        else:
+            visitor.tell("Planning …")
+        visitor.behind(lambda: self._plan_again(link, Request(clean(link.say))))
 
     def _plan_again(self, link: PageLink, request: Request) -> None:
         """Plan a request, while the visitor may do something else; nothing is shown if that is another request."""
@@ -261,7 +245,7 @@ class SayPanel:
             before, step = self._plans, self._step
             found = [plan.steps for plan in grounded.plans]
             place = found.index(before[0]) if before and before[0] in found else link.plan - 1
-            free = visitor.shows(self)
+            free = visitor.owner in (None, self)
             self._show(grounded, place if place < len(found) else 0, step, watch=free, request=request)
             other = bool(before) and before[0] not in found
             if free or other or request.reader is not None:
@@ -283,31 +267,29 @@ class SayPanel:
     def saved(self, demonstration: Demonstration) -> None:
         """Plan the text of what was saved again, show that, and say whether it is what was shown."""
         visitor = self._visitor
-        with visitor.holding():  # learning may end meanwhile: what it has to say comes after this
-            learning = visitor.studio.teacher.learning
-            self._saved = demonstration
-            grounded = self._again(demonstration)
-            put(self._text, demonstration.text)
-            self._show(grounded)
-            used = whether_used(demonstration.instructions, grounded, visitor.wording.instruction)
-            visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
+        learning = visitor.studio.teacher.learning
+        self._saved = demonstration
+        grounded = self._again(demonstration)
+        put(self._text, demonstration.text)
+        self._show(grounded)
+        used = whether_used(demonstration.instructions, grounded, visitor.wording.instruction)
+        visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
 
     def learned(self) -> None:
         """Plan the text that was saved last again, and report whether the plan is the one that was shown."""
         visitor = self._visitor
-        with visitor.holding():
-            saved, self._saved = self._saved, None
-            if saved is None:
-                visitor.tell("Everything that was saved is learned.")
-                return
-            grounded = self._again(saved)
-            # what a language model read, or what was chosen in answer to a question, stays
-            same = self._request == Request(saved.text)
-            if same and not visitor.is_playing() and _plans(self._grounded) != _plans(grounded):
-                self._show(grounded)
-            used = whether_used(saved.instructions, grounded, visitor.wording.instruction)
-            said = " ".join(saved.text.split())
-            visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
+        saved, self._saved = self._saved, None
+        if saved is None:
+            visitor.tell("Everything that was saved is learned.")
+            return
+        grounded = self._again(saved)
+        # what a language model read, or what was chosen in answer to a question, stays
+        same = self._request == Request(saved.text)
+        if same and not visitor.is_playing() and _plans(self._grounded) != _plans(grounded):
+            self._show(grounded)
+        used = whether_used(saved.instructions, grounded, visitor.wording.instruction)
+        said = " ".join(saved.text.split())
+        visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
 
     def _again(self, saved: Demonstration) -> Grounded:
         """Return the text of a demonstration, planned where it was shown; a language model is not asked."""
@@ -367,9 +349,8 @@ class SayPanel:
         self._robot.visible = self._visitor.studio.executable(self._visitor.setting)
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
-        world_words = Wording(world.task.problem)
         self._energies.content = fragment(
-            side_by_side(grounded.plans, world, world_words)
+            side_by_side(grounded.plans, world, self._visitor.wording)
             + candidates(grounded.plans, lines, grounded.rejected, narrow=True)
             + effort(grounded.usage)
         )
@@ -400,10 +381,8 @@ class SayPanel:
             self._asked_for.content = fragment(f"<p>{escape(question.text)}</p>")
             texts = option_texts(question, grounded.world.task.problem)
             for option, text in zip(question.options, texts, strict=True):
-                button = visitor.client.gui.add_button(text, hint=flat(option.formula))
-                again = request.answered(question.step, option.formula)
-                button.on_click(visitor.guarded(partial(self._answer, grounded, again)))
-                self._options.append(button)
+                answer = partial(self._answer, grounded, request.answered(question.step, option.formula))
+                self._options.append(visitor.button(text, answer, hint=flat(option.formula)))
 
     def _number(self) -> int:
         return list(self._which.options).index(chosen(self._which))
@@ -462,12 +441,11 @@ class SayPanel:
             before, now = reel.facts(self._step - 1), reel.facts(self._step)
             gains = changed(sorted(now - before), sorted(before - now), wording.fact)
         lines = [
-            (str(s.instruction), f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
+            StepLine(s.instruction, f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
             for s in self.listed()
         ]
         folded = self._only_there(reel) if self._fold.value else ()
-        words = [wording.instruction(step.instruction) for step in self.listed()]
-        self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded, words=words)
+        self._steps.content = step_list(lines, self._step, gains, in_words=wording.instruction, of="say", folded=folded)
 
     def _only_there(self, reel: Reel) -> set[int]:
         """Return the numbers of the steps that only change facts about constants, such as the robot."""

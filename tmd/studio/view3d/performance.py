@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from threading import Event
 from typing import TYPE_CHECKING
 
@@ -12,7 +13,7 @@ from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.studio.environment_view import Look, Setting
-from tmd.studio.view3d.robot_mesh import Figure
+from tmd.studio.view3d.meshes import Figure
 from tmd.studio.view3d.scenery import Scenery
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
@@ -26,50 +27,32 @@ EVERY = 16
 
 
 class _StoppedError(Exception):
-    """The visitor does not want to see more."""
+    """The visitor stopped the run."""
 
 
+@dataclass(slots=True)
 class _Audience:
-    """View of a running simulation.
+    """A visitor who watches a running simulation until ``ended`` is set; ``begun`` is called with each instruction."""
 
-    Args:
-        stage: The simulation.
-        scenery: The visitor's view.
-        look: What it shows.
-        figure: The robot.
-        ended: The visitor does not want to see more.
-        begun: Called with each instruction that begins.
-    """
-
-    def __init__(
-        self,
-        stage: SimulationSession,
-        scenery: Scenery,
-        look: Look,
-        figure: Figure,
-        ended: Event,
-        begun: Callable[[Title], None],
-    ) -> None:
-        self._stage = stage
-        self._scenery = scenery
-        self._look = look
-        self._figure = figure
-        self._ended = ended
-        self._begun = begun
-        self._ticks = 0
-        self._failed = 0
+    session: SimulationSession
+    scenery: Scenery
+    look: Look
+    figure: Figure
+    ended: Event
+    begun: Callable[[Title], None]
+    ticks: int = 0
 
     def __call__(self, sim: Simulator) -> None:
         """Show every 16th step of the simulation."""
-        if self._ended.is_set():
+        if self.ended.is_set():
             raise _StoppedError
-        self._ticks += 1
-        if self._ticks % EVERY == 0:
+        self.ticks += 1
+        if self.ticks % EVERY == 0:
             self.show()
 
     def show(self) -> None:
         """Show where everything is now."""
-        scene, sim = self._stage.cell.scene, self._stage.sim
+        scene, sim = self.session.cell.scene, self.session.sim
         objects = {name: sim.pose(scene.bodies[name]) for name in scene.blueprints}
         links = {
             (name, link): objects[name].inverse() * sim.pose(scene.bodies[name], scene.link(name, link))
@@ -77,16 +60,16 @@ class _Audience:
             for link, each in blueprint.model.links.items()
             if each.kind in ("revolute", "prismatic")
         }
-        self._scenery.move(objects, links, self._figure.links(self._stage.cell.robot.positions()))
+        self.scenery.move(objects, links, self.figure.links(self.session.cell.robot.positions()))
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """Announce an instruction."""
-        self._begun(title)
+        self.begun(title)
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """Show the colours that an instruction changed."""
-        for place, colour in self._look.still.colours(step.state).items():
-            self._scenery.paint(place, colour)
+        for place, colour in self.look.still.colours(step.state).items():
+            self.scenery.paint(place, colour)
 
 
 def perform(
@@ -106,7 +89,7 @@ def perform(
         plan: The plan.
         scenery: The visitor's view.
         figure: The robot.
-        ended: Set by who does not want to see more.
+        ended: Set to stop the run.
         begun: Called with each instruction that begins.
 
     Returns:

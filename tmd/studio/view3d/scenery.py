@@ -12,7 +12,7 @@ from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.video.symbolic_renderer import Picture
 from tmd.studio.environment_view import Look
-from tmd.studio.view3d.robot_mesh import Figure
+from tmd.studio.view3d.meshes import Figure
 
 if TYPE_CHECKING:
     from trimesh import Trimesh
