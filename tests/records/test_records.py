@@ -22,7 +22,8 @@ TEXT = (
 PREDICTION = {
     "id": 7, "task": "t", "environment": "e", "model": "m", "fold": "f", "text": "one\u2028 two", "predicted": ["a(b)"],
     "gold": [], "executable": True, "success": None, "IED": 0.0, "END": 1.5, "EED": 100.0, "EED_trim": 0.25,
-    "clauses": [{"text": "x", "verb": "v", "latent": [], "said": ["a(b)"], "source": None, "factors": {"environment_distance": -0.5}}],
+    "clauses": [{"text": "x", "verb": "v", "latent": [], "said": ["a(b)"], "source": None,
+                 "factors": {"environment_distance": -0.5}}],
     "segments": [{"text": "one", "instructions": []}],
 }  # fmt: skip
 STEP = {

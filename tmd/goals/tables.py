@@ -436,8 +436,8 @@ def _predicate_faults(
             continue
         if own and domain is not None:
             source = parse(form.condition, "").source
-            for error in check_condition(_present(formula), _variables(predicate), domain, source):
-                yield placed_in(form, error)
+            for fault in check_condition(_present(formula), _variables(predicate), domain, source):
+                yield placed_in(form, fault)
 
 
 def _type_faults(lexicon: Lexicon, domain: Domain) -> Iterator[TmdError]:

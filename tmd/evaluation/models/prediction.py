@@ -9,10 +9,9 @@ from typing import TypeAlias
 from tmd.evaluation.runs.dataset import Example, Worlds
 from tmd.language import parse
 from tmd.language.clause import Clause
-from tmd.library.library import run
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.world.world import World
+from tmd.world.world import World, run
 
 Made: TypeAlias = tuple[tuple[Instruction, ...], str | None]
 """The instructions for a clause, and the demonstration or template they were made from."""

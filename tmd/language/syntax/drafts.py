@@ -323,11 +323,14 @@ class Attachment:
 
     def _pairs(self, node: Tree[Leaf], rest: Sequence[Node], phrases: list[Phrase]) -> bool:
         """Return whether the last nouns behind a preposition are things that the next one places."""
-        name, opening = next(leaves(node)).text, next(leaves(rest[0])).text
+        place = rest[0]
+        name, opening = next(leaves(node)).text, next(leaves(place)).text
         origin = opening in section("origins") and len(rest) > 1 and is_a(rest[1], "place")
         goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
         placing = self.draft.verb.stem in section("placing") | section("belonging")
-        opposite = any(w in section("other_words") for p in named_in(rest[0].children) for w in p.lead)
+        opposite = isinstance(place, Tree) and any(
+            w in section("other_words") for p in named_in(place.children) for w in p.lead
+        )
         alike = opposite or self._is_thing_again(phrases)
         return alike and (name == opening or (placing and goes))
 
