@@ -200,7 +200,7 @@ WRONG = {
         ExitCode.MISSING_TOOL,
         [*KITCHEN, "--goal", "(near pr2 pot1)", "--trajectory", "out.mcap"],
         "import sys; sys.modules['mcap_ros2'] = None",
-        r"error: MCAP files need the package mcap-ros2-support\nhint: pip install 'tmd\[ros\]'",
+        r"error: MCAP files need the package mcap-ros2-support\nhint: pip install 'tell-me-dave\[ros\]'",
     ),
     "two-robots": (
         ExitCode.USAGE,
@@ -269,19 +269,19 @@ WRONG = {
         ExitCode.MISSING_TOOL,
         [*KITCHEN, *TEXT],
         HIDE_PYBULLET,
-        r"error: .*pybullet is not installed\nhint: pip install 'tmd\[robot\]'",
+        r"error: .*pybullet is not installed\nhint: pip install 'tell-me-dave\[robot\]'",
     ),
     "no-ffmpeg": (
         ExitCode.MISSING_TOOL,
         [*KITCHEN, *TEXT, "--video", "out.mp4"],
         HIDE_FFMPEG,
-        r"error: MP4 films need .*imageio-ffmpeg.*\nhint: pip install 'tmd\[robot\]', or ask for a GIF",
+        r"error: MP4 films need .*imageio-ffmpeg.*\nhint: pip install 'tell-me-dave\[robot\]', or ask for a GIF",
     ),
     "no-pillow": (
         ExitCode.MISSING_TOOL,
         [*KITCHEN, *TEXT, "--strip", "out.png"],
         HIDE_PILLOW,
-        r"error: .*Pillow.*\nhint: pip install 'tmd\[robot\]'",
+        r"error: .*Pillow.*\nhint: pip install 'tell-me-dave\[robot\]'",
     ),
 }
 WITH_ROBOT = {

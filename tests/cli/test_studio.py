@@ -43,4 +43,4 @@ def test_bad_input(words: list[str], code: ExitCode, message: str, capsys: pytes
 def test_without_viser(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setitem(sys.modules, "viser", None)
     assert main(["studio", "--port", "0"]) == ExitCode.MISSING_TOOL
-    assert "pip install 'tmd[studio]'" in capsys.readouterr().err
+    assert "pip install 'tell-me-dave[studio]'" in capsys.readouterr().err

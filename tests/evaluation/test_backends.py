@@ -499,7 +499,7 @@ def test_without_distributed_the_package_is_named(tmp_path: Path) -> None:
     hidden = "import sys; sys.modules['distributed'] = None"
     ended = told(tmp_path, "--backend", "dask", "--scheduler", "tcp://127.0.0.1:9", before=hidden)
     assert ended.code == ExitCode.MISSING_TOOL
-    assert "distributed, which is not installed\nhint: pip install 'tmd[cluster]'" in ended.err
+    assert "distributed, which is not installed\nhint: pip install 'tell-me-dave[cluster]'" in ended.err
 
 
 @pytest.mark.parametrize(

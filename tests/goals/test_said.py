@@ -194,6 +194,19 @@ REFUSED = [
 ]
 
 
+@pytest.mark.parametrize("place", ["under", "behind", "above", "in front of", "to the left of", "around"])
+@pytest.mark.parametrize("where", ["02_table/corner2", "kitchen/kitchen1"])
+def test_a_place_that_no_predicate_says_is_refused(where: str, place: str) -> None:
+    grounded = said(where.partition("/")[0], where.partition("/")[2], f"Put the cup {place} the table.")
+    assert grounded.plans == () and grounded.refused is not None
+
+
+def test_of_two_things_none_is_the_third() -> None:
+    assert goals(said("02_table", "corner2", "Put the cup on the second table.")) == ["(at cup1 table2 on)"]
+    for text in ("Put the cup on the third table.", "Put the cup on table three.", "Put the cup on table 3."):
+        assert "nothing here is called" in said("02_table", "corner2", text).reason
+
+
 @pytest.mark.parametrize(("where", "text", "clause", "kind", "message"), REFUSED, ids=[r[1] for r in REFUSED])
 def test_what_cannot_be_done_is_refused_with_the_reason(
     where: str, text: str, clause: int, kind: Kind, message: str

@@ -111,5 +111,5 @@ def test_without_the_package_it_says_what_to_install(monkeypatch: pytest.MonkeyP
         raise importlib.metadata.PackageNotFoundError(name)
 
     monkeypatch.setattr(importlib.metadata, "files", fail)
-    with pytest.raises(MissingToolError, match=r"pip install 'tmd\[robot\]'"):
+    with pytest.raises(MissingToolError, match=r"pip install 'tell-me-dave\[robot\]'"):
         pr2_urdf.prepare()

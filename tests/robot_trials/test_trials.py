@@ -211,8 +211,18 @@ def test_the_command_without_a_simulator(tmp_path: Path) -> None:
     hide = "import sys; sys.modules['pybullet'] = None"
     ended = run_tmd((*options, "--jobs", "1", "--robot", "kinematic"), tmp_path, before=hide)
     assert ended.code == ExitCode.OK, ended.err
-    assert "the robot did nothing: pybullet is not installed: pip install 'tmd[robot]'" in ended.err
+    assert "the robot did nothing: pybullet is not installed: pip install 'tell-me-dave[robot]'" in ended.err
     assert "The robot did nothing: pybullet" in (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+
+
+def test_the_command_without_charts(tmp_path: Path) -> None:
+    """It says so before anything is trained."""
+    hide = "import sys; sys.modules['matplotlib'] = None"
+    options = ("experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty", "--out", "run")
+    ended = run_tmd(options, tmp_path, before=hide)
+    assert ended.code == ExitCode.MISSING_TOOL
+    assert "hint: pip install 'tell-me-dave[report]'" in ended.err
+    assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.parametrize(

@@ -189,7 +189,7 @@ def check_scene(environment: Environment, folder: DomainFolder) -> None:
     """Check the places of things: each finds room, and no two overlap.
 
     Only given positions can put things into each other, which the simulator finds to the millimetre; without
-    ``tmd[robot]`` that is left out.
+    the extra ``robot`` that is left out.
 
     Raises:
         TmdError: Something does not fit, or things overlap; with the place in the environment's file.

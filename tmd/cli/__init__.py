@@ -44,6 +44,6 @@ def main() -> None:
 def _missing(package: str) -> int:
     from tmd.diagnostics import ExitCode
 
-    hint = "install tmd again, with all that it needs: pip install tmd"
+    hint = "install tmd again, with all that it needs: pip install tell-me-dave"
     sys.stderr.write(f"error: the package {package} is missing or damaged\nhint: {hint}\n")
     return ExitCode.MISSING_TOOL

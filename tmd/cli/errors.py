@@ -94,7 +94,9 @@ def fault_of(error: BaseException, command: str = "tmd") -> Fault:
         return _system_fault(error)
     if isinstance(error, ImportError) and error.name and error.name.partition(".")[0] != "tmd":
         message = f"the package {error.name.partition('.')[0]} is missing or damaged"
-        return Fault(ExitCode.MISSING_TOOL, message, hint="install tmd again, with all that it needs: pip install tmd")
+        return Fault(
+            ExitCode.MISSING_TOOL, message, hint="install tmd again, with all that it needs: pip install tell-me-dave"
+        )
     if isinstance(error, RuntimeError) and str(error).startswith("Symlink loop"):  # of Path.resolve
         return Fault(ExitCode.BAD_INPUT, one_line(str(error)), hint="name a file that is there")
     return _internal(error)

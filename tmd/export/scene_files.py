@@ -171,7 +171,7 @@ def _mjcf(urdf: ET.Element, meshes: Mapping[str, bytes], positions: Mapping[str,
         import mujoco
     except ImportError as error:
         raise MissingToolError(
-            "MJCF is written by MuJoCo", hint="pip install 'tmd[mujoco]', or ask for urdf"
+            "MJCF is written by MuJoCo", hint="pip install 'tell-me-dave[mujoco]', or ask for urdf"
         ) from error
     whole = ET.fromstring(ET.tostring(urdf))
     settings = ET.SubElement(whole, "mujoco")

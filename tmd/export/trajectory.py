@@ -144,7 +144,7 @@ class _Mcap(TrajectoryFile):
         try:
             from mcap_ros2.writer import Writer
         except ImportError as error:
-            hint = "pip install 'tmd[ros]', or ask for a .jsonl file"
+            hint = "pip install 'tell-me-dave[ros]', or ask for a .jsonl file"
             raise MissingToolError("MCAP files need the package mcap-ros2-support", hint=hint) from error
         self._kind: Any = Writer
         self._said: tuple[int, str] | None = None

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import MissingToolError, TmdError
 from tmd.evaluation.report.page import FOLDER, linked_pages, page_name
 from tmd.evaluation.report.predictions import best_and_worst
 from tmd.evaluation.report.report import write_report
@@ -138,8 +139,12 @@ def run_experiment(
         The contents of ``metrics.json``; ``report.html`` is beside it in ``config.out``.
 
     Raises:
+        MissingToolError: matplotlib is not installed; nothing was done.
         TmdError: The configuration, the data, the directory or the cluster cannot be used, or parts are missing.
     """
+    if find_spec("matplotlib") is None:
+        hint = "pip install 'tell-me-dave[report]'"
+        raise MissingToolError("the charts of the report need the package matplotlib", hint=hint)
     metrics = collect(config) if collect_only else run(config, progress)
     write_pages(config)
     write_report(config.out)

@@ -193,7 +193,7 @@ def _hindrance(config: ExperimentConfig) -> str:
     if config.data != BUNDLED:
         return "the actions of VEIL-500 have no skills: the robot acts in bundled environments only"
     if find_spec("pybullet") is None:
-        return "pybullet is not installed: pip install 'tmd[robot]' with CPython 3.11"
+        return "pybullet is not installed: pip install 'tell-me-dave[robot]'"
     try:
         load_skills(find_domain(config.domain, config.domains))
     except TmdError as error:

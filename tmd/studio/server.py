@@ -152,7 +152,9 @@ def need_viser() -> ModuleType:
     try:
         return import_module("viser")
     except ImportError as error:
-        raise MissingToolError("the studio needs the package viser", hint="pip install 'tmd[studio]'") from error
+        raise MissingToolError(
+            "the studio needs the package viser", hint="pip install 'tell-me-dave[studio]'"
+        ) from error
 
 
 def free_port(host: str, port: int) -> int:

@@ -163,7 +163,8 @@ def _distributed() -> ModuleType:
         import distributed
     except ImportError:
         raise MissingToolError(
-            "--backend dask needs the package distributed, which is not installed", hint="pip install 'tmd[cluster]'"
+            "--backend dask needs the package distributed, which is not installed",
+            hint="pip install 'tell-me-dave[cluster]'",
         ) from None
     for name in _NOISY:
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)

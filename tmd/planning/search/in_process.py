@@ -122,7 +122,7 @@ def chosen(backend: str) -> Literal["numba", "python"]:
         raise TmdError(f"there is no search back-end '{backend}'", hint="one of auto, numba, python")
     if not present:
         raise MissingToolError(
-            "the compiled search needs numba", hint="pip install 'tmd[fast]', or take the python back-end"
+            "the compiled search needs numba", hint="pip install 'tell-me-dave[fast]', or take the python back-end"
         )
     return "numba"
 

@@ -172,7 +172,7 @@ class ModelClient:
 
     def _ask(self, messages: Messages, name: str, schema: Mapping[str, Any]) -> tuple[str, tuple[int, int]]:
         if find_spec("openai") is None:
-            raise MissingToolError("the package openai is not installed", hint="pip install 'tmd[llm]'")
+            raise MissingToolError("the package openai is not installed", hint="pip install 'tell-me-dave[llm]'")
         import openai
 
         own = self.settings

@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     import trimesh
 
 Array = NDArray[np.float64]
-_ADVICE = "pip install 'tmd[meshes]'"
+_ADVICE = "pip install 'tell-me-dave[meshes]'"
 # Metres: what is smaller or larger is in other units.
 _SMALLEST, _LARGEST = 0.01, 6.0
 # For V-HACD: a mug then keeps its hollow, with walls that are a millimetre too thick.

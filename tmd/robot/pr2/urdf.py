@@ -50,7 +50,7 @@ TUCKED = {
 # The robots of ``example-robot-data`` that the skills can move.
 ROBOTS = {"pr2": "pr2_description/urdf/pr2.urdf", "tiago_pro": "tiago_pro_description/robots/tiago_pro.urdf"}
 _DISTRIBUTION = "example-robot-data"
-_ADVICE = "pip install 'tmd[robot]'"
+_ADVICE = "pip install 'tell-me-dave[robot]'"
 _WITH_HANDS = "the skills take things: name a PR2 or a TIAGo Pro with both of its grippers"
 _ANOTHER = "the skills move a PR2 or a TIAGo Pro: leave --urdf out, or say --robot tiago_pro"
 _FRAME_MASS = 1e-3

@@ -37,18 +37,14 @@ def pybullet() -> Any:  # noqa: ANN401 - it has no types
         with quiet():
             return importlib.import_module("pybullet")
     except ImportError as error:
-        raise MissingToolError("the simulator pybullet is not installed", hint=_advice()) from error
+        raise MissingToolError(
+            "the simulator pybullet is not installed", hint="pip install 'tell-me-dave[robot]'"
+        ) from error
 
 
 def bullet_client(mode: int) -> Any:  # noqa: ANN401 - it has no types
     """Connect to a new world."""
     return importlib.import_module("pybullet_utils.bullet_client").BulletClient(mode)
-
-
-def _advice() -> str:
-    if sys.version_info >= (3, 12):
-        return "pip install 'tmd[robot]' with Python 3.11: pybullet has no wheels for newer ones"
-    return "pip install 'tmd[robot]'"
 
 
 @contextmanager

@@ -64,7 +64,9 @@ def mesh_library() -> ModuleType:
     try:
         import trimesh
     except ImportError as error:
-        raise MissingToolError("reading meshes needs the package trimesh", hint="pip install 'tmd[meshes]'") from error
+        raise MissingToolError(
+            "reading meshes needs the package trimesh", hint="pip install 'tell-me-dave[meshes]'"
+        ) from error
     return trimesh
 
 

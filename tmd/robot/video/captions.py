@@ -68,7 +68,7 @@ def pillow() -> None:
     """
     if importlib.util.find_spec("PIL") is None:
         raise MissingToolError(
-            "pictures need the package Pillow, which is not installed", hint="pip install 'tmd[robot]'"
+            "pictures need the package Pillow, which is not installed", hint="pip install 'tell-me-dave[robot]'"
         )
 
 

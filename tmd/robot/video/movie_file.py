@@ -123,7 +123,7 @@ class _Mp4:
         if importlib.util.find_spec("imageio_ffmpeg") is None:
             raise MissingToolError(
                 "MP4 films need the package imageio-ffmpeg, which is not installed",
-                hint="pip install 'tmd[robot]', or ask for a GIF: --video out.gif",
+                hint="pip install 'tell-me-dave[robot]', or ask for a GIF: --video out.gif",
             )
         import imageio_ffmpeg
 
