@@ -24,10 +24,11 @@ LOCK ?= requirements.lock
 PIP = $(BIN)/python -m pip install --disable-pip-version-check --progress-bar on $(if $(wildcard $(LOCK)),--constraint $(LOCK))
 
 .DEFAULT_GOAL := help
-.PHONY: help setup lock experiment demo studio test check style format lint types docs examples bench clean
+.PHONY: all-tests
+.PHONY: help setup lock experiment demo studio test test-browser test-data check style format lint types docs examples bench clean
 
 help: ## List the targets.
-	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 	@echo
 	@echo "  make experiment takes TASK=ramen|all DATA=bundled|veil500 VEIL500=DIR MODELS=A,B JOBS=N SEED=N OUT=DIR"
 	@echo "  STEP=all|robot|report, ROBOT=kinematic|physics|off, and ARGS='…' for any other option of tmd experiment"
@@ -93,10 +94,24 @@ demo: job ## Let a simulated PR2 make the affogato of the paper, and film it.
 studio: studio-setup ## Open the studio: a page in the browser to watch, correct and demonstrate.
 	@$(BIN)/tmd studio --environment '$(KITCHEN)' $(ARGS)
 
-test: setup ## Run the tests (VEIL500_DIR=DIR runs those on the real data as well).
-	@$(BIN)/python -m pytest -n auto --dist worksteal
+# Everything but what needs a browser or the real data, which the next two targets run; ARGS are pytest's.
+test: setup ## Run the tests, but for those in a browser and on real data.
+	@VEIL500_DIR= $(BIN)/python -m pytest -n auto --dist worksteal --ignore tests/studio/browser $(ARGS)
 
-check: test style ## What CI runs: tests, those of the pages among them, format, lint, types.
+test-browser: setup ## Run the tests of the studio in a browser.
+	@$(BIN)/python -m pytest -n auto --dist worksteal tests/studio/browser $(ARGS)
+
+test-data: setup ## Run the tests on real data: VEIL500=DIR, or VEIL500_DIR in the environment.
+	@test -n '$(VEIL500)' || { echo "error: name the directory of VEIL-500: make test-data VEIL500=DIR" >&2; exit 1; }
+	@VEIL500_DIR='$(VEIL500)' $(BIN)/python -m pytest -n auto --dist worksteal $(DATA_TESTS) $(ARGS)
+
+DATA_TESTS := tests/datasets tests/evaluation/test_protocol.py tests/evaluation/test_metrics.py \
+	tests/evaluation/test_predefined.py tests/cli/test_exit_codes.py tests/language/test_accuracy.py
+
+all-tests: setup
+	@$(BIN)/python -m pytest -n auto --dist worksteal $(ARGS)
+
+check: all-tests style ## What CI runs: all tests (with VEIL500_DIR on real data as well), format, lint, types.
 
 style: setup ## Check format, lint and types, and change nothing.
 	@$(BIN)/ruff format --check .

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 
@@ -42,6 +43,11 @@ MOST_COMPLEX = 15
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
 
+@cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text())
+
+
 def package(module: str) -> str:
     return module.split(".")[1] if "." in module else ""
 
@@ -61,35 +67,32 @@ def imported_at_once(tree: ast.Module) -> Iterator[str]:
             yield from imports(node)
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_packages_import_only_lower_layers(path: Path) -> None:
-    own = path.relative_to(PACKAGE).with_suffix("").parts[0]
-    if own in ("__init__", "__main__"):
-        return
-    for module in imports(ast.parse(path.read_text())):
-        if module.startswith("tmd.") and package(module) != own:
-            assert LAYER[package(module)] < LAYER[own], f"{own} imports {module}"
+def test_packages_import_only_lower_layers() -> None:
+    wrong = []
+    for path in MODULES:
+        own = path.relative_to(PACKAGE).with_suffix("").parts[0]
+        if own not in ("__init__", "__main__"):
+            others = (m for m in imports(tree_of(path)) if m.startswith("tmd.") and package(m) != own)
+            wrong += [f"{path} imports {m}" for m in others if LAYER[package(m)] >= LAYER[own]]
+    assert not wrong
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_heavy_packages_are_imported_where_they_are_used(path: Path) -> None:
-    found = {module.split(".")[0] for module in imported_at_once(ast.parse(path.read_text()))}
-    lazy_leaf = path.name in {"numba_build.py", "kernel.py"}
-    assert lazy_leaf or not found & HEAVY
+def test_heavy_packages_are_imported_where_they_are_used() -> None:
+    lazy_leaves = {"numba_build.py", "kernel.py"}
+    names = {path: {m.split(".")[0] for m in imported_at_once(tree_of(path))} for path in MODULES}
+    assert not {path: found & HEAVY for path, found in names.items() if found & HEAVY and path.name not in lazy_leaves}
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_modules_say_what_they_are_for_and_stay_small(path: Path) -> None:
-    text = path.read_text()
-    assert ast.get_docstring(ast.parse(text)), "no docstring"
-    assert len(text.splitlines()) <= 1_000
+def test_modules_say_what_they_are_for_and_stay_small() -> None:
+    assert [path for path in MODULES if not ast.get_docstring(tree_of(path))] == []
+    assert [path for path in MODULES if len(path.read_text().splitlines()) > 1_000] == []
 
 
 def imported(path: Path) -> set[str]:
     """The modules of this project that a module imports, in functions and for types as well."""
     names = {module_of(p) for p in MODULES}
     found: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in ast.walk(tree_of(path)):
         if isinstance(node, ast.ImportFrom) and node.module:
             full = {f"{node.module}.{alias.name}" for alias in node.names} & names
             found |= full or {node.module} & names
@@ -123,7 +126,7 @@ def test_no_modules_import_one_another() -> None:
 def test_no_two_public_classes_have_one_name() -> None:
     places: dict[str, list[str]] = {}
     for path in MODULES:
-        for node in ast.parse(path.read_text()).body:
+        for node in tree_of(path).body:
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 places.setdefault(node.name, []).append(str(path.relative_to(PACKAGE)))
     assert {name: found for name, found in places.items() if len(found) > 1} == {}
@@ -139,9 +142,8 @@ def test_folders_show_few_names(folder: Path) -> None:
 REFERENCE = re.compile(r":(?:mod|class|func|data|meth):`(?:[^`<]+<)?~?(tmd\.[\w.]+)>?`")
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_references_in_docstrings_name_what_is_there(path: Path) -> None:
-    for reference in REFERENCE.findall(path.read_text()):
+def test_references_in_docstrings_name_what_is_there() -> None:
+    for path, reference in ((module, found) for module in MODULES for found in REFERENCE.findall(module.read_text())):
         parts = reference.split(".")
         length = max(n for n in range(1, len(parts) + 1) if ".".join(parts[:n]) in MODULE_NAMES)
         value: object = import_module(".".join(parts[:length]))
@@ -170,9 +172,10 @@ def test_no_function_is_too_complex(package: str) -> None:
     assert {name: found for name, found in blocks.items() if found > MOST_COMPLEX} == {}
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda p: str(p.relative_to(PACKAGE)))
-def test_no_docstring_begins_with_a_question_word(path: Path) -> None:
+def test_no_docstring_begins_with_a_question_word() -> None:
     documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
-    nodes = (node for node in ast.walk(ast.parse(path.read_text())) if isinstance(node, documented))
-    found = [text.splitlines()[0] for node in nodes if (text := ast.get_docstring(node))]
-    assert not [line for line in found if re.match(r"(What|Who|Where|Which|When|Why|How|Whether)\b", line)]
+    for path in MODULES:
+        nodes = (node for node in ast.walk(tree_of(path)) if isinstance(node, documented))
+        found = [text.splitlines()[0] for node in nodes if (text := ast.get_docstring(node))]
+        wrong = [line for line in found if re.match(r"(What|Who|Where|Which|When|Why|How|Whether)\b", line)]
+        assert not wrong, path

@@ -400,9 +400,7 @@ class _Words:
     def _with_slots(self, action: ActionSchema, verbs: tuple[str, ...], wanted: Sequence[Effect]) -> Iterator[GoalRow]:
         """One row for each choice of which parameters are said; the others are whatever they may be."""
         mentioned = {term for effect in wanted for term in effect.atom.terms}
-        relations = {name for p in action.parameters for name in self.fixed(p)} & set(PREPOSITIONS)
-        # an action that puts things in or on others says nothing of what is under them
-        anywhere = tuple(p for p in _ANYWHERE if not relations or p in relations or p not in _ROWS["located"])
+        anywhere = self._places(action)
         used = [p for p in action.parameters if p.name in mentioned and not self.actor(p)]
         for count in range(min(len(used), _MOST_SLOTS), 0, -1):
             for said in permutations(used, count):
@@ -411,6 +409,16 @@ class _Words:
                 pattern = " … ".join([verbs[0], *(p.name.removeprefix("?").upper() for p in said)])
                 formula = conjunction([self._said(effect, names, action) for effect in wanted])
                 yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")
+
+    def _places(self, action: ActionSchema) -> tuple[str, ...]:
+        """Return the prepositions of an action's places.
+
+        An action with a parameter for the relation, such as *in* or *on*, says nothing of what is under something.
+        """
+        relations = {name for p in action.parameters for name in self.fixed(p)} & set(PREPOSITIONS)
+        if not relations:
+            return _ANYWHERE
+        return tuple(p for p in _ANYWHERE if p in relations or p not in _ROWS["located"])
 
     def _said(self, effect: Effect, names: Mapping[str, str], action: ActionSchema) -> Formula:
         """Return the condition that an effect brings about, with slots that were not filled left open."""
