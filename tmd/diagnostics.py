@@ -74,11 +74,13 @@ class Refusal:
         kind: The kind of reason.
         message: The reason, in one line.
         hint: What to say or do instead.
+        rows: For authors, the rows that were tried, each with its place and the reason why it did not fit.
     """
 
     kind: RefusalKind
     message: str
     hint: str | None = None
+    rows: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, order=True)

@@ -201,6 +201,15 @@ def test_a_place_that_no_predicate_says_is_refused(where: str, place: str) -> No
     assert grounded.plans == () and grounded.refused is not None
 
 
+def test_a_refusal_names_the_part_that_fits_no_slot_and_the_rows_that_were_tried() -> None:
+    refused = said("02_table", "corner1", "Put the book under the table.").refused
+    assert refused is not None
+    assert refused[1].message == "'put' takes no 'under table' here"
+    assert any("02_table/lexicon.yaml:" in row and row.endswith("nothing fills slot Y") for row in refused[1].rows)
+    missing = said("02_table", "corner1", "Swap the book.")
+    assert "lacks a part with 'with' (say 'swap X with Y')" in missing.reason
+
+
 def test_of_two_things_none_is_the_third() -> None:
     assert goals(said("02_table", "corner2", "Put the cup on the second table.")) == ["(at cup1 table2 on)"]
     for text in ("Put the cup on the third table.", "Put the cup on table three.", "Put the cup on table 3."):

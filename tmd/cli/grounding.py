@@ -233,7 +233,9 @@ def remarks(grounded: Grounded, *, verbose: bool = False) -> list[str]:
     if verbose and grounded.usage is not None:
         thoughts = grounded.usage.thoughts
         lines += [f"{usage_text(grounded.usage)}\n", *([f"thoughts: {thoughts}\n"] if thoughts else [])]
-    return [*lines, f"no plan: {grounded.reason}\n"] if grounded.reason else lines
+    lines += [f"no plan: {grounded.reason}\n"] if grounded.reason else []
+    tried = grounded.refused[1].rows if verbose and grounded.refused is not None else ()
+    return [*lines, *(f"  {row}\n" for row in tried)]
 
 
 def _question_text(question: Question, problem: Problem) -> str:

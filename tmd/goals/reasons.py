@@ -41,6 +41,11 @@ def forms(rows: Sequence[GoalRow], verb: str) -> str:
     return " or ".join(f"'{form}'" for form in list(said)[:_SHOWN])
 
 
+def placed(row: GoalRow) -> str:
+    """Return a row's pattern and where it comes from."""
+    return f"{row.pattern} ({row.location or row.evidence or row.source})"
+
+
 def why_impossible(condition: Formula, binding: Mapping[str, str], grounder: Grounder) -> str:
     """Return the first fact that can never hold, with what forbids it."""
     wanted = (

@@ -53,7 +53,9 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
 @grounding_options
 @reading_options
 @click.option("--ask", is_flag=True, help="Ask on the terminal which of several readings is meant.")
-@click.option("--verbose", is_flag=True, help="Print tokens, seconds, corrections and reasons of the language model.")
+@click.option(
+    "--verbose", is_flag=True, help="Print the rows that did not fit, and effort and reasons of the language model."
+)
 @click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
 @click.option("--goal-only", is_flag=True, help="Print what shall hold at the end as a PDDL problem, and no plan.")
 @json_option

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from tmd.goals.clause_goal import ClauseReading, Unit
+from tmd.goals.clause_goal import ClauseReading, Unit, words
 from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.sources.table import ACTIONS, GoalRow, Slot, slot_predicate, slot_types
 from tmd.goals.words import (
@@ -38,7 +38,7 @@ class Fitting:
         """Return the rows that fit, those first that take more of what was said, and that just as it was said."""
         counted = reading.clause.phrase(unit.direct or "").quantifier in (Quantifier.ALL, Quantifier.NUMBER)
         return sorted(
-            (row for row in rows if self._fits(row, unit, reading)),
+            (row for row in rows if not self.misfit(row, unit, reading)),
             key=lambda row: (
                 not (row.looks_back and not unit.relations),  # "put it back": where it was
                 -len(row.slots) - (row.noun is not None),
@@ -97,14 +97,18 @@ class Fitting:
         ranked = self.referents.world.mentions.ranked(unit.direct)
         return not ranked or any(self.grounder.is_a(m.name, types) for m in ranked if m.how == ranked[0].how)
 
-    def _fits(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+    def misfit(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> str:
+        """Return why a row does not fit what was said, for authors; empty where it does."""
         if row.result is not None and row.result != reading.clause.result:
-            return False
+            return f"it is for '{words(row.result)}'"
         if row.noun is not None and not self._same(row.noun, unit.direct, reading):
-            return False
-        if row.noun is None and (row.direct is None) != (unit.direct is None):
-            return False
-        return all(self.fillers(slot, unit, reading) for slot in row.places)
+            return f"it is for '{words(row.noun)}'"
+        if row.noun is None and row.direct is None and unit.direct is not None:
+            return f"no slot takes '{words(unit.direct)}'"
+        empty = [slot for slot in row.places if not self.fillers(slot, unit, reading)]
+        if row.noun is None and row.direct is not None and unit.direct is None:
+            empty.insert(0, row.direct)
+        return "; ".join(f"nothing fills slot {slot.variable.removeprefix('?').upper()}" for slot in empty)
 
     def _same(self, noun: str, said: str | None, reading: ClauseReading) -> bool:
         """Return whether two nouns are the same, or name the same things here: *kettle*, *kettel*."""

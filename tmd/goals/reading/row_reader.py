@@ -16,9 +16,9 @@ from tmd.goals.reading.fitting import Fitting
 from tmd.goals.reading.noun_phrases import Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Pairs, Requirements
-from tmd.goals.reasons import forms, why_impossible
+from tmd.goals.reasons import forms, placed, why_impossible
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
-from tmd.goals.words import ends_as, is_noun, is_one, is_relation, the_word
+from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said, the_word
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.pddl.ground_formula import (
     FALSE,
@@ -378,6 +378,7 @@ class RowReader:
         """Return the goal of one thing by the row with the most slots that fits and can hold."""
         failure: Refusal | None = None
         fitting = self.fitting.of(rows, unit, reading)
+        tried = [f"{placed(row)}: {why}" for row in rows if (why := self.fitting.misfit(row, unit, reading))]
         impossible: set[str] = set()
         most = 0
         for place, row in enumerate(fitting):
@@ -389,15 +390,14 @@ class RowReader:
                 shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
                 return self._with_fewer(shorter, row, found, unit, reading) or (found, row)
             failure = failure or found
+            tried.append(f"{placed(row)}: {found.message}")
             if found.kind is RefusalKind.IMPOSSIBLE and self.fitting.takes_all(row, unit, reading):
                 impossible.add(row.evidence)
                 most = max(most, len(row.slots))
             reading.meant, reading.approach, reading.notes = before
-        if failure is not None:
-            return failure
-        verb = reading.clause.verb
-        message = f"'{text_of(reading.clause)}' says too little or too much for '{words(verb)}'"
-        return Refusal(RefusalKind.NOT_UNDERSTOOD, message, f"say {forms(rows, verb)}")
+        if failure is None:
+            failure = Refusal(RefusalKind.NOT_UNDERSTOOD, *_misfit(rows, unit, reading))
+        return replace(failure, rows=tuple(tried))
 
     def _with_fewer(
         self, shorter: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
@@ -599,3 +599,19 @@ def _of_alternatives(parts: Sequence[Formula]) -> bool:
     if len(atoms) < len(parts) or len({(predicate, len(terms)) for predicate, terms in atoms}) > 1:
         return False
     return sum(len(set(column)) > 1 for column in zip(*(terms for _, terms in atoms), strict=True)) == 1
+
+
+def _misfit(rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[str, str]:
+    """Return why no row of a verb fits, in the words of the request, and how the verb can be said."""
+    verb, text = words(reading.clause.verb), text_of(reading.clause)
+    taken = dict.fromkeys(p for row in rows for slot in row.places for p in slot.prepositions)
+    strange = [pair for pair in unit.relations if not relations_said(pair[0], tuple(taken))]
+    if strange:
+        message = f"'{verb}' takes no '{' '.join(words(part) for part in strange[0] if part)}' here"
+    elif unit.direct is None:
+        message = f"'{text}' does not say what to {verb}"
+    elif taken and not unit.relations:
+        message = f"'{text}' lacks a part with {' or '.join(repr(words(p)) for p in taken)}"
+    else:
+        message = f"'{text}' fits no form of '{verb}'"
+    return message, f"say {forms(rows, reading.clause.verb)}"

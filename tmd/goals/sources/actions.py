@@ -400,7 +400,7 @@ class _Words:
     def _with_slots(self, action: ActionSchema, verbs: tuple[str, ...], wanted: Sequence[Effect]) -> Iterator[GoalRow]:
         """One row for each choice of which parameters are said; the others are whatever they may be."""
         mentioned = {term for effect in wanted for term in effect.atom.terms}
-        anywhere = self._places(action)
+        anywhere = self._anywhere(action)
         used = [p for p in action.parameters if p.name in mentioned and not self.actor(p)]
         for count in range(min(len(used), _MOST_SLOTS), 0, -1):
             for said in permutations(used, count):
@@ -410,7 +410,7 @@ class _Words:
                 formula = conjunction([self._said(effect, names, action) for effect in wanted])
                 yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")
 
-    def _places(self, action: ActionSchema) -> tuple[str, ...]:
+    def _anywhere(self, action: ActionSchema) -> tuple[str, ...]:
         """Return the prepositions of an action's places.
 
         An action with a parameter for the relation, such as *in* or *on*, says nothing of what is under something.
