@@ -101,7 +101,7 @@ def test_without_pybullet_it_says_what_to_install(monkeypatch: pytest.MonkeyPatc
 
     rendering.pybullet.cache_clear()
     monkeypatch.setattr(importlib, "import_module", fail)
-    with pytest.raises(MissingToolError, match=r"tmd\[robot\]"):
+    with pytest.raises(MissingToolError, match=r"tell-me-dave\[robot\]"):
         rendering.pybullet()
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from tmd.goals.clause_goal import ClauseReading, Unit, words
 from tmd.goals.reading.referents import Referents, is_none
+from tmd.goals.reasons import placed
 from tmd.goals.sources.table import ACTIONS, GoalRow, Slot, slot_predicate, slot_types
 from tmd.goals.words import (
     PREPOSITIONS,
@@ -38,7 +39,7 @@ class Fitting:
         """Return the rows that fit, those first that take more of what was said, and that just as it was said."""
         counted = reading.clause.phrase(unit.direct or "").quantifier in (Quantifier.ALL, Quantifier.NUMBER)
         return sorted(
-            (row for row in rows if not self.misfit(row, unit, reading)),
+            (row for row in rows if not self._misfit(row, unit, reading)),
             key=lambda row: (
                 not (row.looks_back and not unit.relations),  # "put it back": where it was
                 -len(row.slots) - (row.noun is not None),
@@ -97,8 +98,12 @@ class Fitting:
         ranked = self.referents.world.mentions.ranked(unit.direct)
         return not ranked or any(self.grounder.is_a(m.name, types) for m in ranked if m.how == ranked[0].how)
 
-    def misfit(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> str:
-        """Return why a row does not fit what was said, for authors; empty where it does."""
+    def unfit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> list[str]:
+        """Return the other rows, each with its place and why it does not fit, for authors."""
+        return [f"{placed(row)}: {why}" for row in rows if (why := self._misfit(row, unit, reading))]
+
+    def _misfit(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> str:
+        """Return why a row does not fit the clause; empty where it does."""
         if row.result is not None and row.result != reading.clause.result:
             return f"it is for '{words(row.result)}'"
         if row.noun is not None and not self._same(row.noun, unit.direct, reading):

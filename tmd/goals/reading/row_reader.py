@@ -378,7 +378,7 @@ class RowReader:
         """Return the goal of one thing by the row with the most slots that fits and can hold."""
         failure: Refusal | None = None
         fitting = self.fitting.of(rows, unit, reading)
-        tried = [f"{placed(row)}: {why}" for row in rows if (why := self.fitting.misfit(row, unit, reading))]
+        tried = self.fitting.unfit(rows, unit, reading)
         impossible: set[str] = set()
         most = 0
         for place, row in enumerate(fitting):
