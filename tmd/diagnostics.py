@@ -148,6 +148,11 @@ class DataError(TmdError):
     exit_code = ExitCode.BAD_DATA
 
 
+def install_extra(extra: str) -> str:
+    """Return the command that installs an extra of this distribution, for hints."""
+    return f"pip install 'tell-me-dave[{extra}]'"
+
+
 class MissingToolError(TmdError):
     """An optional tool or package is not installed."""
 

@@ -13,6 +13,7 @@ import re
 import subprocess
 import sys
 import warnings
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
 from importlib.util import find_spec
 from pathlib import Path
@@ -51,7 +52,7 @@ def said(
     return (telling or lines[-1:] or [signal])[0][:200]
 
 
-class Tool:
+class Tool(ABC):
     """What a tool does with one directory."""
 
     formats: tuple[str, ...] = ()
@@ -64,9 +65,9 @@ class Tool:
         self.directory = directory
         self.seconds = seconds
 
+    @abstractmethod
     def run(self) -> Found:
         """Read, and where the tool can do so solve and validate."""
-        raise NotImplementedError
 
 
 def found(

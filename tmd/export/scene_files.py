@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 
 import yaml
 
-from tmd.diagnostics import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.assets.room import build_room
 from tmd.robot.pr2.kinematics import angles
@@ -171,7 +171,7 @@ def _mjcf(urdf: ET.Element, meshes: Mapping[str, bytes], positions: Mapping[str,
         import mujoco
     except ImportError as error:
         raise MissingToolError(
-            "MJCF is written by MuJoCo", hint="pip install 'tell-me-dave[mujoco]', or ask for urdf"
+            "MJCF is written by MuJoCo", hint=f"{install_extra('mujoco')}, or ask for urdf"
         ) from error
     whole = ET.fromstring(ET.tostring(urdf))
     settings = ET.SubElement(whole, "mujoco")

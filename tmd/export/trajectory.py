@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
 
-from tmd.diagnostics import MissingToolError, OutputError
+from tmd.diagnostics import MissingToolError, OutputError, install_extra
 from tmd.records.trajectory import SampleLine, SceneLine, pose_record
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
@@ -144,7 +144,7 @@ class _Mcap(TrajectoryFile):
         try:
             from mcap_ros2.writer import Writer
         except ImportError as error:
-            hint = "pip install 'tell-me-dave[ros]', or ask for a .jsonl file"
+            hint = f"{install_extra('ros')}, or ask for a .jsonl file"
             raise MissingToolError("MCAP files need the package mcap-ros2-support", hint=hint) from error
         self._kind: Any = Writer
         self._said: tuple[int, str] | None = None

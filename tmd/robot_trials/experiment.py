@@ -7,7 +7,7 @@ from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
 
-from tmd.diagnostics import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.evaluation.report.page import FOLDER, linked_pages, page_name
 from tmd.evaluation.report.predictions import best_and_worst
 from tmd.evaluation.report.report import write_report
@@ -143,7 +143,7 @@ def run_experiment(
         TmdError: The configuration, the data, the directory or the cluster cannot be used, or parts are missing.
     """
     if find_spec("matplotlib") is None:
-        hint = "pip install 'tell-me-dave[report]'"
+        hint = install_extra("report")
         raise MissingToolError("the charts of the report need the package matplotlib", hint=hint)
     metrics = collect(config) if collect_only else run(config, progress)
     write_pages(config)

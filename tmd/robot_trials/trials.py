@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal
 
 from tmd import __version__
-from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.diagnostics import MissingToolError, OutputError, TmdError, install_extra
 from tmd.evaluation.runs.backends import in_processes
 from tmd.evaluation.runs.config import BUNDLED, ExperimentConfig
 from tmd.evaluation.runs.experiment import Progress
@@ -193,7 +193,7 @@ def _hindrance(config: ExperimentConfig) -> str:
     if config.data != BUNDLED:
         return "the actions of VEIL-500 have no skills: the robot acts in bundled environments only"
     if find_spec("pybullet") is None:
-        return "pybullet is not installed: pip install 'tell-me-dave[robot]'"
+        return f"pybullet is not installed: {install_extra('robot')}"
     try:
         load_skills(find_domain(config.domain, config.domains))
     except TmdError as error:

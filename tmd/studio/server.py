@@ -15,7 +15,7 @@ from threading import Event, Lock, Thread
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from tmd.diagnostics import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.studio import page
 from tmd.studio.guard import TOKEN, Guard, guarding, kept_token
 from tmd.studio.studio import Studio
@@ -152,9 +152,7 @@ def need_viser() -> ModuleType:
     try:
         return import_module("viser")
     except ImportError as error:
-        raise MissingToolError(
-            "the studio needs the package viser", hint="pip install 'tell-me-dave[studio]'"
-        ) from error
+        raise MissingToolError("the studio needs the package viser", hint=install_extra("studio")) from error
 
 
 def free_port(host: str, port: int) -> int:

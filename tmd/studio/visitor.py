@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import TmdError, install_extra
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
 from tmd.robot.monitor.listeners import Title
@@ -191,7 +191,7 @@ class Visitor(PanelContext):
             self.scenery.names(shown=self._names.value)
         self._camera()
         if self.studio.figure() is None:
-            self.tell("The PR2 is not shown: its model is not installed.", "pip install 'tell-me-dave[robot]'")
+            self.tell("The PR2 is not shown: its model is not installed.", install_extra("robot"))
 
     def watch(self, reel: Reel, step: int, by: Played | None = None, instructions: Sequence[Instruction] = ()) -> None:
         """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
@@ -281,7 +281,7 @@ class Visitor(PanelContext):
         if scenery is None:
             raise TmdError(f"the robot cannot do it here. {self.setting.blind}")
         if figure is None:
-            raise TmdError("the PR2's model is not installed", hint="pip install 'tell-me-dave[robot]'")
+            raise TmdError("the PR2's model is not installed", hint=install_extra("robot"))
 
         def frames(ended: threading.Event) -> None:
             self.tell("The simulation is being set up …", aloud=True)

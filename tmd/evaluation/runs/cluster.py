@@ -25,7 +25,7 @@ from types import ModuleType
 from typing import Any
 
 from tmd import __version__
-from tmd.diagnostics import DataError, MissingToolError, TmdError
+from tmd.diagnostics import DataError, MissingToolError, TmdError, install_extra
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import forget_datasets, open_dataset
 from tmd.evaluation.runs.jobs import GO_ON, EvaluationJob, JobOutcome, WorkerLostError, do
@@ -164,7 +164,7 @@ def _distributed() -> ModuleType:
     except ImportError:
         raise MissingToolError(
             "--backend dask needs the package distributed, which is not installed",
-            hint="pip install 'tell-me-dave[cluster]'",
+            hint=install_extra("cluster"),
         ) from None
     for name in _NOISY:
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)

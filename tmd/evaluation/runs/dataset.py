@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -117,7 +118,7 @@ class Worlds(Protocol):
         ...
 
 
-class Dataset:
+class Dataset(ABC):
     """Examples, and the worlds they were made in.
 
     Args:
@@ -143,13 +144,13 @@ class Dataset:
         self._fingerprint = _digest(files)
         self._scorers: dict[str, Scorer] = {}
 
+    @abstractmethod
     def trained_with(self, task: str) -> frozenset[str]:
         """Return the tasks that ``task`` is trained with under the protocol of the data, itself among them."""
-        raise NotImplementedError
 
+    @abstractmethod
     def world(self, environment: str) -> World:
         """Return an environment as planning sees it."""
-        raise NotImplementedError
 
     def scorer(self, environment: str) -> Scorer:
         """Return the metrics in an environment, as scoring sees it."""
@@ -158,8 +159,9 @@ class Dataset:
             scorer.prepare(e.gold for e in self.examples if e.environment == environment)
         return self._scorers[environment]
 
+    @abstractmethod
     def _scorer(self, environment: str) -> Scorer:
-        raise NotImplementedError
+        """Make the metrics of an environment."""
 
     def written(self, environment: str, instructions: Iterable[Instruction]) -> list[str]:
         """Return instructions in the data set's own notation, such as ``keep(mug1, counter1, on)``."""

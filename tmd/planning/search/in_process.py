@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from importlib.util import find_spec
 from typing import Literal
 
-from tmd.diagnostics import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable, filled
 from tmd.planning.search import greedy, kernel
@@ -122,7 +122,7 @@ def chosen(backend: str) -> Literal["numba", "python"]:
         raise TmdError(f"there is no search back-end '{backend}'", hint="one of auto, numba, python")
     if not present:
         raise MissingToolError(
-            "the compiled search needs numba", hint="pip install 'tell-me-dave[fast]', or take the python back-end"
+            "the compiled search needs numba", hint=f"{install_extra('fast')}, or take the python back-end"
         )
     return "numba"
 

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
 from pydantic import BaseModel
 
-from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError
+from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError, install_extra
 from tmd.files import cache_directory, make_directory, read_bytes, write_bytes
 from tmd.readers.interface import Usage
 from tmd.readers.llm.reply import printable
@@ -172,7 +172,7 @@ class ModelClient:
 
     def _ask(self, messages: Messages, name: str, schema: Mapping[str, Any]) -> tuple[str, tuple[int, int]]:
         if find_spec("openai") is None:
-            raise MissingToolError("the package openai is not installed", hint="pip install 'tell-me-dave[llm]'")
+            raise MissingToolError("the package openai is not installed", hint=install_extra("llm"))
         import openai
 
         own = self.settings

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from tmd.diagnostics import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.files import make_directory, write_bytes
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.assets.appearance import rows
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     import trimesh
 
 Array = NDArray[np.float64]
-_ADVICE = "pip install 'tell-me-dave[meshes]'"
+_ADVICE = install_extra("meshes")
 # Metres: what is smaller or larger is in other units.
 _SMALLEST, _LARGEST = 0.01, 6.0
 # For V-HACD: a mug then keeps its hollow, with walls that are a millimetre too thick.

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from io import BytesIO
 from pathlib import Path
 
-from tmd.diagnostics import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.files import make_directory, write_bytes
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.pr2 import tiago_pro
@@ -50,7 +50,7 @@ TUCKED = {
 # The robots of ``example-robot-data`` that the skills can move.
 ROBOTS = {"pr2": "pr2_description/urdf/pr2.urdf", "tiago_pro": "tiago_pro_description/robots/tiago_pro.urdf"}
 _DISTRIBUTION = "example-robot-data"
-_ADVICE = "pip install 'tell-me-dave[robot]'"
+_ADVICE = install_extra("robot")
 _WITH_HANDS = "the skills take things: name a PR2 or a TIAGo Pro with both of its grippers"
 _ANOTHER = "the skills move a PR2 or a TIAGo Pro: leave --urdf out, or say --robot tiago_pro"
 _FRAME_MASS = 1e-3

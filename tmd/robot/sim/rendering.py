@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
-from tmd.diagnostics import MissingToolError
+from tmd.diagnostics import MissingToolError, install_extra
 
 _EGL = """
 import importlib.util, pybullet as p
@@ -37,9 +37,7 @@ def pybullet() -> Any:  # noqa: ANN401 - it has no types
         with quiet():
             return importlib.import_module("pybullet")
     except ImportError as error:
-        raise MissingToolError(
-            "the simulator pybullet is not installed", hint="pip install 'tell-me-dave[robot]'"
-        ) from error
+        raise MissingToolError("the simulator pybullet is not installed", hint=install_extra("robot")) from error
 
 
 def bullet_client(mode: int) -> Any:  # noqa: ANN401 - it has no types

@@ -11,7 +11,7 @@ from pathlib import Path
 from types import ModuleType
 
 from tmd import files
-from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.diagnostics import MissingToolError, OutputError, TmdError, install_extra
 from tmd.files import make_directory, read_bytes
 
 # The mesh that boxes are drawn by, beside this module: a unit cube with a normal for every face. Boxes drawn as boxes
@@ -64,9 +64,7 @@ def mesh_library() -> ModuleType:
     try:
         import trimesh
     except ImportError as error:
-        raise MissingToolError(
-            "reading meshes needs the package trimesh", hint="pip install 'tell-me-dave[meshes]'"
-        ) from error
+        raise MissingToolError("reading meshes needs the package trimesh", hint=install_extra("meshes")) from error
     return trimesh
 
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from tmd.diagnostics import MissingToolError
+from tmd.diagnostics import MissingToolError, install_extra
 from tmd.files import write_bytes
 
 if TYPE_CHECKING:
@@ -67,9 +67,7 @@ def pillow() -> None:
         MissingToolError: It is not installed.
     """
     if importlib.util.find_spec("PIL") is None:
-        raise MissingToolError(
-            "pictures need the package Pillow, which is not installed", hint="pip install 'tell-me-dave[robot]'"
-        )
+        raise MissingToolError("pictures need the package Pillow, which is not installed", hint=install_extra("robot"))
 
 
 def write_picture(path: Path, image: Image, kind: str, **options: Any) -> None:  # noqa: ANN401 - as Pillow has them

@@ -11,7 +11,7 @@ from collections.abc import Generator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
-from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.diagnostics import MissingToolError, OutputError, TmdError, install_extra
 from tmd.files import check_writable, draft_of, remove_leftovers
 from tmd.robot.video.captions import Pixels, pillow, write_picture
 
@@ -123,7 +123,7 @@ class _Mp4:
         if importlib.util.find_spec("imageio_ffmpeg") is None:
             raise MissingToolError(
                 "MP4 films need the package imageio-ffmpeg, which is not installed",
-                hint="pip install 'tell-me-dave[robot]', or ask for a GIF: --video out.gif",
+                hint=f"{install_extra('robot')}, or ask for a GIF: --video out.gif",
             )
         import imageio_ffmpeg
 
