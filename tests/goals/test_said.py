@@ -210,6 +210,13 @@ def test_a_refusal_names_the_part_that_fits_no_slot_and_the_rows_that_were_tried
     assert "lacks a part with 'with' (say 'swap X with Y')" in missing.reason
 
 
+def test_a_demonstration_is_not_copied_for_nothing() -> None:
+    assert said("kitchen", "kitchen4", "Rinse the pot.").plans
+    for text in ("Rinse nothing.", "Rinse no pot."):
+        refused = said("kitchen", "kitchen4", text)
+        assert refused.plans == () and refused.refused is not None
+
+
 def test_of_two_things_none_is_the_third() -> None:
     assert goals(said("02_table", "corner2", "Put the cup on the second table.")) == ["(at cup1 table2 on)"]
     for text in ("Put the cup on the third table.", "Put the cup on table three.", "Put the cup on table 3."):

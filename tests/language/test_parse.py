@@ -30,6 +30,17 @@ def test_the_paper_s_example() -> None:
     assert parse(text).skipped == ()
 
 
+def test_one_behind_a_thing_is_its_number_unless_an_article_stands_before() -> None:
+    home = Lexicon(kinds=frozenset({"trap", "crate"}))
+    assert clauses("Open crate one and trap two.", home) == ["(open, [crate_1, trap_two])"]
+    for text, name in (
+        ("Open the crate one.", "crate_one"),
+        ("Take red one.", "red_one"),
+        ("Open crate one.", "crate_1"),
+    ):
+        assert parse(text, home).clauses[0].direct == (name,)
+
+
 @pytest.mark.parametrize(
     ("text", "expected"),
     [

@@ -16,7 +16,7 @@ from tmd.goals.clause_goal import ClauseGoal
 from tmd.goals.grounder import Moments
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Bound, Memory
-from tmd.goals.reading.referents import ANY_TYPE
+from tmd.goals.reading.referents import ANY_TYPE, is_none
 from tmd.goals.sources.table import GoalTable
 from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
@@ -197,8 +197,8 @@ class RuleDialogue(Dialogue):
         groups = []
         for noun in (*clause.direct, *(r.target for r in clause.relations)):
             names = frozenset(n for n in nouns.things(noun, world.task.init) if n in world.profiles.objects)
-            if not names and (noun in clause.direct or self._is_missing(noun, clause)):
-                return None
+            if is_none(noun, clause) or (not names and (noun in clause.direct or self._is_missing(noun, clause))):
+                return None  # "rinse nothing": a demonstration of rinsing does the opposite
             if names:
                 groups.append(HandledGroup(names, clause.phrase(noun).quantifier is Quantifier.ALL))
         return groups

@@ -14,7 +14,7 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.words import ends_as, is_idle, is_noun, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section, singular
-from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, number_of, same, split_name, words_in_name
+from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, number_in_name, same, split_name, words_in_name
 from tmd.pddl.ground_formula import FALSE, TRUE
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
@@ -199,7 +199,7 @@ class Nouns(Facts):
 
     def _numbered(self, noun: str, names: Iterable[str]) -> list[str]:
         """Return the names with the number of a noun, if it has one and they have: *channel 7* is not any channel."""
-        wanted = number_of(noun)
+        wanted = number_in_name(noun)
         numbers = {name: split_name(name)[-1] for name in names}
         if wanted is None or not all(number.isdigit() for number in numbers.values()):
             return list(numbers)

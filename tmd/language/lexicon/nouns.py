@@ -118,7 +118,7 @@ def _natural(name: str) -> tuple[tuple[int, int | str], ...]:
     return tuple((0, int(p)) if p.isdigit() else (1, p) for p in re.split(r"(\d+)", name) if p)
 
 
-def number_of(noun: str) -> int | None:
+def number_in_name(noun: str) -> int | None:
     """Return the number in the name of a thing: 3 for ``burner_3`` and ``burner_three``, none for ``third_burner``."""
     parsed = _parse(noun)
     return None if parsed.ordinal else parsed.number

@@ -26,6 +26,7 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     for token in tokens:
         token.kind = K.CC if token.kind is K.NEG and token.text in section("choices") else token.kind  # "nor"
     _settings(Words(tokens))
+    _firsts(Words(tokens), lexicon)
     tokens = _numbered(Words(tokens))
     _exceptions(Words(tokens))
     _Particles(tokens, lexicon).run()
@@ -86,6 +87,16 @@ def _partitives(words: Words) -> None:
                 words.tokens[at + 3].kind = K.FILLER  # "one of the two lamps": how many there are picks none of them
         elif token.kind in HEADS:
             of.kind = K.OF
+
+
+def _firsts(words: Words, lexicon: Lexicon) -> None:
+    """Read "burner one" with a figure; "the toy one" and "red one" refer to something that was mentioned."""
+    for at, token in enumerate(words.tokens[1:], start=1):
+        named = words.kind(at - 1) is K.N and lexicon.names_thing(words.tokens[at - 1].text)
+        if named and token.text == first_of("one_words") and not _counts(words, at):
+            front = next((t.kind for t in reversed(words.tokens[:at]) if t.kind is not K.N), None)
+            if front is not K.DET:
+                token.kind, token.text = K.NUM, "1"
 
 
 def _numbered(words: Words) -> list[Token]:
