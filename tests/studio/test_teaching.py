@@ -114,7 +114,7 @@ def test_what_others_saved_or_removed_is_taken_up(table: Corpus) -> None:
     before = teacher.knowledge
     later = show(table, "corner1", "Throw the cup to the shelf.", TABLE, "mine")
     (table.directory / "set_table" / "demonstrations.jsonl").write_text("{\n")
-    with pytest.raises(TmdError, match="not JSON"):
+    with pytest.raises(TmdError, match="not valid JSON"):
         teacher.learn_one(later)
     assert teacher.knowledge is before
 
