@@ -23,7 +23,7 @@ print(numba.njit(first)(1), numba.njit(second)(1))
 
 
 def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=True)
+    return subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=True, timeout=120)
 
 
 def test_compiling_is_told_of_once_and_only_if_it_is_ours() -> None:
@@ -39,3 +39,22 @@ def test_what_is_compiled_is_not_compiled_again() -> None:
     pytest.importorskip("numba", reason="numba is not installed")
     assert run("-m", "tmd.planning").stdout == ""
     assert run("-m", "tmd.planning").stderr == ""
+
+
+THREADS = """
+from threading import Thread
+from time import sleep
+from tmd.planning.search.numba_build import compiled
+def ask(delay):
+    sleep(delay)
+    compiled()
+    print("compiled")
+threads = [Thread(target=ask, args=(i / 100,)) for i in range(60)]
+for each in threads: each.start()
+for each in threads: each.join()
+"""
+
+
+def test_threads_may_ask_at_the_same_time() -> None:
+    pytest.importorskip("numba", reason="numba is not installed")
+    assert run("-c", THREADS).stdout.count("compiled") == 60

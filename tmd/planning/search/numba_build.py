@@ -11,6 +11,7 @@ from collections.abc import Callable
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
+from threading import Lock
 from types import FunctionType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
@@ -42,13 +43,22 @@ REPLACED = frozenset({"zeros", "grown"})
 """Functions of the kernel that differ between lists and arrays."""
 
 
-@cache
+# Two threads that import numba at the same time see it half initialised.
+_IMPORTING = Lock()
+
+
 def compiled() -> Functions:
-    """Return the kernel, compiled.
+    """Return the kernel, compiled; threads may ask for it at the same time.
 
     Raises:
         ImportError: numba is not installed.
     """
+    with _IMPORTING:
+        return _compiled()
+
+
+@cache
+def _compiled() -> Functions:
     import numpy as np
 
     def zeros(size: int) -> NDArray[np.int64]:
