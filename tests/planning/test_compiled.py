@@ -23,7 +23,9 @@ print(numba.njit(first)(1), numba.njit(second)(1))
 
 
 def run(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=True, timeout=120)
+    return subprocess.run(
+        [sys.executable, *arguments], cwd=ROOT, capture_output=True, text=True, check=True, timeout=120
+    )
 
 
 def test_compiling_is_told_of_once_and_only_if_it_is_ours() -> None:
