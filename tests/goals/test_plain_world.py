@@ -79,3 +79,27 @@ def test_a_fragment_that_names_nothing_known_is_left_out_with_a_warning(folder: 
     grounded = tmd.load_domain(str(folder)).ground("What a day! Shut the attic door.", folder / "problem.pddl")
     assert "(door_open attic)" not in end(grounded)
     assert any("day" in warning.lower() for warning in grounded.warnings)
+
+
+@pytest.mark.parametrize("name", ["on-table", "on_table", "ontable"])
+def test_a_place_that_is_no_thing_is_a_predicate(tmp_path: Path, name: str) -> None:
+    (tmp_path / "domain.pddl").write_text(
+        f"""(define (domain heap) (:requirements :strips :typing)
+          (:types block - object)
+          (:predicates (on ?x ?y - block) ({name} ?x - block) (clear ?x - block))
+          (:action lift :parameters (?x ?y - block) :precondition (and (on ?x ?y) (clear ?x))
+            :effect (and ({name} ?x) (clear ?y) (not (on ?x ?y))))
+          (:action pile :parameters (?x ?y - block) :precondition (and ({name} ?x) (clear ?x) (clear ?y))
+            :effect (and (on ?x ?y) (not ({name} ?x)) (not (clear ?y)))))"""
+    )
+    (tmp_path / "problem.pddl").write_text(
+        f"""(define (problem three) (:domain heap) (:objects red_block blue_block green_block - block)
+          (:init (on red_block blue_block) ({name} blue_block) ({name} green_block) (clear red_block)
+            (clear green_block)) (:goal (and)))"""
+    )
+    domain = tmd.load_domain(str(tmp_path))
+    lifted = domain.ground("Put everything on the table.", tmp_path / "problem.pddl")
+    assert f"({name} red_block)" in end(lifted)
+    told = domain.ground("Put the block that is on the table on the red one.", tmp_path / "problem.pddl")
+    assert end(told) & {"(on blue_block red_block)", "(on green_block red_block)"}
+    assert not goals(domain.ground("Put the red block on the floor.", tmp_path / "problem.pddl"))

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import json
+from dataclasses import fields
 from typing import Any
 
 import pytest
 
 from tmd.diagnostics import TmdError
 from tmd.language import parse
-from tmd.records.clauses import ParsedRecord
+from tmd.language.clause import Clause, NounPhrase
+from tmd.records.clauses import ClauseRecord, ParsedRecord, PhraseRecord
 from tmd.records.grounding import GroundingRecord
 from tmd.records.prediction import PredictionRecord
 from tmd.records.run import EndEvent, StepEvent, read_log
@@ -57,6 +59,16 @@ def test_clauses_are_read_back_with_all_that_was_said() -> None:
         assert {n: one.phrase(n) for n in one.objects} == {n: other.phrase(n) for n in other.objects}
         assert [c.word for c in one.conditions] == [c.word for c in other.conditions]
     assert any(clause.conditions for clause in found.clauses) and found.constraints
+
+
+def test_every_part_of_a_clause_has_a_place_in_its_record() -> None:
+    unwritten = {"told", "undetermined", "name"}
+    assert {f.name for f in fields(Clause)} - unwritten == set(ClauseRecord.model_fields)
+    assert {f.name for f in fields(NounPhrase)} - unwritten == set(PhraseRecord.model_fields)
+    parsed = parse("There is a mug on the shelf. Wash it, and fill the cup that is on the table.")
+    assert any(clause.stated for clause in parsed.clauses)
+    again = ParsedRecord.from_text(json.dumps(ParsedRecord.of(parsed).to_value()), "x.json").parsed(parsed.text)
+    assert [c.stated for c in again.clauses] == [c.stated for c in parsed.clauses]
 
 
 def test_lines_are_read_back_whatever_ends_of_lines_are_in_them() -> None:

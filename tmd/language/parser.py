@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from functools import cache
 
 from tmd.diagnostics import TmdError
-from tmd.language.clause import Clause, Parsed, Skipped, Span
+from tmd.language.clause import Clause, Parsed, Skipped, Span, hull
 from tmd.language.lexicon.lexicon import Lexicon, builtin, pairs, section, sections, sections_of
 from tmd.language.syntax.antecedents import resolve
 from tmd.language.syntax.brackets import Bracketer
@@ -138,7 +138,7 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
             continue
         reason = token.note or NO_VERB
         if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span, reason):
-            pieces[-1] = (Span(pieces[-1][0].start, token.span.end), reason)
+            pieces[-1] = (hull([pieces[-1][0], token.span]), reason)
         else:
             pieces.append((token.span, reason))
     return tuple(Skipped(text[s.start : s.end], s, reason) for s, reason in pieces)

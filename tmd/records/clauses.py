@@ -34,10 +34,14 @@ class PhraseRecord(JsonRecord):
     either: tuple[str, ...] = ()
 
 
+# A relation, what stands in it, and what it stands in it to.
+Related = tuple[str, str | None, str]
+
+
 class _Verb(JsonRecord):
     verb: str
     objects: tuple[str, ...]
-    relations: tuple[tuple[str, str | None, str], ...]
+    relations: tuple[Related, ...]
 
 
 class _Written(_Verb):
@@ -62,6 +66,7 @@ class _Said(JsonRecord):
     otherwise: bool = False
     implied: bool = False
     alternative: bool = False
+    stated: tuple[Related, ...] = ()
     heading: bool = False
 
 
@@ -102,7 +107,7 @@ class ClauseRecord(_Said, _Written):
 
 
 def _clause(record: InnerClause | ClauseRecord, text: str, place: Place) -> Clause:
-    plain = set(_Said.model_fields) - {"phrases", "conditions"}
+    plain = set(_Said.model_fields) - {"phrases", "conditions", "stated"}
     return Clause(
         record.verb,
         record.objects,
@@ -111,6 +116,7 @@ def _clause(record: InnerClause | ClauseRecord, text: str, place: Place) -> Clau
         text,
         phrases={name: NounPhrase(name, **dict(phrase)) for name, phrase in record.phrases.items()},
         conditions=tuple(condition.condition() for condition in record.conditions),
+        stated=tuple(Relation(*relation) for relation in record.stated),
         **{name: getattr(record, name) for name in plain},
     )
 

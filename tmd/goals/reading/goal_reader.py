@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -16,9 +16,10 @@ from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
 from tmd.goals.sources.table import ACTIONS, GoalTable
-from tmd.goals.words import BE, family, is_relation, is_verb, ranked, relations_said, the_word, words_of
+from tmd.goals.words import BE, PREPOSITIONS, family, is_relation, is_verb, ranked, relations_said, the_word, words_of
 from tmd.language.clause import BRING, TO, Clause
-from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.lexicon.lexicon import Lexicon, section
+from tmd.language.lexicon.nouns import split_name
 from tmd.pddl.ground_formula import TRUE
 from tmd.pddl.task import Bits
 from tmd.world.world import World
@@ -91,7 +92,7 @@ class GoalReader:
         """Return what ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         decisions = decisions or Decisions()
         reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited, decisions=decisions)
-        clause = reading.clause = self.referents.reattached(reading)
+        clause = reading.clause = self._with_place_states(self.referents.reattached(reading))
         lost = None if self.guess else lost_amount(clause)
         if lost is not None:
             message = f"nothing here can tell '{lost}' of something"
@@ -112,6 +113,46 @@ class GoalReader:
         if isinstance(found, Refusal) and clause.setting in words_of("extremes"):
             return self.read(replace(clause, setting=None), state, memory, awaited=awaited, decisions=decisions)
         return found
+
+    @cached_property
+    def _place_states(self) -> Mapping[tuple[str, str], str]:
+        """The predicates of one thing that name a place: ``on-table`` and ``ontable`` for *on* and *table*."""
+        names = {p.name: "_".join(split_name(p.name)) for p in self.domain.predicates if len(p.parameters) == 1}
+        return {
+            (preposition, name.removeprefix(preposition).lstrip("_")): predicate
+            for predicate, name in names.items()
+            for preposition in PREPOSITIONS
+            if name.startswith(preposition) and name != preposition
+        }
+
+    def _with_place_states(self, clause: Clause) -> Clause:
+        """Return the clause with places that are no things here, but states: "on the table", where all have one table.
+
+        Where things shall be is the result of the clause; any other place tells which things are meant.
+        """
+        goes = clause.verb == BE or is_verb(clause.verb, "leaving") or clause.verb in section("placing")
+        for relation in dict.fromkeys((*clause.relations, *clause.stated)) if self._place_states else ():
+            origin = is_relation(relation.relation, "origin")
+            arrives = relation.relation in section("arrivals")
+            said = [
+                state
+                for (preposition, noun), state in self._place_states.items()
+                if noun == relation.target and (origin or relations_said(relation.relation, (preposition,)))
+            ]
+            if not said or relation.source not in clause.objects or self.knows_of(relation.target):
+                continue
+            stated = relation in clause.stated
+            relations = tuple(r for r in clause.relations if r != relation)
+            objects = tuple(o for o in clause.objects if o != relation.target or any(o in r for r in relations))
+            others = tuple(r for r in clause.stated if r != relation)
+            clause = replace(clause, relations=relations, stated=others, objects=objects)
+            if (goes or arrives) and relation.source in clause.direct and not (origin or stated or clause.result):
+                clause = replace(clause, result=said[0])
+            else:
+                phrase = clause.phrase(relation.source)
+                told = replace(phrase, attributes=(*phrase.attributes, said[0]))
+                clause = replace(clause, phrases={**clause.phrases, relation.source: told})
+        return clause
 
     def _is_state(self, clause: Clause) -> bool:
         """Return whether a clause says what is to be so, and no row says what that means."""

@@ -11,7 +11,7 @@ from functools import cached_property
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.facts import Facts
 from tmd.goals.sources.table import GoalTable
-from tmd.goals.words import ends_as, is_idle, is_noun, state_words, words_of
+from tmd.goals.words import ends_as, is_idle, is_noun, is_relation, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section, singular
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, number_in_name, same, split_name, words_in_name
@@ -394,7 +394,10 @@ class Nouns(Facts):
 
 def _tells_of(noun: str, fact: GroundAtom) -> bool:
     """Return whether a fact about one thing speaks of a part of it: ``door_open``, ``has_door``."""
-    words = {singular(word) for word in split_name(fact.predicate)}
+    parts = split_name(fact.predicate)
+    words = {singular(word) for word in parts}
+    if is_relation(parts[0], "place"):
+        return False  # "on_table" says where a thing is
     return len(fact.args) == 1 and noun in words and words - {noun} <= words_of("part_states") and len(words) > 1
 
 

@@ -147,7 +147,7 @@ def _one(
     own = _own(pronoun, clause, draft, before, apart=bool(before and ranked))
     goes = not section("arrivals").isdisjoint(before)
     left = [r.target for r in clause.relations if goes and r.relation in section("origins")]
-    names = tuple(dict.fromkeys((*left[:1], *own[:1], *ranked)))
+    names = tuple(dict.fromkeys((*left[:1], *own, *ranked)))
     plain = pronoun in section("one_words")
     return names if plain else tuple(dict.fromkeys(name.rpartition("_")[2] for name in names))
 

@@ -389,20 +389,34 @@ class Bracketer(ClauseEnds):
     def _is_question(self, at: int) -> bool:
         """Return whether a question begins that asks for nothing: "Is the lamp on?"."""
         starts = (not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}) and self._last() in BREAKS
-        return starts and self.among(at, "questions") and self.kind(at + 1) is not K.ING and self.asked(at)
+        opens = self.among(at, "questions") and self.kind(at) is not K.V and self.kind(at + 1) is not K.ING
+        return starts and opens and self.asked(at)
 
     def _question(self, at: int) -> int:
         """Set a question aside; one that "if so" or "if not" follows is a condition of what is asked then."""
         end = self.first(at, "STOP")
         so = end + 1 + (self.kind(end + 1) is K.SUB and self.among(end + 2, "affirming"))
         denied = self.among(end + 1, "denying")
-        if not (denied or so > end + 1 or self.among(end + 1, "then_words")):
-            return self._skip(at, end, QUESTION)
         opener = mark(K.SUB, self.tokens[at].span.start)
+        if not (denied or so > end + 1 or self.among(end + 1, "then_words")):
+            self._mention(at + 1, end)
+            return self._skip(at, end, QUESTION)
         opener.text = first_of("excepting" if denied else "guards")
         self.out.append(opener)
         self._fill(opener, at, end)
         return so + 1
+
+    def _mention(self, at: int, end: int) -> None:
+        """State the first thing that a question names, so that pronouns may mean it: "is the lamp on? turn it off"."""
+        thing = next((i for i in range(at, end) if self.kind(i) is K.N), end)
+        begin = thing
+        while begin > at and self.kind(begin - 1) in NP - {K.N}:
+            begin -= 1
+        named = self.tokens[begin : self.past(thing, "N*")] if thing < end else []
+        if named:
+            opener = mark(K.SAY, named[0].span.start)
+            opener.note = QUESTION
+            self.out += [opener, *named, mark(K.END, named[-1].span.end)]
 
     def _corrected(self, at: int) -> int:
         """Take back what the speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
@@ -563,7 +577,9 @@ class Bracketer(ClauseEnds):
         """Return whether a particle or adverb names the state that something is in or should be in."""
         ends = self.follows(at + 1, "IDLE* (BREAK|SUB|V|EXC|MOD|PURP|REL)")
         if self._open:
-            return ends and self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE}
+            # what must not stay up shall be otherwise; what must stay up is left so
+            stays = self._last() is K.V and self.out[-1].stem in section("staying") and self._open[-1].negated
+            return ends and (stays or self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE})
         placed = self._verb is not None and self._verb.stem in section("placing")
         hosts = self._hosts_result() or (self.among(at, "switch_states") and not placed)
         return ends and hosts and self._last() in HEADS | {K.STATE, K.CC}

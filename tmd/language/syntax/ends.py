@@ -24,6 +24,7 @@ class ClauseEnds(Words):
             joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
             also = self.kind(end) is K.COMMA and self._statement_follows(end)
             also = also or (self.kind(end) in LINKS and self._is_reason(end + 1))
+            also = also or (self.kind(end) in LINKS and self._too(end + 1 + (self.kind(end + 1) is K.CC)))
             then = self.among(end, "then_words") and self.kind(end) in LINKS
             if deed or joint or also or then or self.follows(end, "SUB|ENSURE|PURP"):
                 break

@@ -138,9 +138,9 @@ class Frames(Words):
         return True
 
     def _before(self, at: int) -> int:
-        """Return the place of the word before ``at`` that says something."""
+        """Return the place of the word before ``at`` that says something, and not who is to act: "mind you closing"."""
         before = at - 1
-        while before > 0 and self.kind(before) in IDLE:
+        while before > 0 and (self.kind(before) in IDLE or self.among(before, "persons")):
             before -= 1
         return before
 

@@ -118,6 +118,7 @@ class Linker(Words):
             return None
         if before is K.END and not self._fronted and self.follows(end, "(NP|OF)+ P"):
             self.tokens[end - 1].form = ALSO  # "the book where the pen is, and the cup on the shelf"
+        if before is K.END and self.tokens[end - 1].form == ALSO:
             return K.SEP
         if before in (K.P, K.STATE):
             return K.SEP  # "lid on, kettle in the sink"

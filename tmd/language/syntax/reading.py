@@ -315,7 +315,7 @@ class TextReading:
         asked = node.data == "demand" or opener.form == DUTY
         for part in trees(node.children, "part"):
             saying = Saying(part)
-            asked = asked or saying.asks()
+            asked = asked or (saying.asks() and not opener.note)
             if opener.negated and self.drafts and saying.bare:
                 self._forbid(self.drafts[-1], node)  # "the cup goes there, the mug does not"
                 return
@@ -323,7 +323,7 @@ class TextReading:
             allowed = any(t.text in section("modals") for t in saying.helpers)
             asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
             if not asked:
-                self._stated(part, drafts, len(self.drafts), STATEMENT)
+                self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
             for draft in drafts if asked else ():
                 demand(draft, denied=opener.negated)
                 draft.spans += spans([node])
