@@ -201,9 +201,23 @@ def _as_before(names: Names, c: Context) -> Names:
     return tuple(n for n in names if n in bound.names) if bound is not None else ()
 
 
+def _changed(names: Names, c: Context) -> Names:
+    """Return what has been changed, or moved, since the text began."""
+    if not c.phrase.definite or c.phrase.plural:
+        return ()
+    grounder, reading = c.referents.grounder, c.reading
+    facts = ((n, fact) for n in names for fact in c.referents.nouns.facts_about(n) if fact.args[0] == n)
+    first = reading.memory.first
+    changed = {n for n, fact in facts if grounder.holds(fact, first) != grounder.holds(fact, reading.state)}
+    return tuple(n for n in names if n in changed)
+
+
 NOT_LEFT = (Preference("not-left", "what is not to be left alone", "Move all but leave the bowl.", 3.0, _not_left),)
 """Of all things of a kind those that are meant."""
-AS_BEFORE = (Preference("as-before", "the one that was spoken of", "Take a cup. Wash the cup.", 3.0, _as_before),)
+AS_BEFORE = (
+    Preference("as-before", "the one that was spoken of", "Take a cup. Wash the cup.", 3.0, _as_before),
+    Preference("changed", "the one that something was done to", "Eat some chips. Bin the packet.", 3.0, _changed),
+)
 """Of several things the one that is meant."""
 
 ANTECEDENT, PLACE, TELLS_WHICH = "antecedent", "place", "tells-which"

@@ -79,6 +79,12 @@ class ConstraintReader:
         """Return what a prohibition asks for; a note where it is about persons only: "don't leave me in the dark"."""
         if clause.direct and PERSONS.issuperset(clause.direct):
             return TextConstraints(notes=(f"'{text_of(clause)}' is not checked: it is about persons",))
+        unwanted = [c for noun in clause.direct for c in self.reader.nouns.substances(noun)] if clause.implied else []
+        if unwanted and is_verb(clause.verb, "having"):  # "no sugar, please"
+            about = (atom for constant in unwanted for atom in self.reader.nouns.facts_about(constant))
+            index = self.task.index
+            fresh = (atom for atom in about if atom in index and not state >> index[atom] & 1)
+            return TextConstraints(never=tuple(map(_literal, fresh)))
         if is_verb(clause.verb, "handling") and not self.leaves_a_trace(clause.verb):
             names = self._kept_things(clause, state)
             if not names:

@@ -160,7 +160,7 @@ class RuleDialogue(Dialogue):
         if step.clause.mood is Mood.KEEP:
             preserved = self._constraints.preserved(step.clause, state, progress.memory)
             if isinstance(preserved, Refusal):
-                return preserved
+                return StepGoals((), progress, preserved.message) if self._is_aside(step, preserved) else preserved
             return StepGoals((), progress, "it stays as it is", tuple(preserved))
         found = self._goals.candidates(step.clause, state, progress.memory, awaited=step.awaited)
         if isinstance(found, Refusal):
@@ -171,16 +171,15 @@ class RuleDialogue(Dialogue):
     def _is_aside(self, step: RuleStep, refusal: Refusal) -> bool:
         """Return whether a step that is refused may be left out, since another one asks for something.
 
-        It has no verb, or tells what somebody does who is not asked, and names nothing that the domain knows: *what a
-        day!*, *they are starving*.
+        It tells what somebody does who is not asked (*they are starving*), or has no verb and names nothing that the
+        domain knows (*what a day!*).
         """
         clause, referents = step.clause, self._goals.referents
-        kinds = (RefusalKind.NO_SUCH_THING, *((RefusalKind.UNKNOWN_VERB, RefusalKind.NOT_UNDERSTOOD) * clause.told))
         named = (noun for noun in clause.objects if not (referents.points_back(noun) or noun in PERSONS))
-        idle = (clause.implied or clause.told) and not any(map(self._goals.knows_of, named))
+        nothing = refusal.kind is RefusalKind.NO_SUCH_THING and not any(map(self._goals.knows_of, named))
         others = (other for other in self.steps if isinstance(other, RuleStep) and other is not step)
         asked = any(other.main and not (other.optional or other.clause.told) for other in others)
-        return idle and asked and refusal.kind in kinds
+        return asked and (clause.told or (clause.implied and nothing))
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``: what its nouns turned out to mean."""

@@ -635,6 +635,13 @@ class Referents:
         finally:
             reading.asked.discard(noun)
 
+    def target_options(self, noun: str, reading: ClauseReading) -> Iterator[tuple[str, ...]]:
+        """Yield what a noun may mean as the end of a relation: for a pronoun, by each of its antecedents."""
+        names = self.targets(noun, reading)
+        yield names
+        for antecedent in reading.clause.antecedents.get(noun, ())[1:] if not is_one(noun) else ():
+            yield self.targets(antecedent, reading)
+
     def _pronoun_target(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
         nouns = reading.clause.antecedents.get(noun, ())[:1]
         names = tuple(n for a in nouns for n in self._one_called(noun, a, reading) or self.targets(a, reading))

@@ -267,7 +267,7 @@ class RowReader:
                 failure = failure or tried
                 continue
             found.append(self._option(tried, reading, is_object=is_object))
-            if self._settles(found, reading):
+            if self._settles(found, reading) or (not number and self._of_condition(unit.direct, found[0], reading)):
                 break
         if not found:
             assert failure is not None
@@ -290,6 +290,11 @@ class RowReader:
         """Return whether what a pronoun means is settled by the last of its options."""
         last = found[-1]
         return reading.awaited if last.held else last.is_object and not self._is_late(last, found)
+
+    def _of_condition(self, pronoun: str, option: _Option, reading: ClauseReading) -> bool:
+        """Return whether a pronoun most likely means what the condition of its clause is about."""
+        subjects = {noun for c in reading.clause.conditions for clause in c.clauses for noun in clause.objects[:1]}
+        return not option.held and not subjects.isdisjoint(reading.clause.antecedents.get(pronoun, ())[:1])
 
     def _is_late(self, option: _Option, found: Sequence[_Option]) -> bool:
         """Return whether an object comes after a noun of which the goal holds already: that was meant then."""

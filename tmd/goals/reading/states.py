@@ -106,12 +106,18 @@ class States:
         for name in referent.names:
             state = self.nouns.attribute(result, name, reading.moments) if result else TRUE
             if state is not None:
-                ends = [(r, self.referents.targets(t, reading)) for r, t in relations]
+                ends = [(r, self._ends(name, r, t, reading)) for r, t in relations]
                 told = ((r, names) for r, names in ends if names or not is_relation(r, "benefit"))  # "for my mother"
                 alive.append(conjunction((state, *(self._related(name, r, names, reading) for r, names in told))))
         if not alive:
             return self._unsaid(referent, reading)
         return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)
+
+    def _ends(self, thing: str, relation: str, target: str, reading: ClauseReading) -> tuple[str, ...]:
+        """Return what a thing is related to: of what a pronoun may mean, the first that it can be related to."""
+        options = list(self.referents.target_options(target, reading))
+        fitting = (names for names in options if self._related(thing, relation, names, reading) != FALSE)
+        return next(fitting, options[0] if options else ())
 
     def _unsaid(self, referent: Referent, reading: ClauseReading) -> Refusal:
         message = f"nothing here says whether {words(referent.noun)} is {words(str(reading.clause.result))}"

@@ -115,7 +115,9 @@ def _stated(clause: Clause, facts: dict[str, Clause]) -> tuple[Relation, ...]:
     for name in (*clause.objects, ""):
         meant = next(iter(clause.antecedents.get(name, ())), name)
         fact = facts.pop(meant, None)
-        places = fact.relations if fact is not None else ()
+        # "there is a sock on the floor and one on the bed: put both away" is not about the first only
+        several = fact is not None and name in section("plural_pronouns") and not fact.phrase(meant).plural
+        places = fact.relations if fact is not None and not several else ()
         found += [r for r in places if r.source == meant and r.relation in section("static")]
     return tuple(r for r in found if r.target not in clause.objects and not is_pronoun(r.target))
 
@@ -147,8 +149,8 @@ def _one(
     own = _own(pronoun, clause, draft, before, apart=bool(before and ranked))
     goes = not section("arrivals").isdisjoint(before)
     left = [r.target for r in clause.relations if goes and r.relation in section("origins")]
-    names = tuple(dict.fromkeys((*left[:1], *own, *ranked)))
     plain = pronoun in section("one_words")
+    names = tuple(dict.fromkeys((*left[:1], *(own[:1] if plain else own), *ranked)))
     return names if plain else tuple(dict.fromkeys(name.rpartition("_")[2] for name in names))
 
 

@@ -7,7 +7,8 @@ What asks for nothing (questions, what is taken back, what need not be done) is 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from tmd.language.clause import Span
@@ -91,7 +92,7 @@ class Bracketer(ClauseEnds):
         """Return the words with brackets."""
         at = 0
         while at < len(self.tokens):
-            if self.among(at, "corrections") and self.out and self.kind(self.peek(at, _GAP)) is not K.NEG:
+            if self._corrects(at):
                 at = self._corrected(at)
             elif self._is_inverted(at):
                 self.tokens[at].text = first_of("guards")
@@ -131,8 +132,12 @@ class Bracketer(ClauseEnds):
         say.negated = negated
         say.form = DUTY if self._asked else ""
         self.out.insert(self._subject, say)
-        end = self._statement_end(at)
+        reported = self.kind(at) is K.FINITE and self.stem_among(at, "reporting")
+        end = self.past(at + 1, "REL?") if reported else self._statement_end(at)
         self._fill(say, at, end)
+        if reported:  # "Grandma says the lamp should be off"
+            self.out.append(mark(K.SEP, self.tokens[end - 1].span.end))
+            self._begin()
         return end
 
     def _part_subject(self) -> None:
@@ -266,7 +271,8 @@ class Bracketer(ClauseEnds):
         if self._verb is None and self.among(at, "none_words") and self._statement_follows(at):
             token.kind = K.DET  # "neither the lamp nor the radio should be on"
             return self._keep(at)
-        if self._verb is None and self._named():
+        contrast = self.kind(self.back(at)) is K.COMMA and self.kind(self.peek(at)) in NP | {K.P}
+        if self._verb is None and self._named() and not contrast:  # "chips in the bowl, not on the plate"
             token.kind = K.AUX  # "the mug shouldn't be there"
             return self._statement(at, negated=True)
         deed = self.past(at + 1, "(NEG|IDLE|AUX|SUBJECT|TO|INF)*")
@@ -399,24 +405,31 @@ class Bracketer(ClauseEnds):
         denied = self.among(end + 1, "denying")
         opener = mark(K.SUB, self.tokens[at].span.start)
         if not (denied or so > end + 1 or self.among(end + 1, "then_words")):
-            self._mention(at + 1, end)
+            self._mention(self.tokens[at + 1 : end], QUESTION)
             return self._skip(at, end, QUESTION)
         opener.text = first_of("excepting" if denied else "guards")
         self.out.append(opener)
         self._fill(opener, at, end)
         return so + 1
 
-    def _mention(self, at: int, end: int) -> None:
-        """State the first thing that a question names, so that pronouns may mean it: "is the lamp on? turn it off"."""
-        thing = next((i for i in range(at, end) if self.kind(i) is K.N), end)
-        begin = thing
-        while begin > at and self.kind(begin - 1) in NP - {K.N}:
+    def _mention(self, words: Sequence[Token], note: str) -> None:
+        """State the first thing of what is set aside, so that pronouns may mean it: "is the lamp on? turn it off"."""
+        thing = next((i for i, t in enumerate(words) if t.kind is K.N), len(words))
+        begin = end = thing
+        while begin and words[begin - 1].kind in NP - {K.N}:
             begin -= 1
-        named = self.tokens[begin : self.past(thing, "N*")] if thing < end else []
-        if named:
-            opener = mark(K.SAY, named[0].span.start)
-            opener.note = QUESTION
-            self.out += [opener, *named, mark(K.END, named[-1].span.end)]
+        while end < len(words) and words[end].kind is K.N:
+            end += 1
+        if end > begin:
+            opener = mark(K.SAY, words[begin].span.start)
+            opener.note = note
+            self.out += [opener, *(replace(t) for t in words[begin:end]), mark(K.END, words[end - 1].span.end)]
+
+    def _corrects(self, at: int) -> bool:
+        """Return whether a speaker says something better from here on: "no wait", "no," behind a sign."""
+        denies = self.among(at, "none_words") and self.kind(at + 1) is K.COMMA
+        signs = self.among(at, "corrections") or (denies and self.kind(at - 1) in (K.COMMA, K.SEP))
+        return signs and bool(self.out) and self.kind(self.peek(at, _GAP)) is not K.NEG
 
     def _corrected(self, at: int) -> int:
         """Take back what the speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
@@ -431,7 +444,11 @@ class Bracketer(ClauseEnds):
         while start and thing and self.out[start - 1].kind in NP:
             start -= 1
         self.dropped += noted([self.tokens[at]], CORRECTED)
-        self._take_back(max(start - place, 0), CORRECTED)
+        start = max(start - place, 0)
+        taken = self.out[start:]
+        self._take_back(start, CORRECTED)
+        if not (place or thing):
+            self._mention(taken, CORRECTED)
         return begin
 
     def _is_inverted(self, at: int) -> bool:
@@ -455,7 +472,7 @@ class Bracketer(ClauseEnds):
         if token.text == ":" and self._verb is None and self._named() and self.kind(at + 1) is K.V:
             return at + 1  # "the radio: put it in the crate"
         ended = token.kind is K.STOP
-        token.kind, token.form = K.SEP, ALSO if self._too(at + 1) else ""
+        token.kind, token.form = K.SEP, ALSO if self._too(at + 1 + (self.kind(at + 1) is K.CC)) else ""
         self.out.append(token)
         self._begin()
         if ended:
@@ -487,7 +504,10 @@ class Bracketer(ClauseEnds):
         named = self._last() in HEADS and self.out[self._subject].kind is K.DET
         # but not "the boxes from the shelf put them in the bin"
         subject = named and not (self.lexicon.names_thing(self.out[-1].text) or self.follows(at + 1, "IDLE* PRON"))
-        return (self._told and not wish) or past or subject or token.stem in section("talking")
+        # "we eat there, put it in the cupboard" asks for the second
+        told = self._told and not wish and self.kind(self.back(at)) is not K.COMMA
+        becomes = token.stem in section("becoming") and self.kind(at + 1) is K.ADJ and not self._leads(at + 1)
+        return told or past or subject or becomes or token.stem in section("talking")
 
     def _comma(self, at: int) -> int:
         if self.follows(at, "COMMA IDLE+ COMMA (AUX|FINITE)"):

@@ -120,6 +120,7 @@ class ClauseEnds(Words):
     def _causes(self, at: int) -> bool:
         """Return whether a verb only brings another one about: "make it play", "make close the door"."""
         end = self.past(at + 1, "(NP|IDLE|OF)*")
-        if self.kind(end) is not K.V or self.tokens[end].form != "base" or self.tokens[end].strength < 3:
+        sure = self.tokens[end].strength >= 3 if end < len(self.tokens) else False
+        if self.kind(end) is not K.V or self.tokens[end].form != "base" or not (sure or self.kind(end - 1) is K.PRON):
             return False
         return end == at + 1 or self.follows(end + 1, "IDLE* (BREAK|P|SUB)")

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from tmd.language.lexicon.lexicon import Lexicon, first_of, section
-from tmd.language.syntax.tokens import IDLE, NP, Kind, Token, Words
+from tmd.language.syntax.tokens import NP, Kind, Token, Words
 
 K = Kind
 _LONGEST = 18
@@ -31,13 +31,23 @@ class Frames(Words):
         kept: list[Token] = []
         at = 0
         while at < len(self.tokens):
+            at = self._parenthesis(at)
             end = self._end(at) if not at or self.follows(at - 1, "STOP|COMMA|CC") else at
             end = self._courtesy(at) if end == at else end
             if end == at:
-                kept.append(self.tokens[at])
+                kept += self.tokens[at : at + 1]
                 end += 1
             at = end
         return kept
+
+    def _parenthesis(self, at: int) -> int:
+        """Return where words go on behind talk that adds nothing: "I think", "let me see"."""
+        verb = self.past(at + 1, "(IDLE|AUX)*")
+        if self.kind(at) is K.LET and self.among(at + 1, "persons"):
+            verb = at + 2
+        elif not self.among(at, "speakers"):
+            return at
+        return verb + 1 if self.stem_among(verb, "parenthetic") and self.follows(verb + 1, "STOP|COMMA") else at
 
     def _end(self, begin: int) -> int:
         """Return where the frame that begins at a place ends; the place itself where none does."""
@@ -83,7 +93,10 @@ class Frames(Words):
         advised = self.stem_among(at - 1, "advising") and self.among(at, "persons")
         if advised or self.among(at, "frame_joints"):
             return self._joined(start, at, advised=advised)
-        return at if self.stem_among(self._before(at), "mind") and self._made_deed(at, "ing") else 0
+        before = self.back(at)
+        if self.among(before, "persons"):
+            before = self.back(before)  # "I'd appreciate you closing it"
+        return at if self.stem_among(before, "mind") and self._made_deed(at, "ing") else 0
 
     def _offers(self, start: int, at: int) -> bool:
         """Return whether speakers report what they do or feel: "I'd be ashamed to serve it", not "glad to"."""
@@ -136,13 +149,6 @@ class Frames(Words):
         token.stem, token.form = known[0], "base"
         token.kind = K.LET if token.stem in section("let_verbs") else K.V
         return True
-
-    def _before(self, at: int) -> int:
-        """Return the place of the word before ``at`` that says something, and not who is to act: "mind you closing"."""
-        before = at - 1
-        while before > 0 and (self.kind(before) in IDLE or self.among(before, "persons")):
-            before -= 1
-        return before
 
     def _courtesy(self, at: int) -> int:
         """Return where a condition ends that is only polite: "if that is possible", "when you have a moment"."""

@@ -401,6 +401,13 @@ class Words:
         """Return the place of the next word behind ``at`` that is none of those to skip."""
         return self.past(at + 1, skip)
 
+    def back(self, at: int) -> int:
+        """Return the place of the nearest word before ``at`` that is not idle; the first place where there is none."""
+        before = max(at - 1, 0)
+        while before and self.kind(before) in IDLE:
+            before -= 1
+        return before
+
     def asked(self, at: int) -> bool:
         """Return whether the sentence of a place ends with a question mark."""
         end = self.first(at, "STOP")
