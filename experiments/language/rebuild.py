@@ -32,6 +32,10 @@ def index_lines(dict_dir: Path, part: str) -> Iterator[tuple[str, int, tuple[str
         yield fields[0], int(fields[-len(offsets) - 1]), tuple(offsets)
 
 
+PASTS = frozenset({"fell"})
+"""Verbs that are far more often the past of another one."""
+
+
 def tag_counts(dict_dir: Path) -> dict[tuple[str, str], int]:
     """Return how often each (lemma, class) occurs in the tagged texts."""
     counts: dict[tuple[str, str], int] = {}
@@ -58,7 +62,7 @@ def verb_lines(dict_dir: Path) -> list[str]:
         words = lemma.split("_")
         if tagged and len(words) == 2 and words[1] in PARTICLES and words[0].isalpha():
             lines.append(lemma)
-        if not lemma.isalpha() or len(lemma) < 3:
+        if not lemma.isalpha() or len(lemma) < 3 or lemma in PASTS:
             continue
         as_verb, as_noun = counts.get((lemma, "v"), 0), counts.get((lemma, "n"), 0)
         flag = "v" if lemma not in nouns else "vn" if as_verb > as_noun else "nv"

@@ -137,7 +137,9 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         if _is_idle(token, inside=token.span.start in covered):
             continue
         reason = token.note or NO_VERB
-        if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span, reason):
+        between = range(pieces[-1][0].end, token.span.start) if pieces else range(0)
+        apart = any(place in covered for place in between)
+        if pieces and pieces[-1][1] == reason and not apart and _adjacent(text, pieces[-1][0], token.span, reason):
             pieces[-1] = (hull([pieces[-1][0], token.span]), reason)
         else:
             pieces.append((token.span, reason))

@@ -489,7 +489,7 @@ class Bracketer(ClauseEnds):
         if token.stem in section("causing") and self._causes(at):
             token.kind = K.LET
             return self._let(at) if self.kind(at + 1) is not K.V else at + 1
-        token.told = self._is_told(at)
+        token.told = token.told or self._is_told(at)
         self.out.append(token)
         self._verb = token
         if self.kind(at + 1) is K.ADV:
@@ -557,6 +557,8 @@ class Bracketer(ClauseEnds):
     def _adjective(self, at: int) -> int:
         token, last = self.tokens[at], self._last()
         if not self._leads(at):
+            if self.among(at, "adverbs") and not self.among(at, "end_states"):
+                return at + 1  # "the lamp only"
             if not (self._open or last in HEADS | {K.STATE, K.CC, K.V, K.P}):
                 return at + 1
             done = self._open and token.form == "ed" and last in (K.AUX, K.CC) and not self.among(at, "end_states")

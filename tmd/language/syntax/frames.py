@@ -58,8 +58,12 @@ class Frames(Words):
             if self.follows(place, "STOP|COMMA"):
                 break
             end = self._counts(start, place)
+            if end and self._asks(start, place, end):
+                own = not any(self.among(i, "addressee", "persons") for i in range(start, end))
+                self.tokens[end].told = own and self.among(start, "speakers", "self_forms")  # "I want to see the snow"
+                return end
             if end:
-                return end if self._asks(start, place, end) else self._denied(start, end) or begin
+                return self._denied(start, end) or begin
             if self._is_deed(place) or self._is_thing(place):
                 break
         return begin

@@ -162,14 +162,18 @@ def _exceptions(words: Words) -> None:
 
 def _sentences(tokens: list[Token]) -> None:
     """Number the sentences that verbs stand in; mark headings, and verbs behind "otherwise"."""
-    number, otherwise = 0, False
+    number, otherwise, taken = 0, False, False
     last: Token | None = None
     for at, token in enumerate(tokens):
         if token.kind is K.STOP and token.text[:1] in ".!?;":
             number, last = number + 1, None
         if token.kind is K.STOP and token.text == ":" and last is not None:
             last.heading = any(t.kind in (K.V, K.N) for t in tokens[at + 1 :])
+            otherwise = otherwise and not taken
+            taken = False
         otherwise = otherwise or token.text in section("otherwise_words")
+        if token.kind in (K.AUX, K.FINITE):
+            token.otherwise = taken = otherwise  # "otherwise the door is to be shut"
         if token.kind in (K.V, K.LET):
             token.sentence, token.otherwise, otherwise, last = number, otherwise, False, token
 

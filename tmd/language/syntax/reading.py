@@ -282,7 +282,8 @@ class TextReading:
         if not about_things(nodes):
             copy.direct = list(draft.direct)
         self._attach(copy, nodes)
-        if not trees(nodes, "place") or all(p.name in section("one_words") for p in copy.direct):
+        placed = trees(nodes, "place") and not all(p.name in section("one_words") for p in copy.direct)
+        if not placed and copy.result is None:
             copy.take_places(draft)  # "…, but not the one on the shelf"
         return copy
 
@@ -296,7 +297,7 @@ class TextReading:
             if node.data in _ASIDES:
                 self._aside(node, trees(nodes, "condition"))
             else:
-                self._forbid(last, node)
+                self._forbid(self.drafts[-1] if self.drafts else None, node)
         if trees(nodes, *_ASIDES):
             return
         if trees(nodes, "denial") and self.forbidden and trees(rest, "group", "place"):
@@ -326,6 +327,7 @@ class TextReading:
                 self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
             for draft in drafts if asked else ():
                 demand(draft, denied=opener.negated)
+                draft.verb.otherwise = any(t.otherwise for t in leaves(node))
                 draft.spans += spans([node])
                 self._demanded(draft, conditions)
 

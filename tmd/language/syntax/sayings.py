@@ -68,7 +68,8 @@ class Saying:
         """Return what it says."""
         if self._only_states():
             return [self._state(attach)]
-        left = any(v.text in section("loosely") for v in self.verbs)  # "left lying on the table"
+        loose = any(v.text in section("loosely") for v in self.verbs)
+        left = loose and bool(trees(self.rest, "state", "place"))  # "left lying on the table"
         verbs = [] if left else self.verbs
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and self._passive():
             return [self._done(verb, attach) for verb in verbs if verb.kind is Kind.PARTICIPLE]
@@ -170,7 +171,7 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
     verb, result = draft.verb, draft.result or ""
     if verb.participle:
         verb.stem, draft.result = verb.participle, None  # "should be washed"
-        draft.mood = Mood.AVOID if denied or none else None
+        draft.mood = Mood.AVOID if denied or none else Mood.KEEP if verb.stem in section("leaving") else None
     elif denied and not none:
         for phrase in draft.direct:
             phrase.lead = (first_of("none_words"), *phrase.lead)
