@@ -152,6 +152,8 @@ class Grounder:
         linked = dict.fromkeys(head for tail, head in edges if tail in own and head not in own)
         linked = linked or dict.fromkeys(tail for tail, head in edges if head in own and tail not in own)
         whole = profiles.wholes.get(name)
+        if whole is None:  # a knob stands in for its burner, but no pod for its machine, and no hat for its owner
+            linked = {other: None for other in linked if other in profiles.wholes}
         siblings = tuple(p for _, p in profiles.parts.get(whole, ()) if p != name) if whole else ()
         return parts, tuple(linked), (whole,) if whole else (), siblings
 

@@ -21,7 +21,7 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
 from tmd.goals.words import BE, is_condition, is_relation, is_verb, words_of
-from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Skipped
+from tmd.language.clause import PERSONS, PUT, Clause, Condition, Mood, Parsed, Quantifier, Skipped
 from tmd.language.lexicon.lexicon import Lexicon, singular
 from tmd.language.parser import NO_VERB, parse
 from tmd.language.syntax.brackets import REMINDER
@@ -157,12 +157,20 @@ class RuleDialogue(Dialogue):
         if not due:
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return StepGoals((), progress, note)
-        if step.clause.mood is Mood.KEEP:
+        clause = step.clause
+        staying = (
+            clause.mood is Mood.KEEP
+            and not clause.result
+            and self._goals.goes_elsewhere(clause, state, progress.memory)
+        )
+        if clause.mood is Mood.KEEP and not staying:
             preserved = self._constraints.preserved(step.clause, state, progress.memory)
             if isinstance(preserved, Refusal):
                 return StepGoals((), progress, preserved.message) if self._is_aside(step, preserved) else preserved
             return StepGoals((), progress, "it stays as it is", tuple(preserved))
-        found = self._goals.candidates(step.clause, state, progress.memory, awaited=step.awaited)
+        if staying:  # "it shall remain on the table", wherever it is by now
+            clause = replace(clause, verb=PUT, mood=Mood.DO)
+        found = self._goals.candidates(clause, state, progress.memory, awaited=step.awaited)
         if isinstance(found, Refusal):
             idle = (step.optional and _means_nothing(step, found)) or self._is_aside(step, found)
             return StepGoals((), progress, found.message) if idle else found

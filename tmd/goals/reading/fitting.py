@@ -45,9 +45,12 @@ class Fitting:
                 -len(row.slots) - (row.noun is not None),
                 -self._latest(row, unit, reading),
                 counted and not self._takes_things(row, unit, reading),
-                row.source == ACTIONS and not self._takes_named(row, unit),
+                (row.source == ACTIONS or self._names_no_substance(unit)) and not self._takes_named(row, unit),
             ),
         )
+
+    def _names_no_substance(self, unit: Unit) -> bool:
+        return bool(unit.direct) and not self.nouns.substances(unit.direct or "")
 
     def may_tell_which(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         """Return whether a place that a row takes is where one of the things is now: *the bottle on the table*."""

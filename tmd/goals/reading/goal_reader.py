@@ -159,6 +159,13 @@ class GoalReader:
         bare = clause.verb == BE and not clause.relations and not clause.result
         return bare or ((clause.verb == BE or bool(clause.result)) and not self._rows_with(clause))
 
+    def goes_elsewhere(self, clause: Clause, state: Bits, memory: Memory) -> bool:
+        """Return whether a clause says a place, which is here, where nothing is by now that it acts on."""
+        reading = ClauseReading(clause, Moments(state, memory.first), memory)
+        places = [r for r in clause.relations if r.source in clause.direct and is_relation(r.relation, "place")]
+        there = any(self.referents.tells_which(r.source, r.relation, r.target, reading) for r in places)
+        return not there and any(self.knows_of(r.target) for r in places)
+
     def _is_to_settle(self, clause: Clause) -> bool:
         """Return whether a clause without a verb says where a thing shall be."""
         placed = (r for r in clause.relations if r.source in clause.direct)

@@ -273,7 +273,8 @@ class Nouns(Facts):
         """Return the words in the names of a thing, of its class, of its whole, and of all that it may hold."""
         held = (a for fact in self.facts_about(name) for a in fact.args if self.is_constant(a))
         kinds = (*self._kinds(name), *self.world.profiles.unit(name), *held)
-        return {word for kind in kinds for word in split_name(kind)}
+        words = {word for kind in kinds for word in split_name(kind)}
+        return words | set(map(singular, words))
 
     def _belongs(self, modifier: str, name: str, moments: Moments) -> bool:
         """Return whether a thing holds, may hold or is related to what a modifier names; a substance: comes from it."""

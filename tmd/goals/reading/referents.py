@@ -114,7 +114,7 @@ class Referents:
         """Return what the verb acts on, one by one, with the relations of each."""
         clause = reading.clause
         direct, none = self._acted_on(clause)
-        units = [Unit(name, self.relations_of(name, clause)) for name in direct]
+        units = [unit for name in direct for unit in self._portions(Unit(name, self.relations_of(name, clause)))]
         without = the_word("relations", "lacking")
         for unit in units:
             unit.relations = self._lacking(unit.relations, clause)
@@ -126,6 +126,15 @@ class Referents:
             for unit, following in reversed(list(pairwise(units))):
                 unit.relations = unit.relations or list(following.relations)
         return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
+
+    @staticmethod
+    def _portions(unit: Unit) -> list[Unit]:
+        """Return a measure of several things as one of each: "a scoop of vanilla and a scoop of chocolate"."""
+        inner = [pair for pair in unit.relations if is_relation(pair[0], "partitive")]
+        if len(inner) < 2 or unit.direct not in words_of("measures"):
+            return [unit]
+        others = [pair for pair in unit.relations if pair not in inner]
+        return [Unit(unit.direct, [pair, *others]) for pair in inner]
 
     def _acted_on(self, clause: Clause) -> tuple[list[str], list[str]]:
         """Return what the verb acts on, and what shall not be there: "coffee, no sugar"."""

@@ -392,6 +392,8 @@ class RowReader:
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
             if not isinstance(found, Refusal):
+                alike = [r for r in fitting[place + 1 :] if len(r.slots) == len(row.slots)]
+                row, found = self._still_to_do(alike, row, found, unit, reading)
                 shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
                 return self._with_fewer(shorter, row, found, unit, reading) or (found, row)
             failure = failure or found
@@ -403,6 +405,20 @@ class RowReader:
         if failure is None:
             failure = Refusal(RefusalKind.NOT_UNDERSTOOD, *_misfit(rows, unit, reading))
         return replace(failure, rows=tuple(tried))
+
+    def _still_to_do(
+        self, alike: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
+    ) -> tuple[GoalRow, Formula]:
+        """Return another row where one asks only to be rid of what is nowhere: "throw the egg away" means the egg."""
+        if not (only_negative(found) and self.grounder.truth(found, reading.state)):
+            return row, found
+        before = dict(reading.meant), list(reading.approach), list(reading.notes)
+        for other in alike:
+            tried = self._by_row(other, unit, reading)
+            if not isinstance(tried, Refusal) and not self.grounder.truth(tried, reading.state):
+                return other, tried
+            reading.meant, reading.approach, reading.notes = before
+        return row, found
 
     def _with_fewer(
         self, shorter: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading

@@ -136,7 +136,8 @@ class States:
         targets = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
         bound = reading.memory.bound.get(noun, Bound(()))
         known = () if targets else bound.containers
-        contained = self._contained(constants, fixed=bool(targets))
+        exists = not (targets or adjectives)  # "if there is any sugar", in the bowl that always has some
+        contained = self._contained(constants, fixed=bool(targets) or exists)
         ways = []
         for thing, held in contained:
             placed = [TRUE if thing in names else self._related(thing, r, names, reading) for r, names in targets]

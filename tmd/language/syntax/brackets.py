@@ -144,7 +144,8 @@ class Bracketer(ClauseEnds):
         """Begin a unit behind what precedes the subject without belonging to it: "radio off, the baby is asleep"."""
         named = self.out[self._subject :]
         comma = max((i for i, t in enumerate(named) if t.kind is K.COMMA), default=0)
-        before, subject = named[:comma], {t.kind for t in named[comma + 1 :]}
+        first = next((i for i in range(comma, len(named)) if named[i].kind not in LINKS), comma)
+        before, subject = named[:comma], {t.kind for t in named[first:]}
         stated = any(t.kind is K.STATE for t in before)
         placed = any(t.kind is K.P for t in before[1:]) and before[0].kind is not K.P and K.PRON not in subject
         if (stated or placed) and K.CC not in subject and not subject.isdisjoint(HEADS):
@@ -396,7 +397,8 @@ class Bracketer(ClauseEnds):
         """Return whether a question begins that asks for nothing: "Is the lamp on?"."""
         starts = (not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}) and self._last() in BREAKS
         opens = self.among(at, "questions") and self.kind(at) is not K.V and self.kind(at + 1) is not K.ING
-        return starts and opens and self.asked(at)
+        wonders = self.among(at, "whats") and self.follows(at + 1, "AUX SUBJECT")
+        return starts and (opens or wonders) and self.asked(at)
 
     def _question(self, at: int) -> int:
         """Set a question aside; one that "if so" or "if not" follows is a condition of what is asked then."""
@@ -436,7 +438,9 @@ class Bracketer(ClauseEnds):
         begin = self.peek(at, _GAP)
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
         start = len(self.out) - (self._last() is K.SEP)
-        while start and (self.out[start - 1].kind in LINKS or self.out[start - 1].text in section("none_words")):
+        while start and (
+            self.out[start - 1].kind in LINKS | {K.SEP} or self.out[start - 1].text in section("none_words")
+        ):
             start -= 1
         until = {K.P, K.TO} if place else NP if thing else {K.SEP}
         while start and self.out[start - 1].kind not in until:
@@ -481,6 +485,8 @@ class Bracketer(ClauseEnds):
 
     def _deed(self, at: int) -> int:
         token = self.tokens[at]
+        if token.stem in section("forgetting") and self.kind(at + 1) in NP:
+            return self._skip(at, self._clause_end(at), CORRECTED)  # "no, forget the tea"
         if token.stem in section("wishing"):
             modal = any(self.among(i, "frame_modals") for i in range(max(at - 2, 0), at))
             self._told = self._told and token.stem in section("liking") and not modal

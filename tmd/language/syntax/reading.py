@@ -128,6 +128,9 @@ class TextReading:
         """Read verbs that mean less, or more, than themselves: wishes, "swap", "do the same", "use neither"."""
         if first.verb.stem in section("wishing"):
             first.verb.stem, first.verb.form = HAVE, IMPLIED
+            # "I need it later" is no request
+            vague = bool(last.direct) and not (last.landmarks or last.result) and all(p.pronoun for p in last.direct)
+            first.verb.told = first.verb.told or vague
         if self.forbidden and not (last.direct or last.landmarks) and trees(arguments, "denial"):
             self.drafts.remove(last)  # "use neither the saw nor the drill"
             self.forbidden[-1][1].spans.extend(last.spans)

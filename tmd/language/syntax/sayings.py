@@ -58,6 +58,8 @@ class Saying:
         words = [*self.verbs, *self.helpers]
         modal = any(t.text in section("modals") for t in words)
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
+        # "Grandma wants the lamp on"
+        wished = wished or any(t.kind is Kind.FINITE and t.stem in section("ordering") for t in self.verbs[-1:])
         settled = section("belonging") | section("staying")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
         subject = {t.text.partition("'")[0] for node in self.subject for t in leaves(node)}
