@@ -193,27 +193,42 @@ def close(state: State, problem: Problem) -> State:
 def _satisfying(effect: Effect, state: State, objects: Universe, outer: Binding) -> list[Binding]:
     """Return the bindings of the effect's parameters under which its condition holds.
 
-    Each conjunct is tested as soon as its variables are bound, which spares most combinations of objects.
+    Each conjunct is tested as soon as its variables are bound, which spares most combinations of objects; atoms come
+    first, because they are looked up without writing out a binding.
     """
     found = [outer]
-    for parameter, tests in _stages(effect):
+    for parameter, atoms, tests in _stages(effect):
         if parameter:
-            found = [{**b, parameter.name: o} for b in found for o in objects.of(parameter.types)]
+            name, values = parameter.name, objects.of(parameter.types)
+            found = [{**b, name: o} for b in found for o in _standing(atoms, name, values, state, b)]
         found = [b for b in found if all(_holds(test, state, objects, b) for test in tests)]
     return found
 
 
+def _standing(atoms: Sequence[Atom], name: str, values: Iterable[str], state: State, binding: Binding) -> Iterable[str]:
+    """Return the values of the parameter ``name`` for which the atoms are in ``state``."""
+    for atom in atoms:
+        predicate, terms = atom.predicate, [None if t == name else binding.get(t, t) for t in atom.terms]
+        values = [value for value in values if GroundAtom(predicate, tuple([t or value for t in terms])) in state]
+    return values
+
+
 @lru_cache(maxsize=4096)
-def _stages(effect: Effect) -> tuple[tuple[TypedName | None, tuple[Formula, ...]], ...]:
-    """Return the effect's parameters, each with the conjuncts that it completes; first those without parameters."""
+def _stages(effect: Effect) -> tuple[tuple[TypedName | None, tuple[Atom, ...], tuple[Formula, ...]], ...]:
+    """Return the effect's parameters, each with the atoms and the other conjuncts that it completes.
+
+    The first stage is without a parameter, and has all its conjuncts among the others.
+    """
     own = {p.name for p in effect.parameters}
     waiting = [(free_variables(part) & own, part) for part in conjuncts(effect.condition)]
-    stages: list[tuple[TypedName | None, tuple[Formula, ...]]] = []
+    stages: list[tuple[TypedName | None, tuple[Atom, ...], tuple[Formula, ...]]] = []
     bound: set[str] = set()
     for parameter in (None, *effect.parameters):
         if parameter:
             bound.add(parameter.name)
-        stages.append((parameter, tuple(part for needed, part in waiting if needed <= bound)))
+        ready = [part for needed, part in waiting if needed <= bound]
+        atoms = tuple(part for part in ready if parameter and isinstance(part, Atom))
+        stages.append((parameter, atoms, tuple(part for part in ready if part not in atoms)))
         waiting = [(needed, part) for needed, part in waiting if not needed <= bound]
     return tuple(stages)
 

@@ -60,20 +60,22 @@ def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient
         rest = -np.exp(logs)
         rest[rows, choices] += 1
         parts, menu = features.parts(gradient), at.menu
-        having = rest @ menu.properties
+        possible = np.flatnonzero(at.allowed.any(axis=0))  # few are, and of the others nothing is expected
+        having = rest[:, possible] @ menu.properties[possible]
         parts.local[at.context.words] += having.sum(axis=0)
         if parts.text is not None:
             parts.text[at.context.text] += share_of_word(at.context) * having.sum(axis=0)
         for words, row in zip(at.followers, having, strict=True):
             parts.local[words] += row
-        weights = np.repeat(rest.ravel(), at.pairs.shape[2])
-        parts.paired[:] += np.bincount(at.pairs.ravel(), weights, minlength=len(parts.paired))
+        weights = np.repeat(rest[at.allowed], at.pairs.shape[2])
+        parts.paired[:] += np.bincount(at.pairs[at.allowed].ravel(), weights, minlength=len(parts.paired))
         parts.reals[:] += np.einsum("hc,hcr->r", rest, at.reals)
         if features.facts:
             things = len(menu.things.numbers) + 1
-            cells = (menu.places * things + menu.args).ravel()
-            for row, facts in zip(rest, at.facts, strict=True):
-                named = np.bincount(cells, np.repeat(row, menu.args.shape[1]), minlength=len(parts.facts) * things)
+            cells = menu.places * things + menu.args
+            for row, allowed, facts in zip(rest, at.allowed, at.facts, strict=True):
+                weights = np.repeat(row[allowed], menu.args.shape[1])
+                named = np.bincount(cells[allowed].ravel(), weights, minlength=len(parts.facts) * things)
                 parts.facts[:] += named.reshape(len(parts.facts), things) @ facts
     return total
 

@@ -40,13 +40,18 @@ def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
     if parts.text is not None:
         words = words + share_of_word(at.context) * parts.text[at.context.text].sum(axis=0)
     rows = words + np.stack([parts.local[words].sum(axis=0) for words in at.followers])
-    # an instruction has few of the many properties: a product of matrices would take ten times as long
+    # few choices are allowed at any step, and an instruction has few of the many properties: a product of matrices
+    # would take ten times as long
+    possible = np.flatnonzero(at.allowed.any(axis=0))
     padded = np.pad(rows, ((0, 0), (0, 1)))
-    reward = padded[:, menu.having].sum(axis=2) + parts.paired[at.pairs].sum(axis=2) + at.reals @ parts.reals
+    worth = padded[:, menu.having[possible]].sum(axis=2) + parts.paired[at.pairs[:, possible]].sum(axis=2)
+    worth += (at.reals @ parts.reals)[:, possible]
     if features.facts:
-        worth = at.facts @ parts.facts.T  # H × (things + 1) × places
-        reward += worth[:, menu.args, menu.places].sum(axis=2)
-    reward[~at.allowed] = -np.inf
+        of_facts = at.facts @ parts.facts.T  # H × (things + 1) × places
+        worth += of_facts[:, menu.args[possible], menu.places[possible]].sum(axis=2)
+    worth[~at.allowed[:, possible]] = -np.inf
+    reward: Floats = np.full(at.allowed.shape, -np.inf)
+    reward[:, possible] = worth
     reward -= reward.max(axis=1, keepdims=True)
     logs: Floats = reward - np.log(np.exp(reward).sum(axis=1, keepdims=True))
     return logs

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import groupby, product
 from math import prod
 from typing import NamedTuple, TypeAlias
 
@@ -174,9 +174,9 @@ def _absorb(clauses: set[Literals]) -> list[Literals]:
     if len(clauses) < 2:
         return list(clauses)
     kept: list[Literals] = []
-    for clause in sorted(clauses, key=lambda c: (len(c), sorted(c))):
-        if len(clause) == 1 or not any(k <= clause for k in kept):
-            kept.append(clause)
+    # clauses of one length cannot contain each other
+    for length, alike in groupby(sorted(clauses, key=lambda c: (len(c), sorted(c))), key=len):
+        kept += [c for c in alike if length == 1 or not any(k <= c for k in kept)]
     return kept
 
 
