@@ -55,7 +55,7 @@ def of_domain(workspace: Workspace, choose: Random) -> Case:
     dear: list[tuple[str, ...]] = [  # a tenth of a second and more
         ("check", f"domains/{domain}", f"problems/{domain}"),
         ("check", f"domains/{domain}", "--strict", "--json"),
-        ("check", name, "--fix", "--notes"),
+        ("check", name, "--fix"),
         ("fmt", "--check", f"domains/{domain}"),
         (*ground, "--json"),
         (*ground, "--model", "paper", "--guess"),

@@ -142,7 +142,6 @@ def _learned_text(report: dict[str, object]) -> str:
 @click.argument("paths", metavar="PATH...", nargs=-1)
 @click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
 @click.option("--strict", is_flag=True, help="Treat warnings as errors.")
-@click.option("--notes", is_flag=True, help="Print notes as well.")
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option("--explain", metavar="VERB", help="Print all that is known of a verb, in the domains that are named.")
 @json_option
@@ -152,7 +151,6 @@ def check(
     paths: tuple[str, ...],
     domain: str | None,
     strict: bool,
-    notes: bool,
     fix: bool,
     explain: str | None,
     as_json: bool,
@@ -163,7 +161,7 @@ def check(
     With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
     """
     if explain is not None:
-        if any((domain, strict, notes, fix)):
+        if any((domain, strict, fix)):
             raise click.UsageError("--explain takes domains and --json only")
         return _explain(roots, explain, paths, as_json)
     if not paths:
@@ -173,23 +171,22 @@ def check(
     from tmd.check.report import check_paths
 
     report = check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
-    return _print_report(report, strict=strict, notes=notes, as_json=as_json)
+    return _print_report(report, strict=strict, as_json=as_json)
 
 
-def _print_report(report: CheckReport, *, strict: bool, notes: bool, as_json: bool) -> ExitCode:
+def _print_report(report: CheckReport, *, strict: bool, as_json: bool) -> ExitCode:
     """Print what was found; return how the program ends."""
     from tmd.check.diagnostic import Severity
 
-    shown = [d for d in report.diagnostics if notes or d.severity is not Severity.NOTE]
+    count = report.counts
+    errors, warnings = count[Severity.ERROR], count[Severity.WARNING]
     if as_json:
         emit(_all_json(report))
     else:
-        emit("".join(map(_text, shown)))
+        emit("".join(map(_text, report.diagnostics)))
         emit("".join(f"{file}: fixed\n" for file in report.fixed))
-        emit(_summary(report, notes))
-    count = report.counts
-    faulty = count[Severity.ERROR] or (strict and count[Severity.WARNING])
-    return ExitCode.FAULTS_FOUND if faulty else ExitCode.OK
+        emit(f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)\n")
+    return ExitCode.FAULTS_FOUND if errors or (strict and warnings) else ExitCode.OK
 
 
 def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> ExitCode:
@@ -199,15 +196,6 @@ def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> Ex
     found = explain(verb, [roots.corpus(roots.folder(name)) for name in names])
     emit(found.to_value() if as_json else explanation_text(found))
     return ExitCode.OK
-
-
-def _summary(report: CheckReport, shown: bool) -> str:
-    """Return the numbers of files and problems; notes only where there are some."""
-    errors, warnings, notes = report.counts.values()
-    said = f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)"
-    if notes:
-        said += f", {notes} note(s)" + ("" if shown else " (--notes prints them)")
-    return said + "\n"
 
 
 def _all_json(report: CheckReport) -> dict[str, object]:
@@ -242,21 +230,21 @@ def _json(diagnostic: Diagnostic) -> dict[str, object]:
     }
 
 
-@click.command("fmt", short_help="Format PDDL and YAML files.")
+@click.command("fmt", short_help="Format PDDL files.")
 @click.argument("paths", metavar="PATH...", nargs=-1, required=True)
 @click.option("--check", "only_check", is_flag=True, help="Write nothing; exit with 13 if a file would be reformatted.")
 @click.pass_obj
 def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
-    """Lay out files, or all PDDL and YAML files of folders; comments and line breaks stay.
+    """Lay out files, or all PDDL files of folders; comments and line breaks stay.
 
     A file with a fault that makes laying it out impossible is left as it is, and told; then this ends with 31.
     """
     from tmd.check.checker import files_of
-    from tmd.format.files import SUFFIXES, format_file
+    from tmd.format.files import SUFFIX, format_file
 
     changed = 0
     failed: list[TmdError] = []
-    files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix in SUFFIXES]
+    files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix == SUFFIX]
     for file in files:
         try:
             if not format_file(file, write=not only_check):
