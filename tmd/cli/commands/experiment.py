@@ -267,7 +267,7 @@ def data() -> None:
 @click.argument("directory", metavar="DIR", type=PATH)
 @json_option
 def check(directory: Path, as_json: bool) -> None:
-    """Read a copy of VEIL-500 and count what was found, repaired and dropped.
+    """Read a copy of VEIL-500 and count what was found and dropped.
 
     Ends with 33 where the copy is missing or damaged.
     """

@@ -25,7 +25,7 @@ from tmd.cli.options import (
     text_options,
 )
 from tmd.cli.output import emit
-from tmd.diagnostics import ExitCode, TmdError
+from tmd.diagnostics import ExitCode
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
@@ -134,12 +134,6 @@ def run(
     from tmd.robot_trials.plan_runner import PlanRunner
 
     request = spoken.request() if spoken else None
-    path = roots.environment(environment, domain_name)
-    if path.suffix == ".xml":
-        raise TmdError(
-            f"{path}: the robot does not act in rooms of VEIL-500: their instructions have no skills",
-            hint="tmd scene shows the room",
-        )
     room, folder = roots.room(environment, domain_name)
     if log is not None:
         check_writable(log)
@@ -173,7 +167,7 @@ def run(
 
 
 @click.command("scene", short_help="Show an environment as the robot's room.")
-@environment_option("An environment (YAML), the name of a bundled one, or a room of VEIL-500 (XML).")
+@environment_option("An environment (YAML), or the name of a bundled one.")
 @environment_domain_option
 @click.option("--reach", is_flag=True, help="Print a base pose for grasping every object.")
 @seed_option("Seed for placement jitter; 0 disables it.")
@@ -210,9 +204,7 @@ def scene(
     from tmd.robot.skills.reachability_report import survey_scene
 
     urdf = model["urdf"] if model["robot"] is None else packaged_robot(model["robot"])
-    room, folder, remarks = _read(roots, environment, domain_name)
-    for remark in remarks:
-        emit(f"note: {remark}\n", error=True)
+    room, folder = roots.room(environment, domain_name)
     found = survey_scene(room, folder, reach=reach, seed=seed, urdf=urdf, picture=picture)
     stances = found.stances if reach else None
     written = _exported(room, folder, export, formats, overwrite) if export is not None else []
@@ -235,16 +227,6 @@ def _exported(
     files = scene_files(room, folder, FORMATS if names == ("all",) else names)
     write_directory(directory, files, overwrite=overwrite)
     return [directory / path for path in files if "/" not in path]
-
-
-def _read(roots: Roots, name: str, domain: str | None) -> tuple[Environment, DomainFolder, tuple[str, ...]]:
-    path = roots.environment(name, domain)
-    if path.suffix == ".xml":
-        from tmd.datasets.veil500.scene import read_room, scene_of
-
-        veil = scene_of(read_room(path))
-        return veil.environment, veil.folder, veil.remarks
-    return *roots.room(name, domain), ()
 
 
 def _text(name: str, entries: Sequence[ReachabilityEntry], stances: Mapping[str, Stance | None] | None) -> str:
