@@ -84,7 +84,7 @@ def of_domain(workspace: Workspace, choose: Random) -> Case:
 
 def of_plan(workspace: Workspace, choose: Random) -> Case:
     """A plan, a record that is given back, or the log of a run."""
-    name = choose.choice([n for n in ("plan.txt", "plan/plan.json", "ground.json", "log.jsonl") if n in workspace.kept])
+    name = choose.choice([n for n in ("plan.txt", "ground.json", "log.jsonl") if n in workspace.kept])
     workspace.damage(name, choose)
     if name == "plan.txt":
         return Case(
@@ -92,7 +92,7 @@ def of_plan(workspace: Workspace, choose: Random) -> Case:
                 (
                     *10 * (("validate", "04_tea", PROBLEM, name, "--json"),),
                     ("export", PROBLEM, "out", "--plan", name),
-                    ("export", PROBLEM, "out", "--plan", name, "--format", "strips,json,bt,durative,ipc"),
+                    ("export", PROBLEM, "out", "--plan", name, "--format", "strips,bt,durative,ipc"),
                     ("view", name, "--problem", PROBLEM, "--out", "page.html"),
                     ("run", "--environment", "kitchen1", "--plan", name, "--kinematic", "--json"),
                 )
@@ -276,7 +276,7 @@ def of_names(workspace: Workspace, choose: Random) -> Case:
                 ("plan", "--planner", "in-process", *mark, "04_tea", inside),
                 ("export", "--planner", "in-process", PROBLEM, inside),
                 ("export", *mark, inside, "out"),
-                ("view", "--out", inside, "plan/plan.json"),
+                ("view", "--out", inside, "ground.json"),
                 ("view", "--out", "page.html", *mark, inside),
                 ("ground", "--environment", inside, "--text", "Heat the kettle.", "--json"),
                 ("ground", "--environment", "pantry1", "--text-file", inside),

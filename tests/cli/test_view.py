@@ -146,13 +146,6 @@ def test_a_plan_file_in_its_problem(here: Tmd, tmp_path: Path) -> None:
     assert len(page(tmp_path / "blocks.html").of_class("step")) == 6
 
 
-def test_an_exported_plan(here: Tmd, tmp_path: Path) -> None:
-    here("export", BLOCKS / "p01.pddl", "out", "--format", "json")
-    (exported,) = (tmp_path / "out").glob("plan.json")
-    assert here("view", exported, "--out", "x.html").code == ExitCode.OK
-    assert len(page(tmp_path / "x.html").of_class("step")) == 6
-
-
 @pytest.mark.parametrize("plan", sorted((BLOCKS / "plans").glob("invalid-*.plan")), ids=lambda path: path.stem)
 def test_a_plan_that_does_not_work_ends_as_validate_does(here: Tmd, tmp_path: Path, plan: Path) -> None:
     ended = here("view", plan, "--problem", BLOCKS / "p01.pddl", "--out", "bad.html")

@@ -15,7 +15,6 @@ from tmd.records.clauses import ParsedRecord
 from tmd.records.fit import Fit
 from tmd.records.grounding import GoalOnlyRecord, GroundingRecord
 from tmd.records.metrics import Metrics
-from tmd.records.plan import PlanRecord
 from tmd.records.prediction import PredictionRecord
 from tmd.records.run import RunEvent, RunRecord
 from tmd.records.sentence_test import ReaderComparison, SentenceReport
@@ -32,7 +31,6 @@ FORMATS: dict[str, Any] = {
     "test": SentenceReport,
     "test-compare": ReaderComparison,
     "llm-reply": Reply,
-    "plan": PlanRecord,
     "prediction": PredictionRecord,
     "metrics": Metrics,
     "fit": Fit,

@@ -9,7 +9,6 @@ from typing import Any
 
 from tmd import __version__
 from tmd.diagnostics import ExitCode, Location, OptionError, TmdError
-from tmd.export.record import parse_record
 from tmd.export.strips import restored
 from tmd.files import read_bytes
 from tmd.grounded import why_refused
@@ -17,13 +16,11 @@ from tmd.json_record import json_value
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.model import Problem
-from tmd.pddl.plan_file import Plan, parse_plan
+from tmd.pddl.plan_file import parse_plan
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import nearest, read_standard_input, read_text
 from tmd.pddl.validator import Verdict
 from tmd.records.grounding import GroundingRecord
-from tmd.records.plan import FORMAT
 from tmd.records.run import EndEvent, RanStep, RunRecord, RunRequest, StepEvent, read_log
 from tmd.view.meaning import Meaning, after, meaning
 from tmd.view.pictures import Strip, read_strip
@@ -154,10 +151,6 @@ def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> Found
     if "segments" in first:
         asked.only("demonstration", "environment", "domain")
         return _demonstration_found(roots, asked, lines)
-    if first.get("format") == FORMAT:
-        asked.only()
-        planned = parse_record(text, asked.name)
-        return _plan_of(asked, planned.problem, Plan(planned.plan))
     if "event" in first or ("mode" in first and "steps" in first):
         asked.only("environment", "domain", "strip")
         run, done = _run(asked, first, lines)
@@ -354,10 +347,6 @@ def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
         problem = roots.problem(asked.problem, asked.domain)
     else:
         problem = roots.world(asked.environment or "", asked.domain)[1].task.problem
-    return _plan_of(asked, problem, plan)
-
-
-def _plan_of(asked: ViewRequest, problem: Problem, plan: Plan) -> FoundSubject:
     where = {"problem": asked.problem, "environment": asked.environment or problem.name, "domain": problem.domain.name}
     steps = tuple(PlannedStep(instruction) for instruction in restored(problem, plan.instructions))
     subject = Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where))

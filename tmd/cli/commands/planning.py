@@ -153,7 +153,7 @@ _ALL = "all"
     "formats",
     multiple=True,
     metavar="A,B|all",
-    help="adl (default), ipc, strips, durative, anml, protobuf, plansys2, bt, sas, json.",
+    help="adl (default), ipc, strips, durative, plansys2, bt, sas.",
 )
 @click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
 @click.option("--plan", type=PATH, metavar="FILE", help="Take this plan; otherwise one is found.")
