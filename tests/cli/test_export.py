@@ -89,45 +89,6 @@ def test_what_ground_printed(tmd: Tmd, tmp_path: Path) -> None:
     )
 
 
-def run_directory(path: Path, predictions: int = 2) -> Path:
-    path.mkdir()
-    (path / "config.json").write_text(json.dumps({"data": "bundled", "domain": "kitchen"}))
-    said = [f"{name}({', '.join(args)})" for name, *args in STEPS]
-    scores = dict.fromkeys(("IED", "END", "EED", "EED_trim"), 50.0)
-    rest = {"task": "ramen", "fold": "f", "text": "x", "gold": said, "executable": True, "clauses": [], "segments": []}
-    rows = [
-        {"id": f"ramen-kitchen1-0{n}", "model": "full", "environment": "kitchen1", "predicted": said, **rest, **scores}
-        for n in range(1, predictions + 1)
-    ]
-    (path / "predictions.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
-    return path
-
-
-def test_a_prediction_of_a_run(tmd: Tmd, tmp_path: Path) -> None:
-    run = run_directory(tmp_path / "run")
-    ended = tmd("export", run, "out", "--example", "ramen-kitchen1-02", "--format", "ipc")
-    assert (ended.code, ended.err) == (ExitCode.OK, "")
-    unclear = tmd("export", run, "two")
-    assert unclear.code == ExitCode.BAD_INPUT
-    assert re.fullmatch(
-        r"error: the run has predictions of several: give --example\nhint: id: ramen-kitchen1-01, ramen-kitchen1-02\n",
-        unclear.err,
-    )
-
-
-def test_a_run_that_is_none(tmd: Tmd, tmp_path: Path) -> None:
-    run = run_directory(tmp_path / "run", 1)
-    (run / "predictions.jsonl").write_text('{"id": "a"}\n')
-    assert (
-        "run/predictions.jsonl:1:1: this is not a prediction of tmd experiment: task: the key"
-        in tmd("export", run, "out").err
-    )
-    (run / "predictions.jsonl").write_text("{\n")
-    assert "run/predictions.jsonl:1:2: this is not valid JSON" in tmd("export", run, "out").err
-    (run / "config.json").unlink()
-    assert "is no directory of a finished run" in tmd("export", run, "out").err
-
-
 CASES = {
     "no-format": (ExitCode.USAGE, [PROBLEM, "out", "--format", "adll"], "no format 'adll': did you mean \"adl\""),
     "no-source": (ExitCode.BAD_INPUT, ["none.pddl", "out"], "none.pddl:1:1: cannot be read"),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -17,13 +16,13 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Ended, fork_server, heed_interrupts, run_tmd
+from tests.cli.conftest import Ended, heed_interrupts, run_tmd
 from tmd import __version__
 from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation.models import model
 from tmd.evaluation.runs import cluster
-from tmd.evaluation.runs.config import ExperimentConfig, Shard
-from tmd.evaluation.runs.experiment import collect, run, work
+from tmd.evaluation.runs.config import ExperimentConfig
+from tmd.evaluation.runs.experiment import run
 from tmd.evaluation.runs.jobs import EvaluationJob, WorkerLostError
 
 ROOT = Path(__file__).parents[2]
@@ -97,69 +96,14 @@ def said(error: bytes) -> list[str]:
 # One machine
 
 
-def test_shards_make_the_whole(tmp_path: Path, serial: dict[str, bytes]) -> None:
-    counts = []
-    for number in (2, 1, 3):
-        counts.append(work(config(tmp_path, shard=Shard(number, 3))))
-        assert not (tmp_path / "metrics.json").exists()
-    assert sum(counts) == 20
-    assert len(list((tmp_path / "parts").iterdir())) == 20
-    times = {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()}
-    collect(config(tmp_path))
-    assert outcome(tmp_path) == serial
-    assert {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()} == times
-
-
-def test_every_unit_is_in_one_share() -> None:
-    for of in range(1, 9):
-        for index in range(1, 30):
-            assert sum(Shard(number, of).has(index) for number in range(1, of + 1)) == 1
-
-
 def test_processes_at_once_in_one_directory(tmp_path: Path, serial: dict[str, bytes]) -> None:
-    """A share, and the whole of it beside that, which does the share twice."""
+    """Both do the whole of it."""
     out = tmp_path / "out"
-    processes = [begin(out, "--jobs", "1", *options) for options in (("--shard", "2/2"), ())]
+    processes = [begin(out, "--jobs", "1") for _ in range(2)]
     told = [process.communicate(timeout=300) for process in processes]
     assert [process.returncode for process in processes] == [0, 0], told
     assert outcome(out) == serial
     assert not list(out.rglob(".*")), "drafts were left behind"
-
-
-@pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash here")
-def test_the_script_for_slurm(tmp_path: Path, serial: dict[str, bytes]) -> None:
-    """The script in the page, with the variables that Slurm sets; the second share comes first."""
-    page = (ROOT / "docs" / "experiments.md").read_text(encoding="utf-8")
-    script = re.search(r"<!-- slurm -->\n```bash\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
-    assert script
-    assert re.search(r"#SBATCH --array=1-(\d+)$", script[1], re.MULTILINE)[1] == "10"  # type: ignore[index]
-    text = script[1].replace("--task all", "--task ramen --train-tasks ramen").replace("empty,nearest", "empty,chance")
-    text = text.replace("shards=10", "shards=2")
-    assert text.count("--train-tasks") == text.count("chance") == text.count("shards=2") == 1
-    (tmp_path / "all.sh").write_text(text)
-    tmd = tmp_path / "bin" / "tmd"
-    tmd.parent.mkdir()
-    forked = f"-I -S {ROOT}/tests/cli/fork_server.py {fork_server()}"
-    tmd.write_text(f'#!/bin/sh\nexec "{sys.executable}" {forked} "$@"\n')
-    tmd.chmod(0o755)
-    path = {"PATH": f"{tmd.parent}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
-
-    def submit(*arguments: str, number: int = 1) -> subprocess.CompletedProcess[bytes]:
-        return subprocess.run(
-            ["bash", "all.sh", *arguments],
-            cwd=tmp_path,
-            env={**os.environ, **path, "SLURM_ARRAY_TASK_ID": str(number)},
-            capture_output=True,
-            check=False,
-        )
-
-    assert submit(number=2).returncode == ExitCode.OK
-    early = submit("report")
-    assert early.returncode == ExitCode.BAD_INPUT
-    assert b"10 of 20 parts are not done" in early.stderr
-    assert submit(number=1).returncode == ExitCode.OK
-    assert submit("report").returncode == ExitCode.OK
-    assert outcome(tmp_path / "runs" / "all") == serial
 
 
 @needs_signals
@@ -507,10 +451,6 @@ def test_without_distributed_the_package_is_named(tmp_path: Path) -> None:
     [
         (("--backend", "dask"), "go together"),
         (("--scheduler", "tcp://a:1"), "go together"),
-        (("--shard", "0/2"), "is not a share"),
-        (("--shard", "3/2"), "is not a share"),
-        (("--shard", "1"), "is not a share"),
-        (("--shard", "1/2", "--step", "report"), "without --shard"),
         (("--drop-sentences", "1"), "below 1"),
         (("--drop-sentences", "-0.1"), "below 1"),
         (("--drop-sentences", "nan"), "below 1"),

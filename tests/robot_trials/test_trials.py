@@ -225,15 +225,7 @@ def test_the_command_without_charts(tmp_path: Path) -> None:
     assert not (tmp_path / "run").exists()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "told"),
-    [
-        (["--step", "robot", "--robot", "off"], "--step robot and --robot off do not go together"),
-        (["--step", "robot", "--shard", "1/2"], "--step robot needs the whole run"),
-        (["--robot", "physics", "--shard", "1/2"], "give --robot without --shard"),
-    ],
-)
-def test_options_that_do_not_go_together(tmp_path: Path, arguments: list[str], told: str) -> None:
-    ended = run_tmd(("experiment", "--task", "ramen", "--out", "run", *arguments), tmp_path)
+def test_options_that_do_not_go_together(tmp_path: Path) -> None:
+    ended = run_tmd(("experiment", "--task", "ramen", "--out", "run", "--step", "robot", "--robot", "off"), tmp_path)
     assert ended.code == ExitCode.USAGE
-    assert told in ended.err
+    assert "--step robot and --robot off do not go together" in ended.err

@@ -11,7 +11,6 @@ from tmd.cli.grounding import answer, remarks
 from tmd.cli.options import ReadingOptions
 from tmd.cli.plans import exit_code, why_invalid, why_none
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.evaluation.runs.finished_run import predicted_plan
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.export.strips import restored
 from tmd.json_record import json_value
@@ -38,8 +37,6 @@ class ExportRequest:
     planner: str | None
     text: str | None
     goal: str | None
-    example: str | None
-    model: str | None
     seconds: float | None
     memory: int | None
     reading: ReadingOptions
@@ -65,10 +62,6 @@ def planned_source(roots: Roots, asked: ExportRequest) -> Planned:
     of_text = asked.text is not None or path.suffix == ".json"
     if asked.goal in (ASKED, CHANGED) and not of_text:
         raise click.UsageError(f"--goal {asked.goal} is for a text, or for what tmd ground --json printed")
-    if path.is_dir():
-        return _checked(*predicted_plan(roots, path, asked.example, asked.model), asked.goal)
-    if asked.example or asked.model:
-        raise click.UsageError(f"--example and --model are for the directory of a run, and {path} is none")
     if path.suffix == ".json":
         return _of_json(roots, path, asked)
     if path.suffix == ".pddl" and asked.text is None:

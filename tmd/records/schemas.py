@@ -17,7 +17,7 @@ from tmd.records.grounding import GoalOnlyRecord, GroundingRecord
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
 from tmd.records.run import RunEvent, RunRecord
-from tmd.records.sentence_test import ReaderComparison, SentenceReport
+from tmd.records.sentence_test import SentenceReport
 from tmd.records.trajectory import TrajectoryLine
 from tmd.records.trial import Trial
 
@@ -29,7 +29,6 @@ FORMATS: dict[str, Any] = {
     "run": RunRecord,
     "run-log": RunEvent,
     "test": SentenceReport,
-    "test-compare": ReaderComparison,
     "llm-reply": Reply,
     "prediction": PredictionRecord,
     "metrics": Metrics,

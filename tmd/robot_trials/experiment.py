@@ -131,7 +131,7 @@ def run_experiment(
     """Train, predict and score, or what is left of it, and write the report.
 
     Args:
-        config: The run. A share of one (``config.shard``) is done by :func:`tmd.evaluation.runs.experiment.work`.
+        config: The run.
         collect_only: Train nothing: recompute everything from finished parts.
         progress: Called with the number of parts done and of all parts.
 

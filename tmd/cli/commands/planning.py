@@ -146,7 +146,7 @@ _ALL = "all"
 
 
 @click.command("export", short_help="Write a problem and its plan for other tools.")
-@click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json|RUN")
+@click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json")
 @click.argument("directory", type=PATH, metavar="DIR")
 @click.option(
     "--format",
@@ -166,8 +166,6 @@ _ALL = "all"
     metavar="CONDITION|asked|changed",
     help="Another goal; of a text what it asks for (the default), or all that its plan changes.",
 )
-@click.option("--example", metavar="ID", help="Of a run: which example.")
-@click.option("--model", metavar="NAME", help="Of a run: whose prediction.")
 @overwrite_option
 @json_option
 @click.pass_obj
@@ -184,8 +182,8 @@ def export(
 ) -> ExitCode:
     """Write a problem and a plan for it into DIR.
 
-    The source is a PDDL problem, an environment (with a text, a plan or a goal), a plan of "tmd ground --json", or the
-    directory of an experiment. A plan is executed before it is written: ends with 11 where it does not work, with 10,
+    The source is a PDDL problem, an environment (with a text, a plan or a goal), or a plan of "tmd ground
+    --json". A plan is executed before it is written: ends with 11 where it does not work, with 10,
     12 or 20 where none is found. One format fills DIR, several a directory each. A format that fails does not keep the
     others back: why is told, and the exit code is that of the first failure.
     """

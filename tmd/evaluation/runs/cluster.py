@@ -92,7 +92,7 @@ def _caller() -> Callable[[bytes], bytes]:
 def _sent(config: ExperimentConfig) -> ExperimentConfig:
     """Return the configuration for workers, with absolute directories."""
     veil500, domains, problems = (p and p.resolve() for p in (config.veil500, config.domains, config.problems))
-    return replace(config, out=Path(), jobs=1, shard=None, veil500=veil500, domains=domains, problems=problems)
+    return replace(config, out=Path(), jobs=1, veil500=veil500, domains=domains, problems=problems)
 
 
 def remote(config: ExperimentConfig, unit: EvaluationJob, wanted: str, fingerprint: str) -> JobOutcome:

@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 from tmd.diagnostics import OutputError, TmdError
-from tmd.evaluation.runs.config import Shard
 from tmd.evaluation.runs.dataset import Example
 from tmd.evaluation.runs.folds import Fold
 from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, journal_files
@@ -58,7 +57,7 @@ class RunDirectory:
         return self.path / "fits"
 
     @contextmanager
-    def entered(self, shard: Shard | None = None) -> Iterator[None]:
+    def entered(self) -> Iterator[None]:
         """Make the directory, or go on in it, and keep a log meanwhile.
 
         Raises:
@@ -68,7 +67,7 @@ class RunDirectory:
         # First the parts, then the configuration: another process writes it before its first part.
         started = any((self.path / "parts").iterdir())
         self._claim(started)
-        handler = self._handler(shard)
+        handler = self._handler()
         self.log.setLevel(logging.INFO)
         logging.getLogger(LOG).propagate = False
         self.log.addHandler(handler)
@@ -98,8 +97,8 @@ class RunDirectory:
         elif found != text:
             raise OutputError(f"{self.path} holds another run{_difference(found, self.identity)}", hint=hint)
 
-    def _handler(self, shard: Shard | None) -> logging.Handler:
-        path = self.path / (f"log-{shard.number}-of-{shard.of}.txt" if shard else "log.txt")
+    def _handler(self) -> logging.Handler:
+        path = self.path / "log.txt"
         try:
             handler = _Log(path, encoding="utf-8")
         except OSError as error:
