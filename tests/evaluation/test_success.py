@@ -18,7 +18,7 @@ from tmd.evaluation.metrics import Scorer
 from tmd.evaluation.report.predictions import best_and_worst
 from tmd.evaluation.report.report import print_table, write_report
 from tmd.evaluation.runs.config import ExperimentConfig
-from tmd.evaluation.runs.dataset import BundledData, forget_datasets
+from tmd.evaluation.runs.dataset import BundledData, _read_once
 from tmd.evaluation.runs.experiment import run
 from tmd.evaluation.runs.finished_run import read_run
 from tmd.evaluation.summary import compare, summarise
@@ -71,7 +71,7 @@ def config(problems: Path, out: Path) -> ExperimentConfig:
 @pytest.fixture
 def mixed(tmp_path: Path) -> ExperimentConfig:
     """A run whose examples have goals that hold at first, that do not, and none."""
-    forget_datasets()
+    _read_once.cache_clear()
     return config(corpus(tmp_path / "problems", AT_FIRST, HELD, None), tmp_path / "out")
 
 
@@ -176,7 +176,7 @@ def forgotten(data: Any) -> Any:  # noqa: ANN401
 
 def test_goals_that_came_later_are_another_run(mixed: ExperimentConfig, tmp_path: Path) -> None:
     run(mixed)
-    forget_datasets()
+    _read_once.cache_clear()
     with pytest.raises(TmdError, match=r"holds another run: its fingerprint is .*give another --out"):
         run(replace(mixed, problems=corpus(tmp_path / "others", AT_FIRST, HELD, HELD)))
 
