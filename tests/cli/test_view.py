@@ -98,7 +98,8 @@ def test_a_log_with_its_filmstrip(here: Tmd, tmp_path: Path, grounded: Path) -> 
     assert (ended.code, ended.out) == (ExitCode.OK, "cup.html\n")
     shown = page(tmp_path / "cup.html")
     assert all(text in shown.text for text in ("stopped", "no hand fits", "(near pr2 table2)", "it is near"))
-    assert len(shown.of_class("tile")) == 1 and "url(data:image/png;base64," in shown.text
+    (sheet,) = shown.of_class("sheet")
+    assert sheet["src"].startswith("data:image/png;base64,")
     whole = tmp_path / "run.json"
     whole.write_text(json.dumps({**run_of(grounded), "steps": STEPS, "status": "stopped",
                                  "reason": "no hand fits", "repairs": 0, "seconds": 1.5}))  # fmt: skip

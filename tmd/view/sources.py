@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,7 +24,6 @@ from tmd.pddl.validator import Verdict
 from tmd.records.grounding import GroundingRecord
 from tmd.records.run import EndEvent, RanStep, RunRecord, RunRequest, StepEvent, read_log
 from tmd.view.meaning import Meaning, after, meaning
-from tmd.view.pictures import Strip, read_strip
 from tmd.view.subject import PlannedStep, Ran, Said, Subject, grounded_subject, title_of
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration, Segment, read_demonstration
@@ -39,6 +39,7 @@ _KINDS = "give what tmd ground --json or tmd run --json printed, a log of tmd ru
 
 # Standard input or output.
 STANDARD = "-"
+_PNG = b"\x89PNG\r\n\x1a\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,10 +182,10 @@ def _record_found(
     corpus, world = scene
     record = told if isinstance(told, GroundingRecord) else told.grounding
     made: dict[str, object] = {} if record is None else dict(record.made_with)
-    strip = None
+    strip = ""
     if isinstance(told, RunRequest):
         made |= {name: getattr(told, name) for name in ("version", "planner", "mode", "seed")}
-        strip = _strip(asked, told.strip, len(done.steps) if done else 0)
+        strip = _strip(asked, told.strip)
     rows = made_rows({**made, "domain": corpus.folder.name, "environment": world.name})
     if record is not None:
         refused = record.refused
@@ -225,22 +226,24 @@ def _ended(end: RunRecord | EndEvent, steps: tuple[RanStep, ...]) -> Ran:
     return Ran(end.status, end.reason or "", end.repairs, end.seconds, steps)
 
 
-def _strip(asked: ViewRequest, recorded: str | None, count: int) -> Strip | None:
-    """Return the filmstrip of a run: the one that was named, else what lies beside the log."""
+def _strip(asked: ViewRequest, recorded: str | None) -> str:
+    """Return the filmstrip of a run as a ``data:`` address: the one that was named, else what lies beside the log."""
     path = asked.strip
     if path is None and asked.source != STANDARD:
         names = ([Path(recorded).name] if recorded else []) + [asked.path.with_suffix(".png").name]
         path = next((asked.path.parent / name for name in names if (asked.path.parent / name).is_file()), None)
     if path is None:
-        return None
+        return ""
     hint = "give what tmd run --strip wrote"
     try:
-        found = read_strip(read_bytes(path), count)
+        found = read_bytes(path)
     except OSError as error:
         raise TmdError(f"{path} cannot be read: {error.strerror}", hint=hint) from None
-    if found is None and asked.strip is not None:
+    if found.startswith(_PNG):
+        return f"data:image/png;base64,{b64encode(found).decode()}"
+    if asked.strip is not None:
         raise TmdError(f"{path} is not a PNG picture", hint=hint)
-    return found
+    return ""
 
 
 def _demonstration_found(roots: Roots, asked: ViewRequest, lines: Lines) -> FoundSubject:
