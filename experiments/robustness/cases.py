@@ -77,7 +77,7 @@ def of_domain(workspace: Workspace, choose: Random) -> Case:
             ("view", "plan.txt", "--problem", problem, "--domain", domain, "--out", "page.html"),
         ]
     if name.endswith(".jsonl"):
-        cheap += 6 * [("view", name, "--id", "tea-001", "--out", "page.html"), ("check", name)]
+        cheap += 6 * [("check", name)]
         dear += 2 * [("test", domain), ("learn", domain, "--no-weights", "--out", "learned2")]
     return Case(choose.choice(cheap if choose.random() < 0.93 else dear))
 

@@ -14,7 +14,6 @@ from tmd.diagnostics import ExitCode
 
 TEXT = "Put the cup on the first table."
 WHERE = ("--environment", "corner2")
-DEMONSTRATIONS = sorted((ROOT / "problems").glob("*/*/demonstrations.jsonl"))
 STEPS = [
     {"number": 1, "action": "moveto", "args": ["book1"], "repair": False, "outcome": "ok", "failure": None,
      "evidence": "it is near",
@@ -156,22 +155,6 @@ def test_a_plan_that_does_not_work_ends_as_validate_does(here: Tmd, tmp_path: Pa
     assert reason in page(tmp_path / "bad.html").text
 
 
-@pytest.mark.parametrize("path", DEMONSTRATIONS, ids=lambda path: "/".join(path.parts[-3:-1]))
-def test_a_demonstration_of_each_corpus(here: Tmd, tmp_path: Path, path: Path) -> None:
-    first = json.loads(path.read_text().splitlines()[0])
-    ended = here("view", path, "--id", first["id"], "--out", "shown.html")
-    assert (ended.code, ended.err) == (ExitCode.OK, "")
-    instructions = [text for segment in first["segments"] for text in segment["instructions"]]
-    assert len(page(tmp_path / "shown.html").of_class("step")) == len(instructions)
-
-
-def test_an_unknown_demonstration_is_told_with_the_nearest(here: Tmd) -> None:
-    path = next(path for path in DEMONSTRATIONS if path.parent.name == "ramen")
-    ended = here("view", path, "--id", "ramen-kitchen1-99")
-    assert ended.code == ExitCode.BAD_INPUT and "ramen-kitchen1-09" in ended.err
-    assert "--id" in here("view", path).err
-
-
 def test_a_text_without_a_plan_has_a_page_that_says_why(here: Tmd, tmp_path: Path) -> None:
     ended = here("view", *WHERE, "--text", "Zzyzx blorf wug.")
     assert ended.code == ExitCode.NOT_GROUNDED and ended.out == "corner2.html\n" and "no plan" in ended.err
@@ -226,10 +209,8 @@ def test_half_characters_in_a_file_do_not_stop_the_page(here: Tmd, tmp_path: Pat
         (),
         WHERE,
         ("--text", TEXT),
-        (*WHERE, "--text", TEXT, "--id", "x"),
         ("grounded.json", "--text", TEXT),
         ("grounded.json", "--top", "3"),
-        ("grounded.json", "--id", "x"),
         ("grounded.json", "--strip", "x.png"),
         ("grounded.json", "--problem", "x.pddl"),
         ("grounded.json", "--out", "grounded.json"),

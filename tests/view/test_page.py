@@ -22,7 +22,6 @@ from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Status
 from tmd.records.run import RanStep
 from tmd.view.page import render, shown_steps
-from tmd.view.sources import demonstrated_subject
 from tmd.view.subject import PlannedStep, Ran, Subject, grounded_subject
 from tmd.world.world import World
 
@@ -161,22 +160,6 @@ def test_a_thousand_steps_stay_below_ten_megabytes(kitchen: World) -> None:
     assert len(page.html.encode()) < 10_000_000
     reader = Reader(page.html)
     assert len(reader.of_class("step")) == 1_000
-
-
-@pytest.mark.parametrize("domain", ["kitchen", "living_room"])
-def test_demonstrations_have_pages(domain: str) -> None:
-    for demonstration in corpus(domain).demonstrations()[::50]:
-        world = corpus(domain).world(demonstration.environment)
-        shown = demonstrated_subject(demonstration, world, corpus(domain).lexicon)
-        page = render(shown)
-        assert page.verdict.valid
-        reader = Reader(page.html)
-        assert len(reader.of_class("step")) == len(demonstration.instructions)
-        assert (demonstration.goal is None) == ("✓ executable" in reader.text)
-        assert demonstration.goal is None or demonstration.goal in reader.text
-        assert shown.said is not None and shown.said.meant is not None
-        used = {arg for instruction in demonstration.instructions for arg in instruction.args}
-        assert any(name in used for meaning in shown.said.meant for names in meaning.values() for name in names)
 
 
 def test_what_the_robot_did_stands_at_its_step(subject: Subject) -> None:

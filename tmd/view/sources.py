@@ -1,32 +1,26 @@
-"""Subjects of pages read from files: a grounded text, a run, a plan, a demonstration."""
+"""Subjects of pages read from files: a grounded text, a run, a plan."""
 
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tmd import __version__
 from tmd.diagnostics import ExitCode, Location, OptionError, TmdError
 from tmd.export.strips import restored
 from tmd.files import read_bytes
 from tmd.grounded import why_refused
 from tmd.json_record import json_value
 from tmd.language import parse
-from tmd.language.clause import Clause
-from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.plan_file import parse_plan
-from tmd.pddl.reading.reader import with_goal
-from tmd.pddl.reading.syntax import nearest, read_standard_input, read_text
+from tmd.pddl.reading.syntax import read_standard_input, read_text
 from tmd.pddl.validator import Verdict
 from tmd.records.grounding import GroundingRecord
 from tmd.records.run import EndEvent, RanStep, RunRecord, RunRequest, StepEvent, read_log
-from tmd.view.meaning import Meaning, after, meaning
 from tmd.view.subject import PlannedStep, Ran, Said, Subject, grounded_subject, title_of
 from tmd.world.corpus import Corpus
-from tmd.world.demonstration import Demonstration, Segment, read_demonstration
 from tmd.world.roots import Roots
 from tmd.world.world import World
 
@@ -34,7 +28,7 @@ from tmd.world.world import World
 Lines = Sequence[tuple[int, str]]
 # Plans with more steps are refused: such a page cannot be read.
 MAX_STEPS = 10_000
-_KINDS = "give what tmd ground --json or tmd run --json printed, a log of tmd run, a plan file, or demonstrations"
+_KINDS = "give what tmd ground --json or tmd run --json printed, a log of tmd run, or a plan file"
 
 
 # Standard input or output.
@@ -50,7 +44,6 @@ class ViewRequest:
     environment: str | None = None
     domain: str | None = None
     problem: Path | None = None
-    demonstration: str | None = None
     strip: Path | None = None
 
     @property
@@ -74,10 +67,9 @@ class ViewRequest:
         Raises:
             OptionError: One of them was given.
         """
-        for name in ("problem", "environment", "domain", "demonstration", "strip"):
+        for name in ("problem", "environment", "domain", "strip"):
             if name not in meant and getattr(self, name) is not None:
-                option = "--id" if name == "demonstration" else f"--{name}"
-                raise OptionError(f"{option} has no meaning for {self.name}", hint="leave it out")
+                raise OptionError(f"--{name} has no meaning for {self.name}", hint="leave it out")
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,9 +141,6 @@ def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> Found
         first = _object(asked, lines[0][1])  # of JSON Lines, or all on one line
     except TmdError:
         first = _object(asked, text)
-    if "segments" in first:
-        asked.only("demonstration", "environment", "domain")
-        return _demonstration_found(roots, asked, lines)
     if "event" in first or ("mode" in first and "steps" in first):
         asked.only("environment", "domain", "strip")
         run, done = _run(asked, first, lines)
@@ -244,79 +233,6 @@ def _strip(asked: ViewRequest, recorded: str | None) -> str:
     if asked.strip is not None:
         raise TmdError(f"{path} is not a PNG picture", hint=hint)
     return ""
-
-
-def _demonstration_found(roots: Roots, asked: ViewRequest, lines: Lines) -> FoundSubject:
-    """Read one demonstration of a corpus."""
-    read = [read_demonstration(Path(asked.name), number, line) for number, line in lines]
-    chosen = _chosen(asked, read)
-    corpus, world = _scene(roots, asked, None, chosen.environment, _bundled_beside(asked, chosen.environment))
-    where = {"version": __version__, "domain": corpus.folder.name, "environment": world.name, "file": asked.path.name}
-    subject = demonstrated_subject(chosen, world, corpus.lexicon, made_rows(where))
-    return FoundSubject(subject, asked.path.with_name(f"{_file_name(chosen.id)}.html"))
-
-
-def _chosen(asked: ViewRequest, read: Sequence[Demonstration]) -> Demonstration:
-    ids = [demonstration.id for demonstration in read]
-    if asked.demonstration is None and len(read) == 1:
-        return read[0]
-    if asked.demonstration is None:
-        raise TmdError(f"{asked.name} has {len(read)} demonstrations", hint=f"give --id, such as --id {ids[0]}")
-    if asked.demonstration not in ids:
-        hint = nearest(asked.demonstration, ids, what="demonstrations")
-        raise TmdError(f"{asked.name} has no demonstration '{asked.demonstration}'", hint=hint)
-    return read[ids.index(asked.demonstration)]
-
-
-def _file_name(text: str) -> str:
-    """Return an identifier as the name of a file."""
-    return "".join(c if c.isalnum() or c in "-_." else "_" for c in text).lstrip(".")[:100] or "demonstration"
-
-
-def _bundled_beside(asked: ViewRequest, environment: str) -> str | None:
-    """Return the environment's file near the corpus: ``<domain>/environments/`` beside ``<domain>/<task>/``."""
-    directory = asked.path.resolve().parent.parent / "environments"
-    paths = [directory / f"{Path(environment).name}{suffix}" for suffix in (".yaml", ".pddl")]
-    found = next((str(path) for path in paths if path.is_file()), None)
-    return None if asked.source == STANDARD else found
-
-
-def demonstrated_subject(
-    demonstration: Demonstration, world: World, lexicon: Lexicon, made: Iterable[tuple[str, str]] = ()
-) -> Subject:
-    """Return a demonstration, with its text parsed, its instructions by segment, and its goal if it has one.
-
-    Raises:
-        TmdError: The goal is not a condition of the environment.
-    """
-    problem = world.task.problem
-    parsed = parse(demonstration.text, lexicon)
-    steps = [
-        PlannedStep(instruction, f"segment {number}", " ".join(demonstration.text[part.start : part.end].split()))
-        for number, part in enumerate(demonstration.segments, start=1)
-        for instruction in part.instructions
-    ]
-    return Subject(
-        f"{demonstration.id}: a demonstration in {demonstration.environment}",
-        problem if demonstration.goal is None else with_goal(problem, demonstration.goal, "goal"),
-        tuple(steps),
-        Said(parsed, tuple(_meanings(parsed.clauses, demonstration.segments, world))),
-        made=(
-            *made,
-            ("task", demonstration.task),
-            ("stated end", " ".join(demonstration.end_state) or "none"),
-            ("goal", demonstration.goal or "none"),
-        ),
-    )
-
-
-def _meanings(clauses: Iterable[Clause], segments: Sequence[Segment], world: World) -> Iterator[Meaning]:
-    """Yield the meanings of each clause's nouns among the objects used for the segment that it is in."""
-    for clause in clauses:
-        start = clause.span.start
-        done = [i for part in segments if part.end <= start for i in part.instructions]
-        own = [i for part in segments if part.start <= start < part.end for i in part.instructions]
-        yield meaning(clause, own, world, after(done, world, world.task.init))
 
 
 def _scene(

@@ -24,7 +24,7 @@ class PlannedStep:
 
     Attributes:
         instruction: What to do.
-        origin: ``clause 2``, ``segment 1``; empty without a text.
+        origin: ``clause 2``; empty without a text.
         words: The words of the text that it serves.
         latent: Whether they left it unsaid.
     """

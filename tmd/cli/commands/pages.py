@@ -1,4 +1,4 @@
-"""``tmd view`` and ``tmd studio``: plans, runs and demonstrations in the browser."""
+"""``tmd view`` and ``tmd studio``: plans and runs in the browser."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 _OF_GROUNDING = ("top", "planner", "model", "weights", "beam", "trim", "reader", "llm_model", "llm_url", "verify")
 
 
-@click.command("view", short_help="Write one HTML page of a plan, a run or a demonstration.")
+@click.command("view", short_help="Write one HTML page of a plan or a run.")
 @click.argument("source", required=False, metavar="[PLAN|RUN]")
 @click.option(
     "--environment", metavar="FILE|NAME", help="Where: for a text, for a plan file, or instead of what a file names."
@@ -38,7 +38,6 @@ _OF_GROUNDING = ("top", "planner", "model", "weights", "beam", "trim", "reader",
 @click.option(
     "--domain", "domain_name", metavar="NAME|FILE", help="The domain; otherwise the environment's or problem's own."
 )
-@click.option("--id", "demonstration", metavar="ID", help="Of a file of demonstrations: which one.")
 @click.option(
     "--strip",
     type=PATH,
@@ -56,7 +55,6 @@ def view(
     spoken: GivenText,
     problem: Path | None,
     domain_name: str | None,
-    demonstration: str | None,
     strip: Path | None,
     out: str | None,
     options: dict[str, Any],
@@ -64,15 +62,15 @@ def view(
 ) -> ExitCode:
     """Write one HTML page: what was said, what it means here, the plan step by step, and the candidates.
 
-    PLAN|RUN is what "tmd ground --json" or "tmd run --json" printed, a log of "tmd run", a plan file (with --problem or
-    --environment), or a file of demonstrations (with --id); - is standard input. Without it a text is grounded as by
+    PLAN|RUN is what "tmd ground --json" or "tmd run --json" printed, a log of "tmd run", or a plan file (with --problem
+    or --environment); - is standard input. Without it a text is grounded as by
     "tmd ground". Ends with 11 where the plan does not work and with 12 where there is none; the page is written anyhow.
     """
     roots: Roots = ctx.obj
     given = [name for name in _OF_GROUNDING if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE]
     if source is not None and (given or spoken):
         raise click.UsageError("a text, and how it is grounded, are for --environment without PLAN|RUN")
-    if source is None and (environment is None or (problem, demonstration, strip) != (None, None, None)):
+    if source is None and (environment is None or (problem, strip) != (None, None)):
         raise click.UsageError("give PLAN|RUN, or --environment and --text")
 
     from tmd.files import write_text
@@ -82,7 +80,7 @@ def view(
     if source is None:
         found = _subject_of_text(roots, spoken.request(), environment or "", domain_name, reading, options)
     else:
-        found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, demonstration, strip))
+        found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, strip))
     target = out or (STANDARD if source == STANDARD else str(found.beside))
     _refuse_to_overwrite(target, source, problem, strip)
     page = render(found.subject)
