@@ -61,7 +61,7 @@ def of_domain(workspace: Workspace, choose: Random) -> Case:
         (*ground, "--model", "paper", "--guess"),
         (*ground, "--goal-only"),
         ("export", room, "out", "--domain", domain, "--text", text),
-        ("scene", "--environment", room, "--domain", domain, "--json"),
+        ("scene", "--environment", room, "--domain", domain),
     ]
     if problems and domain != "lab_bench":  # whose problems take two seconds each
         problem = choose.choice(problems)
@@ -99,7 +99,7 @@ def of_plan(workspace: Workspace, choose: Random) -> Case:
             )
         )
     view = ("view", name, "--out", "page.html")
-    return Case(view if name == "log.jsonl" else choose.choice((view, ("export", name, "out", "--json"))))
+    return Case(view if name == "log.jsonl" else choose.choice((view, ("export", name, "out"))))
 
 
 def of_text(workspace: Workspace, choose: Random) -> Case:
@@ -179,8 +179,7 @@ def of_veil(workspace: Workspace, choose: Random) -> Case:
         choose.choice(
             (
                 *10 * (("data", "check", "veil"),),
-                *10 * (("data", "check", "veil", "--json"),),
-                ("scene", "--environment", "veil/Environments/kitchen/kitchen2.xml", "--json"),
+                *10 * (("data", "check", "veil"),),
                 ("ground", "--environment", "veil/Environments/kitchen/kitchen2.xml", "--text", "Take the mug."),
                 (*experiment, "--models", "empty", "--jobs", "1"),
             )
@@ -411,7 +410,7 @@ def of_environment(workspace: Workspace, choose: Random) -> Case:
         ("test", "01_blocks"),
         ("learn", "01_blocks", "--no-weights", "--out", "learned2"),
         ("data", "check", "veil"),
-        ("scene", "--environment", "study1", "--json"),
+        ("scene", "--environment", "study1"),
         (*EXPERIMENT[:-3], "run2", "--jobs", "1"),
         (*EXPERIMENT, "--step", "report"),
         ("experiment", "--task", "all", "--data", "veil500", "--out", "run3", "--models", "empty", "--jobs", "1"),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import shutil
 from pathlib import Path
@@ -32,15 +31,6 @@ def test_what_stands_where(tmd: Tmd, tmp_path: Path) -> None:
     ), ended.out
     with Image.open(tmp_path / "room.png") as picture:
         assert picture.format == "PNG"
-
-
-def test_the_json(tmd: Tmd, tmp_path: Path) -> None:
-    (tmp_path / "mine.yaml").write_text(MINE)
-    found = json.loads(tmd("scene", "--environment", "mine.yaml", "--json").out)
-    assert found["environment"] == "mine"
-    table, mug = found["objects"]
-    assert list(mug) == ["name", "kind", "item", "position", "at"]
-    assert (table["at"], mug["at"]) == (None, {"thing": "table1", "relation": "on"})
 
 
 @pytest.mark.parametrize(

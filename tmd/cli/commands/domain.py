@@ -33,9 +33,8 @@ if TYPE_CHECKING:
     metavar="plain|graph",
     help="Begin with plain PDDL, or with classes of things that have parts.",
 )
-@json_option
 @click.pass_obj
-def new(roots: Roots, domain: str, start: str, as_json: bool) -> None:
+def new(roots: Roots, domain: str, start: str) -> None:
     """Begin the domain DOMAIN.
 
     Writes domains/DOMAIN and problems/DOMAIN here (--domains and --problems say where else): a domain with a lexicon,
@@ -44,8 +43,7 @@ def new(roots: Roots, domain: str, start: str, as_json: bool) -> None:
     from tmd.world.scaffold import scaffold
 
     made = scaffold(domain, start, roots.domains or Path("domains"), roots.problems or Path("problems"))
-    files = [path.as_posix() for path in made.files]
-    emit({"domain": domain, "from": start, "files": files} if as_json else _next_steps(domain, start, made))
+    emit(_next_steps(domain, start, made))
 
 
 def _next_steps(domain: str, start: str, made: Scaffold) -> str:
@@ -78,11 +76,8 @@ def _next_steps(domain: str, start: str, made: Scaffold) -> str:
 @learned_option
 @click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
 @seed_option()
-@json_option
 @click.pass_obj
-def learn(
-    roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int, as_json: bool
-) -> None:
+def learn(roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int) -> None:
     """Learn from the demonstrations of DOMAIN, and save it.
 
     `tmd ground` uses what was saved for as long as the domain, its environments and demonstrations, and tmd itself, are
@@ -94,48 +89,28 @@ def learn(
     if not no_weights and sys.stderr.isatty():
         emit("the weights take a while to learn; --no-weights leaves them out\n", error=True)
     corpus = roots.corpus(roots.folder(domain))
-    report = _learned(corpus, learn_domain(corpus, out or learned, weights=not no_weights, seed=seed))
-    emit(report if as_json else _learned_text(report))
+    emit(_learned_text(corpus, learn_domain(corpus, out or learned, weights=not no_weights, seed=seed)))
 
 
-def _learned(corpus: Corpus, found: LearnedDomain) -> dict[str, object]:
-    from tmd.json_record import rounded
-
+def _learned_text(corpus: Corpus, found: LearnedDomain) -> str:
     library, reward = found.knowledge.library, found.knowledge.reward
-    verbs = sorted(library.verbs(), key=lambda verb: (-len(library.templates(verb)), verb))
-    curve = found.tuned.curve if found.tuned else ()
-    return {
-        "domain": corpus.folder.name,
-        "demonstrations": len(corpus.demonstrations()),
-        "goals": sum(d.goal is not None for d in corpus.demonstrations()),
-        "environments": sorted({d.environment for d in corpus.demonstrations()}),
-        "templates": {verb: len(library.templates(verb)) for verb in verbs},
-        "unaligned": len(library.unaligned),
-        "policy": {"before": rounded(reward.before), "after": rounded(reward.after)} if reward else None,
-        "weights": {"before": rounded(curve[0]["loss"]), "after": rounded(min(p["loss"] for p in curve))}
-        if curve
-        else None,
-        "saved": str(found.directory),
-    }
-
-
-def _learned_text(report: dict[str, object]) -> str:
-    templates, places = report["templates"], report["environments"]
-    assert isinstance(templates, dict)
-    assert isinstance(places, list)
-    width = max(map(len, templates), default=0)
+    counts = {verb: len(library.templates(verb)) for verb in library.verbs()}
+    width = max(map(len, counts), default=0)
+    demonstrations = corpus.demonstrations()
+    places = sorted({demonstration.environment for demonstration in demonstrations})
     lines = [
-        f"{report['domain']}: {report['demonstrations']} demonstrations in {', '.join(places)}",
-        f"{sum(templates.values())} templates",
-        *(f"  {verb:<{width}}  {count:>4}" for verb, count in templates.items()),
+        f"{corpus.folder.name}: {len(demonstrations)} demonstrations in {', '.join(places)}",
+        f"{sum(counts.values())} templates",
+        *(f"  {verb:<{width}}  {counts[verb]:>4}" for verb in sorted(counts, key=lambda verb: (-counts[verb], verb))),
     ]
-    if report["unaligned"]:
-        lines.append(f"{report['unaligned']} pieces of text with instructions, but without a verb, taught nothing")
-    for name, what in (("policy", "mean ln P of what was shown"), ("weights", "mean loss of the plans chosen")):
-        part = report[name]
-        if isinstance(part, dict):
-            lines.append(f"{name}: {what} {part['before']:.4f} before, {part['after']:.4f} after")
-    return "\n".join([*lines, f"saved in {report['saved']}"]) + "\n"
+    if library.unaligned:
+        lines.append(f"{len(library.unaligned)} pieces of text with instructions, but without a verb, taught nothing")
+    if reward:
+        lines.append(f"policy: mean ln P of what was shown {reward.before:.4f} before, {reward.after:.4f} after")
+    losses = [point["loss"] for point in found.tuned.curve] if found.tuned else []
+    if losses:
+        lines.append(f"weights: mean loss of the plans chosen {losses[0]:.4f} before, {min(losses):.4f} after")
+    return "\n".join([*lines, f"saved in {found.directory}"]) + "\n"
 
 
 @click.command("check", short_help="Find everything that is wrong with domains, problems and their files.")

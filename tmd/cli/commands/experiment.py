@@ -11,7 +11,7 @@ from typing import IO, TYPE_CHECKING, Any, cast
 
 import click
 
-from tmd.cli.options import PATH, json_option, seed_option
+from tmd.cli.options import PATH, seed_option
 from tmd.cli.output import ErrorStream, emit
 from tmd.world.roots import Roots
 
@@ -233,13 +233,11 @@ def data() -> None:
 
 @data.command("check")
 @click.argument("directory", metavar="DIR", type=PATH)
-@json_option
-def check(directory: Path, as_json: bool) -> None:
+def check(directory: Path) -> None:
     """Read a copy of VEIL-500 and count what was found and dropped.
 
     Ends with 33 where the copy is missing or damaged.
     """
     from tmd.datasets.veil500.report import check_veil500
 
-    report = check_veil500(directory)
-    emit(report.json() if as_json else report.text())
+    emit(check_veil500(directory).text())

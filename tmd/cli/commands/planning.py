@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -167,7 +167,6 @@ _ALL = "all"
     help="Another goal; of a text what it asks for (the default), or all that its plan changes.",
 )
 @overwrite_option
-@json_option
 @click.pass_obj
 def export(
     roots: Roots,
@@ -177,7 +176,6 @@ def export(
     formats: Sequence[str],
     spoken: GivenText,
     overwrite: bool,
-    as_json: bool,
     **options: Any,  # noqa: ANN401 - fields of ExportRequest
 ) -> ExitCode:
     """Write a problem and a plan for it into DIR.
@@ -198,8 +196,6 @@ def export(
         found = planned_source(roots, request)
     except NotPlannedError as none:
         emit(f"{'invalid' if none.code is ExitCode.INVALID_PLAN else 'no plan'}: {none}\n", error=True)
-        if as_json:
-            emit(_summary(directory, {}, None, str(none), {}))
         return none.code
     written = chosen_files(found, names)
     failures = written.failures
@@ -207,20 +203,10 @@ def export(
         raise next(iter(failures.values()))
     flat = {path: data for files in written.files.values() for path, data in files.items()}
     write_directory(directory, flat, overwrite=overwrite)
-    if as_json:
-        listed = {name: list(files) for name, files in written.files.items()}
-        emit(_summary(directory, listed, found.cost, None, {name: str(error) for name, error in failures.items()}))
-    else:
-        emit("".join(f"{directory / path}\n" for path in flat))
+    emit("".join(f"{directory / path}\n" for path in flat))
     for name, error in failures.items():
         emit(f"not written: {name}: {one_line(str(error))}\n", error=True)
     return next((error.exit_code for error in failures.values()), ExitCode.OK)
-
-
-def _summary(
-    directory: Path, written: Mapping[str, list[str]], cost: int | None, reason: str | None, failed: Mapping[str, str]
-) -> Mapping[str, object]:
-    return {"directory": str(directory), "written": written, "cost": cost, "reason": reason, "failed": failed}
 
 
 def _chosen(given: Sequence[str]) -> list[str]:

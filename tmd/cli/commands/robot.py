@@ -16,7 +16,6 @@ from tmd.cli.options import (
     ReadingOptions,
     environment_domain_option,
     environment_option,
-    json_option,
     learned_option,
     overwrite_option,
     reading_options,
@@ -176,7 +175,6 @@ def run(
 @click.option("--export", type=PATH, metavar="DIR", help="Write the room for other simulators.")
 @click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), mjcf.")
 @overwrite_option
-@json_option
 @click.pass_obj
 def scene(
     roots: Roots,
@@ -189,7 +187,6 @@ def scene(
     export: Path | None,
     formats: Sequence[str],
     overwrite: bool,
-    as_json: bool,
 ) -> None:
     """Build the room of an environment, put a PR2 into it, and say what stands where.
 
@@ -208,11 +205,8 @@ def scene(
     found = survey_scene(room, folder, reach=reach, seed=seed, urdf=urdf, picture=picture)
     stances = found.stances if reach else None
     written = _exported(room, folder, export, formats, overwrite) if export is not None else []
-    if as_json:
-        emit({"environment": found.name, "objects": [_json(entry, stances) for entry in found.entries]})
-    else:
-        emit(_text(found.name, found.entries, stances))
-        emit("".join(f"{path}\n" for path in written))
+    emit(_text(found.name, found.entries, stances))
+    emit("".join(f"{path}\n" for path in written))
 
 
 def _exported(
@@ -243,17 +237,3 @@ def _text(name: str, entries: Sequence[ReachabilityEntry], stances: Mapping[str,
             line += f"{', ' if place else ''}{found or 'out of reach as it stands now'}"
         lines.append(line.rstrip())
     return "\n".join(lines) + "\n"
-
-
-def _json(entry: ReachabilityEntry, stances: Mapping[str, Stance | None] | None) -> dict[str, object]:
-    found: dict[str, object] = {
-        "name": entry.name,
-        "kind": entry.kind,
-        "item": entry.item,
-        "position": [round(value, 3) for value in entry.position],
-        "at": {"thing": entry.place[0], "relation": entry.place[1]} if entry.place else None,
-    }
-    if stances is not None:
-        where = stances[entry.name]
-        found["stance"] = where and {"base": [round(value, 3) for value in where.base], "hand": where.side or None}
-    return found

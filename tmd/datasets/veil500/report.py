@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from tmd.datasets.veil500.compile import compile_environment
@@ -42,10 +41,6 @@ class DataReport:
         if self.remarks:
             lines += ["", "remarks", *(f"  {remark}" for remark in self.remarks)]
         return "\n".join(lines) + "\n"
-
-    def json(self) -> str:
-        """Return the report for programs."""
-        return json.dumps(asdict(self), indent=2) + "\n"
 
 
 def check_veil500(directory: str | Path) -> DataReport:
