@@ -334,12 +334,23 @@ def test_a_worker_with_another_version_or_data_is_told(
 
 
 @needs_dask
-def test_a_worker_without_tmd_is_told(tmp_path: Path, cluster_: Cluster) -> None:
+def test_a_worker_without_tmd_is_told_and_a_scheduler_needs_none(tmp_path: Path, serial: dict[str, bytes]) -> None:
     preload = tmp_path / "preload.py"
     preload.write_text("import sys\nsys.modules['tmd'] = None\n")
-    cluster_.work(1, "--preload", str(preload))
-    with pytest.raises(MissingToolError, match="a worker cannot run tmd"):
-        run(on(cluster_, tmp_path / "other"))
+    directory = tmp_path / "cluster"
+    directory.mkdir()
+    started = Cluster(directory, "--preload", str(preload))
+    try:
+        started.work(1)
+        run(on(started, tmp_path / "out"))
+        assert outcome(tmp_path / "out") == serial
+        started.workers[0].terminate()
+        started.workers[0].wait()
+        started.work(1, "--preload", str(preload))
+        with pytest.raises(MissingToolError, match="a worker cannot run tmd"):
+            run(on(started, tmp_path / "other"))
+    finally:
+        started.stop()
 
 
 def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:

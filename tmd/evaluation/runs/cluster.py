@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import gc
 import logging
+import pickle
 import socket
 import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -50,13 +51,31 @@ def on_cluster(config: ExperimentConfig, units: Sequence[EvaluationJob], fingerp
     sent = replace(config, out=Path(), jobs=1, veil500=veil500, domains=domains, problems=problems)
     try:
         with _connected(address):
-            futures = [client.submit(remote, sent, unit, __version__, fingerprint, pure=False) for unit in units]
+            call = _caller()
+            asked = [pickle.dumps((sent, unit, __version__, fingerprint)) for unit in units]
+            futures = [client.submit(call, one, pure=False) for one in asked]
             ended = distributed.as_completed(futures, loop=client.loop)
         for future in ended:
             yield _outcome(distributed, future, address)
     finally:
         with suppress(Exception):
             client.close(timeout=1)
+
+
+def _caller() -> Callable[[bytes], bytes]:
+    """Return the function that is sent: being local it travels with its code, and takes and returns bytes.
+
+    So the scheduler needs no tmd, and a worker without it fails in the unit, with an error that is reported.
+    """
+
+    def call(sent: bytes) -> bytes:
+        import pickle
+
+        from tmd.evaluation.runs.cluster import remote
+
+        return pickle.dumps(remote(*pickle.loads(sent)))
+
+    return call
 
 
 def remote(config: ExperimentConfig, unit: EvaluationJob, version: str, fingerprint: str) -> JobOutcome:
@@ -140,7 +159,7 @@ def _outcome(distributed: ModuleType, future: Any, address: str) -> JobOutcome: 
     with _connected(address):
         error = future.exception()
         if error is None:
-            outcome = future.result()
+            outcome = pickle.loads(future.result())
             assert isinstance(outcome, JobOutcome)
             return outcome
     if isinstance(error, distributed.KilledWorker):
