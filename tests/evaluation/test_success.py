@@ -146,15 +146,6 @@ def without_success(parts: Path) -> dict[Path, int]:
     return {part: part.stat().st_mtime_ns for part in parts.iterdir()}
 
 
-def test_parts_that_do_not_tell_success_are_done_again(mixed: ExperimentConfig) -> None:
-    run(mixed)
-    before = (mixed.out / "predictions.jsonl").read_bytes(), (mixed.out / "metrics.json").read_bytes()
-    without_success(mixed.out / "parts")
-    run(mixed)
-    assert ((mixed.out / "predictions.jsonl").read_bytes(), (mixed.out / "metrics.json").read_bytes()) == before
-    assert "damaged, so to be done again" in (mixed.out / "log.txt").read_text()
-
-
 def test_a_finished_run_of_an_earlier_version_still_has_its_page(mixed: ExperimentConfig) -> None:
     run(mixed)
     for name in ("predictions.jsonl", "metrics.json"):

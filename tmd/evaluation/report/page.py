@@ -76,7 +76,7 @@ def learned(fits: Sequence[Fit], model: str) -> dict[str, Any]:
         weights[name] = cells
     order = sorted(weights, key=lambda name: -max(abs(cell[0]) for cell in weights[name] if cell))[:_WEIGHTS]
     kept = [(name, cells) for name, cells in weights.items() if name in order]
-    curves = [[p.loss for p in found.points if p.loss is not None] for fit in own for found in fit.worlds.values()]
+    curves = [[p.loss for p in found.curve if p.loss is not None] for fit in own for found in fit.worlds.values()]
     ends = [(curve[0], curve[-1]) for curve in curves if curve]
     losses = [sum(part) / len(ends) for part in zip(*ends, strict=True)] if ends else None
     smaller = len(weights) - len(kept)

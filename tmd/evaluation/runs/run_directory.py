@@ -16,7 +16,6 @@ from pathlib import Path
 from typing import Any
 
 from tmd.diagnostics import OutputError, TmdError
-from tmd.evaluation.runs.dataset import Example
 from tmd.evaluation.runs.folds import Fold
 from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, journal_files
 from tmd.files import make_directory, write_text
@@ -128,7 +127,7 @@ class RunDirectory:
             return None
         about = [(line.id, line.task, line.environment, line.model, line.fold) for line in lines]
         wanted = [(each.id, each.task, each.environment, model, fold.name) for each in fold.test]
-        if not lines or about != wanted or any(map(_lacks_success, lines, fold.test)):
+        if not lines or about != wanted:
             self.log.warning("damaged, so to be done again: %s: its lines are of other examples", path.name)
             return None
         return lines
@@ -177,11 +176,6 @@ class RunDirectory:
         write_text(self.path / PREDICTIONS, "".join(prediction.to_line() for prediction in predictions))
         write_text(self.path / METRICS_FILE, json.dumps(metrics.to_value(), indent=2) + "\n")
         self.log.info("finished")
-
-
-def _lacks_success(line: PredictionRecord, example: Example) -> bool:
-    """Return whether a line lacks ``success`` although its example has a goal, as in files of earlier versions."""
-    return (example.goal is None) != (line.success is None)
 
 
 def _difference(found: str, identity: dict[str, Any]) -> str:
