@@ -362,7 +362,7 @@ def file_page(
 
 
 def grounded_page(grounded: Grounded) -> str:
-    """Return an HTML page of a text: clauses, goals, plan and candidates, as ``tmd view --text`` writes it."""
+    """Return an HTML page of a text: clauses, goals, plan and candidates."""
     from tmd.view.page import render
     from tmd.view.subject import text_subject
 

@@ -114,7 +114,6 @@ def of_text(workspace: Workspace, choose: Random) -> Case:
             (
                 ("ground", *source, "--json", *choose.choice(((), ("--guess",)))),
                 ("ground", *source, "--learned", "learned"),
-                ("view", *source, "--guess", "--out", "page.html"),
                 ("export", "problems/04_tea/environments/pantry1.yaml", "out", "--text-file", "said.txt"),
             )
         )
@@ -397,7 +396,6 @@ def of_environment(workspace: Workspace, choose: Random) -> Case:
         ("ground", *pantry),
         ("ground", *pantry, "--json", "--guess"),
         ("ground", "--environment", "pantry1", "--text", "Heat the kettle.", "--goal-only"),
-        ("view", *pantry, "--out", choose.choice(("-", "page.html"))),
         ("view", "-", "--out", "page.html"),
         ("check", "domains/04_tea", "--json"),
         ("check", "domains", "--json"),

@@ -82,7 +82,6 @@ class FoundSubject:
         remarks: Lines for standard error.
         locations: Where the steps of a plan file stand.
         of_text: Whether there is a text that should have a plan.
-        asks: Whether the text has a question that was not answered.
     """
 
     subject: Subject
@@ -90,14 +89,11 @@ class FoundSubject:
     remarks: tuple[str, ...] = ()
     locations: tuple[Location, ...] = ()
     of_text: bool = False
-    asks: bool = False
 
     def ending(self, verdict: Verdict) -> ExitCode:
         """Return the exit code, given the validator's verdict on the plan."""
         if self.of_text and not (self.subject.steps or self.subject.plans):
             return ExitCode.NOT_GROUNDED
-        if self.asks:
-            return ExitCode.QUESTION
         return ExitCode.OK if verdict.valid else ExitCode.INVALID_PLAN
 
     def complaint(self, verdict: Verdict) -> str:
