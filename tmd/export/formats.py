@@ -24,12 +24,10 @@ class Format:
 
     Attributes:
         name: Its name on the command line.
-        about: What it is, in one line.
         make: Makes its files.
     """
 
     name: str
-    about: str
     make: Callable[[Planned], Texts]
 
     def write(self, source: Planned) -> Files:
@@ -112,13 +110,13 @@ DEFAULT = "adl"
 FORMATS: Mapping[str, Format] = {
     form.name: form
     for form in (
-        Format("adl", "flat typed ADL: domain, problem and plan side by side", _adl),
-        Format("ipc", "the plan alone, as the planning competitions write it", _ipc),
-        Format("strips", "ground STRIPS with the plan's conditional effects decided, and its plan", _strips),
-        Format("durative", "PDDL 2.1 with durative actions, and a plan with times", _durative),
-        Format("plansys2", "PlanSys2: durative STRIPS, and the plan as POPF prints it", _plansys2),
-        Format("bt", "a behaviour tree for BehaviorTree.CPP 4", _tree),
-        Format("sas", "SAS+ by Fast Downward's translator, and the plan", _sas),
+        Format("adl", _adl),
+        Format("ipc", _ipc),
+        Format("strips", _strips),
+        Format("durative", _durative),
+        Format("plansys2", _plansys2),
+        Format("bt", _tree),
+        Format("sas", _sas),
     )
 }
 
