@@ -107,7 +107,6 @@ CASES = {
     "text-without-domain": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--text", "x"], "does not say where its domain is"),
     "nothing-said": (ExitCode.USAGE, ["kitchen1", "out"], "give one of --text, --text-file, --plan and --goal"),
     "text-and-plan": (ExitCode.USAGE, ["kitchen1", "out", "--text", "x", "--plan", PLAN], "give one of --text"),
-    "example-of-problem": (ExitCode.USAGE, [PROBLEM, "out", "--example", "x"], "are for the directory of a run"),
     "no-json": (ExitCode.BAD_INPUT, [ROOT / "docs" / "cli.json", "out"], "cannot be read"),
     "not-empty": (ExitCode.CANNOT_WRITE, [PROBLEM, BLOCKS], "cannot be written: it is not empty"),
     "a-file": (ExitCode.CANNOT_WRITE, [PROBLEM, PLAN], "cannot be written: it is not a directory"),
