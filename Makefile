@@ -67,7 +67,7 @@ job:
 
 $(JOB): venv
 	@echo "installing what the main job needs into $(VENV)/: 1.8 GB on disk, about 3 minutes; stop and go on as you like …"
-	$(call installed,fast$(comma)report$(comma)robot)
+	$(call installed,fast$(comma)robot)
 
 studio-setup:
 	@$(call current,$(STAMP) $(STUDIO)) || $(MAKE) --no-print-directory $(STUDIO)

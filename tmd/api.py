@@ -332,7 +332,6 @@ def file_page(
     *,
     environment: str | Path | None = None,
     problem: str | Path | None = None,
-    demonstration: str | None = None,
     strip: str | Path | None = None,
     domain: str | None = None,
     domains: str | Path | None = None,
@@ -341,11 +340,9 @@ def file_page(
     """Return a self-contained HTML page of what a file holds, as ``tmd view FILE`` writes it.
 
     Args:
-        path: What ``tmd ground --json`` or ``tmd run --json`` printed, a log of ``tmd run``, a plan file, or
-            demonstrations.
+        path: What ``tmd ground --json`` or ``tmd run --json`` printed, a log of ``tmd run``, or a plan file.
         environment: Where: for a plan file, or instead of what the file names.
         problem: Of a plan file: its PDDL problem.
-        demonstration: Of a file of demonstrations: which one.
         strip: Of a run: its filmstrip; beside the log by default.
         domain: The domain; otherwise the environment's or problem's own.
         domains: The directory of all domains; ``./domains`` or the packaged one by default.
@@ -359,13 +356,13 @@ def file_page(
 
     place, in_problem, film = (None if given is None else str(given) for given in (environment, problem, strip))
     asked = ViewRequest(
-        str(path), place, domain, Path(in_problem) if in_problem else None, demonstration, Path(film) if film else None
+        str(path), place, domain, Path(in_problem) if in_problem else None, Path(film) if film else None
     )
     return render(subject_of_file(_roots(domains, problems), asked).subject).html
 
 
 def grounded_page(grounded: Grounded) -> str:
-    """Return an HTML page of a text: clauses, goals, plan and candidates, as ``tmd view --text`` writes it."""
+    """Return an HTML page of a text: clauses, goals, plan and candidates."""
     from tmd.view.page import render
     from tmd.view.subject import text_subject
 

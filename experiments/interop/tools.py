@@ -123,32 +123,13 @@ class Val(Tool):
 class Unified(Tool):
     """unified-planning's readers and its validator; it solves nothing by itself."""
 
-    formats = ("adl", "strips", "durative", "plansys2", "anml", "protobuf")
+    formats = ("adl", "strips", "durative", "plansys2")
 
     def run(self) -> Found:  # noqa: D102 - said once, above
         from unified_planning.io import PDDLReader
 
-        if self.form == "anml":
-            from unified_planning.io import ANMLReader
-
-            ANMLReader().parse_problem(str(self.directory / "problem.anml"))
-            return found(True)
-        problem, plan = self.messages() if self.form == "protobuf" else (None, None)
-        if problem is None:
-            problem = PDDLReader().parse_problem(str(self.domain), str(self.problem))
-            plan = PDDLReader().parse_plan(problem, str(self.plan))
-        return self.validated(problem, plan)
-
-    def messages(self) -> tuple[Any, Any]:
-        """Problem and plan from protocol buffers."""
-        import unified_planning.engines  # noqa: F401 - the reader needs it and does not import it
-        import unified_planning.grpc.generated.unified_planning_pb2 as messages
-        from unified_planning.grpc.proto_reader import ProtobufReader
-
-        reader = ProtobufReader()
-        problem = reader.convert(messages.Problem.FromString((self.directory / "problem.pb").read_bytes()))
-        plan = messages.Plan.FromString((self.directory / "plan.pb").read_bytes())
-        return problem, reader.convert(plan, problem)
+        problem = PDDLReader().parse_problem(str(self.domain), str(self.problem))
+        return self.validated(problem, PDDLReader().parse_plan(problem, str(self.plan)))
 
     def validated(self, problem: Any, plan: Any) -> Found:  # noqa: ANN401 - it ships no types
         """What the validator says."""
@@ -209,15 +190,7 @@ class Tamer(UnifiedEngine):
 
     engine = "tamer"
     skip_checks = True
-    formats = ("adl", "strips", "anml")
-
-    def run(self) -> Found:  # noqa: D102 - said once, above
-        if self.form != "anml":
-            return super().run()
-        import pytamer
-
-        pytamer.tamer_parse_anml(pytamer.tamer_env_new(), str(self.directory / "problem.anml"))
-        return found(True)
+    formats = ("adl", "strips")
 
 
 class Kairos(Tool):
@@ -373,20 +346,6 @@ class Tarski(Tool):
         return found(True)
 
 
-class JsonSchema(Tool):
-    """jsonschema: our JSON against its schema."""
-
-    formats = ("json",)
-
-    def run(self) -> Found:  # noqa: D102 - said once, above
-        import jsonschema
-
-        schema = json.loads((self.directory / "plan.schema.json").read_text())
-        jsonschema.Draft202012Validator.check_schema(schema)
-        jsonschema.validate(json.loads((self.directory / "plan.json").read_text()), schema)
-        return found(True)
-
-
 class XmlSchema(Tool):
     """xmlschema: the behaviour tree against the schema that stands beside the tests."""
 
@@ -415,7 +374,6 @@ TOOLS: dict[str, tuple[type[Tool], str]] = {
     "pddl": (Pddl, "pddl"),
     "plado": (Plado, "plado"),
     "tarski": (Tarski, "tarski"),
-    "jsonschema": (JsonSchema, "jsonschema"),
     "xmlschema": (XmlSchema, "xmlschema"),
 }
 """Each tool: how it is run, and the package whose version counts."""

@@ -55,13 +55,13 @@ def of_domain(workspace: Workspace, choose: Random) -> Case:
     dear: list[tuple[str, ...]] = [  # a tenth of a second and more
         ("check", f"domains/{domain}", f"problems/{domain}"),
         ("check", f"domains/{domain}", "--strict", "--json"),
-        ("check", name, "--fix", "--notes"),
+        ("check", name, "--fix"),
         ("fmt", "--check", f"domains/{domain}"),
         (*ground, "--json"),
         (*ground, "--model", "paper", "--guess"),
         (*ground, "--goal-only"),
         ("export", room, "out", "--domain", domain, "--text", text),
-        ("scene", "--environment", room, "--domain", domain, "--json"),
+        ("scene", "--environment", room, "--domain", domain),
     ]
     if problems and domain != "lab_bench":  # whose problems take two seconds each
         problem = choose.choice(problems)
@@ -77,14 +77,14 @@ def of_domain(workspace: Workspace, choose: Random) -> Case:
             ("view", "plan.txt", "--problem", problem, "--domain", domain, "--out", "page.html"),
         ]
     if name.endswith(".jsonl"):
-        cheap += 6 * [("view", name, "--id", "tea-001", "--out", "page.html"), ("check", name)]
+        cheap += 6 * [("check", name)]
         dear += 2 * [("test", domain), ("learn", domain, "--no-weights", "--out", "learned2")]
     return Case(choose.choice(cheap if choose.random() < 0.93 else dear))
 
 
 def of_plan(workspace: Workspace, choose: Random) -> Case:
     """A plan, a record that is given back, or the log of a run."""
-    name = choose.choice([n for n in ("plan.txt", "plan/plan.json", "ground.json", "log.jsonl") if n in workspace.kept])
+    name = choose.choice([n for n in ("plan.txt", "ground.json", "log.jsonl") if n in workspace.kept])
     workspace.damage(name, choose)
     if name == "plan.txt":
         return Case(
@@ -92,14 +92,14 @@ def of_plan(workspace: Workspace, choose: Random) -> Case:
                 (
                     *10 * (("validate", "04_tea", PROBLEM, name, "--json"),),
                     ("export", PROBLEM, "out", "--plan", name),
-                    ("export", PROBLEM, "out", "--plan", name, "--format", "strips,json,bt,durative,ipc"),
+                    ("export", PROBLEM, "out", "--plan", name, "--format", "strips,bt,durative,ipc"),
                     ("view", name, "--problem", PROBLEM, "--out", "page.html"),
                     ("run", "--environment", "kitchen1", "--plan", name, "--kinematic", "--json"),
                 )
             )
         )
     view = ("view", name, "--out", "page.html")
-    return Case(view if name == "log.jsonl" else choose.choice((view, ("export", name, "out", "--json"))))
+    return Case(view if name == "log.jsonl" else choose.choice((view, ("export", name, "out"))))
 
 
 def of_text(workspace: Workspace, choose: Random) -> Case:
@@ -114,7 +114,6 @@ def of_text(workspace: Workspace, choose: Random) -> Case:
             (
                 ("ground", *source, "--json", *choose.choice(((), ("--guess",)))),
                 ("ground", *source, "--learned", "learned"),
-                ("view", *source, "--guess", "--out", "page.html"),
                 ("export", "problems/04_tea/environments/pantry1.yaml", "out", "--text-file", "said.txt"),
             )
         )
@@ -179,8 +178,7 @@ def of_veil(workspace: Workspace, choose: Random) -> Case:
         choose.choice(
             (
                 *10 * (("data", "check", "veil"),),
-                *10 * (("data", "check", "veil", "--json"),),
-                ("scene", "--environment", "veil/Environments/kitchen/kitchen2.xml", "--json"),
+                *10 * (("data", "check", "veil"),),
                 ("ground", "--environment", "veil/Environments/kitchen/kitchen2.xml", "--text", "Take the mug."),
                 (*experiment, "--models", "empty", "--jobs", "1"),
             )
@@ -276,7 +274,7 @@ def of_names(workspace: Workspace, choose: Random) -> Case:
                 ("plan", "--planner", "in-process", *mark, "04_tea", inside),
                 ("export", "--planner", "in-process", PROBLEM, inside),
                 ("export", *mark, inside, "out"),
-                ("view", "--out", inside, "plan/plan.json"),
+                ("view", "--out", inside, "ground.json"),
                 ("view", "--out", "page.html", *mark, inside),
                 ("ground", "--environment", inside, "--text", "Heat the kettle.", "--json"),
                 ("ground", "--environment", "pantry1", "--text-file", inside),
@@ -398,7 +396,6 @@ def of_environment(workspace: Workspace, choose: Random) -> Case:
         ("ground", *pantry),
         ("ground", *pantry, "--json", "--guess"),
         ("ground", "--environment", "pantry1", "--text", "Heat the kettle.", "--goal-only"),
-        ("view", *pantry, "--out", choose.choice(("-", "page.html"))),
         ("view", "-", "--out", "page.html"),
         ("check", "domains/04_tea", "--json"),
         ("check", "domains", "--json"),
@@ -411,7 +408,7 @@ def of_environment(workspace: Workspace, choose: Random) -> Case:
         ("test", "01_blocks"),
         ("learn", "01_blocks", "--no-weights", "--out", "learned2"),
         ("data", "check", "veil"),
-        ("scene", "--environment", "study1", "--json"),
+        ("scene", "--environment", "study1"),
         (*EXPERIMENT[:-3], "run2", "--jobs", "1"),
         (*EXPERIMENT, "--step", "report"),
         ("experiment", "--task", "all", "--data", "veil500", "--out", "run3", "--models", "empty", "--jobs", "1"),

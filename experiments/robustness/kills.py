@@ -92,12 +92,9 @@ JOBS: dict[str, Job] = {
     "fmt": _tmd("fmt", "domains/04_tea", "problems/04_tea"),
     "check --fix": _tmd("check", "--fix", "domains/04_tea", "problems/04_tea", rounds=True),
     "compile": _tmd("compile", "04_tea"),
-    "export": _tmd("export", _PROBLEM, "out", "--format", "adl,json,strips", "--overwrite"),
+    "export": _tmd("export", _PROBLEM, "out", "--format", "adl,strips", "--overwrite"),
     "plan": _tmd("plan", "04_tea", _PROBLEM, "--output", "plan.txt"),
     "plan, unified-planning": _tmd("plan", "04_tea", _PROBLEM, "--output", "plan.txt", "--planner", "up:fast-downward"),
-    "view": _tmd(
-        "view", "--environment", "pantry1", "--text", "Heat the kettle.", "--guess", "--out", "page.html"
-    ),
     "learn": _tmd("learn", "04_tea", "--out", "learned"),
     "experiment": _tmd(*_RUN, "--jobs", "1"),
     "experiment, 2 jobs": _tmd(*_RUN, "--jobs", "2"),

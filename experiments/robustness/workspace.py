@@ -110,12 +110,11 @@ class Workspace:
         (self.folder / "said.txt").write_text(SAID)
         _write_veil(self.folder / "veil")
         self._run_once(Case(("plan", "04_tea", PROBLEM, "--output", "plan.txt")))
-        self._run_once(Case(("export", PROBLEM, "plan", "--format", "json")))
         self._run_once(Case(("learn", "04_tea", "--no-weights", "--out", "learned")))
         self._run_once(Case(EXPERIMENT))
         ground = ("ground", "--environment", "pantry1", "--text", SAID, "--guess", "--json")
         self._run_once(Case(ground), "ground.json")
-        self._run_once(Case(("view", "plan/plan.json", "--out", "page.html")))
+        self._run_once(Case(("view", "ground.json", "--out", "page.html")))
         self._run_once(Case(("test", "04_tea")))
         self._run_once(Case(("data", "check", "veil")))
         if robot:

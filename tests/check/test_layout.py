@@ -6,20 +6,16 @@ import re
 from pathlib import Path
 
 import pytest
-import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
 from tmd.format.files import format_file
 from tmd.format.pddl_layout import WIDTH, format_pddl
-from tmd.format.yaml_layout import format_yaml
 from tmd.pddl.reading.reader import parse_domain
 
 ROOT = Path(__file__).resolve().parents[2]
-BUNDLED = sorted(
-    path for kind in ("domains", "problems") for path in (ROOT / kind).rglob("*") if path.suffix in (".pddl", ".yaml")
-)
+BUNDLED = sorted(path for kind in ("domains", "problems") for path in (ROOT / kind).rglob("*.pddl"))
 _TOKEN = re.compile(r";.*|[()]|[^\s();]+")
 
 WORDS = st.sampled_from(["and", "or", "p", "?x", "-", "thing", ":action", ":parameters", ":effect", "define", "forall"])
@@ -77,14 +73,12 @@ def test_long_lines_are_broken() -> None:
 @pytest.mark.parametrize("path", BUNDLED, ids=lambda path: str(path.relative_to(ROOT)))
 def test_what_is_bundled_is_laid_out(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    assert (format_pddl(text) if path.suffix == ".pddl" else format_yaml(text)) == text
+    assert format_pddl(text) == text
 
 
 def test_what_does_not_match_is_left_alone() -> None:
     with pytest.raises(TmdError, match="never closed"):
         format_pddl("(define (domain d)")
-    with pytest.raises(TmdError, match="not YAML"):
-        format_yaml("a: [1,\nb: 2\n")
 
 
 def test_the_domain_stays_the_same() -> None:
@@ -93,45 +87,9 @@ def test_the_domain_stays_the_same() -> None:
     assert parse_domain(format_pddl(squeezed)) == parse_domain(text)
 
 
-def test_yaml_is_laid_out() -> None:
-    messy = "\ufeffa:\r\n      b:   1   # one\r\n      c:  { x: 1,y:  [1,2 , 3] }\r\n\r\n\r\n"
-    messy += "      # note\r\n      d: |\r\n         keep  this\r\n"
-    assert format_yaml(messy) == (
-        "a:\n  b: 1     # one\n  c: {x: 1, y: [1, 2, 3]}\n\n  # note\n  d: |\n     keep  this\n"
-    )
-
-
-VALUES = st.recursive(
-    st.one_of(st.text("ab :#-,", max_size=8), st.integers(-5, 5), st.booleans()),
-    lambda inner: st.one_of(
-        st.lists(inner, max_size=3), st.dictionaries(st.text("abc", min_size=1), inner, max_size=3)
-    ),
-    max_leaves=12,
-)
-
-
-@settings(max_examples=150, deadline=None)
-@given(st.dictionaries(st.text("abc", min_size=1), VALUES, min_size=1), st.integers(1, 7), st.booleans())
-def test_any_yaml(data: dict[str, object], indent: int, flow: bool) -> None:
-    text = yaml.safe_dump(data, indent=max(2, indent), default_flow_style=flow)
-    commented = "".join(f"{line}   # note {n}\n" if line.endswith(("}", "]", "1")) else f"{line}\n"
-                        for n, line in enumerate(text.splitlines()))  # fmt: skip
-    for source in (text, commented):
-        try:
-            before = yaml.safe_load(source)
-        except yaml.YAMLError:
-            continue
-        laid = format_yaml(source)
-        assert yaml.safe_load(laid) == before
-        assert format_yaml(laid) == laid
-        assert re.findall(r"# note \d+", laid) == re.findall(r"# note \d+", source)
-
-
 TOO_MUCH = {
     "levels of PDDL": ("x.pddl", "(" * 101 + ")" * 101, "nested-too-deeply"),
     "PDDL": ("x.pddl", "(a)" * 3_500_000, "too-large"),
-    "levels of YAML": ("x.yaml", "[" * 100_000, "nested-too-deeply"),
-    "YAML": ("x.yaml", "- a\n" * 300_000, "too-large"),
     "words on one line": ("x.pddl", f"(define (domain d) (:types {'a ' * 30_000}))", "too-large"),
 }
 

@@ -41,7 +41,7 @@ def _told(folder: Path) -> list[Diagnostic]:
     checker = Checker()
     checker.check(folder)
     checker.finish()
-    return [d for d in checker.findings.sorted() if d.severity is not Severity.NOTE]
+    return checker.findings.sorted()
 
 
 def _edited(folder: Path) -> set[tuple[str, int]]:

@@ -62,18 +62,6 @@ def test_json_and_fix(tmd: Tmd, file: Path) -> None:
     assert file.read_text() == GOOD.replace(":effect", ":precondition (and) :effect")
 
 
-def test_notes_are_counted_and_printed_when_asked_for(tmd: Tmd, drawer: Path) -> None:
-    drawer.write_text(f"{GOALS}  - open X: (opened ?x)\n")
-    quiet, loud = tmd("check", drawer), tmd("check", drawer, "--notes", "--strict")
-    assert quiet.code == loud.code == 0
-    assert quiet.out == "1 file(s) checked: 0 error(s), 0 warning(s), 1 note(s) (--notes prints them)\n"
-    assert FIRST_LINE.match(loud.out.splitlines()[0])
-    assert "note[no-goal]" in loud.out and loud.out.endswith("0 error(s), 0 warning(s), 1 note(s)\n")
-    told = json.loads(tmd("check", drawer, "--json").out)
-    assert (told["errors"], told["warnings"], told["notes"]) == (0, 0, 1)
-    assert [d["severity"] for d in told["diagnostics"]] == ["note"]
-
-
 def test_a_parenthesis_too_many_in_a_goal_is_fixed(tmd: Tmd, drawer: Path) -> None:
     drawer.write_text(f"{GOALS}  - open X: (and (opened ?x)\n      (free pr2)))\n")
     assert tmd("check", drawer).code == 13

@@ -90,7 +90,7 @@ def test_a_refusal_is_the_last_line(tmd: Tmd) -> None:
 
 
 @pytest.mark.parametrize(
-    "command", [("ground",), ("ground", "--goal-only"), ("view",), ("export",), ("run", "--kinematic")], ids=" ".join
+    "command", [("ground",), ("ground", "--goal-only"), ("export",), ("run", "--kinematic")], ids=" ".join
 )
 def test_what_is_refused_is_refused_by_all(tmd: Tmd, command: tuple[str, ...]) -> None:
     if command[0] == "run":

@@ -117,8 +117,9 @@ def test_weights_are_learned_and_used_when_asked_for(tmd: Tmd, tmp_path: Path) -
     missing = tmd(*said, "--learned", "kept")
     assert missing.code == ExitCode.BAD_INPUT
     assert "tmd learn 02_table" in missing.err
-    told = json.loads(tmd("learn", "02_table", "--out", "kept", "--json").out)
-    assert told["weights"]["after"] <= told["weights"]["before"]
+    told = tmd("learn", "02_table", "--out", "kept").out
+    losses = re.search(r"^weights: .* (\d\.\d+) before, (\d\.\d+) after$", told, re.MULTILINE)
+    assert losses and float(losses[2]) <= float(losses[1])
     assert (tmp_path / "kept" / "02_table" / "weights.txt").is_file()
     assert tmd(*said, "--learned", "kept").code == ExitCode.OK
 
@@ -137,16 +138,16 @@ def test_where_nothing_can_be_written_one_line_says_so(tmd: Tmd, tmp_path: Path)
     assert len(done.err.splitlines()) <= 2
 
 
-def test_goals_are_counted_and_one_that_is_not_reached_teaches_nothing(lab: Corpus, tmd: Tmd) -> None:
+def test_a_goal_that_is_not_reached_teaches_nothing(lab: Corpus, tmd: Tmd) -> None:
     (file,) = lab.directory.glob("*/demonstrations.jsonl")
     lines = [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()]
 
     def learn(goal: str | None) -> Ended:
         said = [{**line, "goal": goal if number == 1 else "(and)"} for number, line in enumerate(lines)]
         file.write_text("".join(json.dumps(line) + "\n" for line in said), encoding="utf-8")
-        return tmd("learn", "lab_bench", "--no-weights", "--json")
+        return tmd("learn", "lab_bench", "--no-weights")
 
-    assert json.loads(learn(None).out)["goals"] == len(lines) - 1
+    assert learn(None).code == ExitCode.OK
     for wrong, why in (("(not (and))", "is not reached"), ("(and (", "never closed"), ("(shiny tube1)", "shiny")):
         done = learn(wrong)
         assert done.code == ExitCode.BAD_INPUT

@@ -235,12 +235,6 @@ WRONG = {
         "",
         r"error: .*p01\.pddl: a PDDL problem .* no scene of it\nhint: give an environment",
     ),
-    "veil500": (
-        ExitCode.BAD_INPUT,
-        ["run", "--environment", "Environments/kitchen/kitchen1.xml", *TEXT],
-        "",
-        r"error: .*kitchen1\.xml: the robot does not act in rooms of VEIL-500.*\nhint: tmd scene ",
-    ),
     "no-environment": (
         ExitCode.BAD_INPUT,
         ["run", "--environment", "kitchen9", *TEXT],

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import shutil
 from pathlib import Path
@@ -10,7 +9,6 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import BLOCKS, ROOT, Tmd
-from tests.datasets.conftest import write_small
 from tmd.diagnostics import ExitCode
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
@@ -35,30 +33,11 @@ def test_what_stands_where(tmd: Tmd, tmp_path: Path) -> None:
         assert picture.format == "PNG"
 
 
-def test_the_json(tmd: Tmd, tmp_path: Path) -> None:
-    (tmp_path / "mine.yaml").write_text(MINE)
-    found = json.loads(tmd("scene", "--environment", "mine.yaml", "--json").out)
-    assert found["environment"] == "mine"
-    table, mug = found["objects"]
-    assert list(mug) == ["name", "kind", "item", "position", "at"]
-    assert (table["at"], mug["at"]) == (None, {"thing": "table1", "relation": "on"})
-
-
-def test_a_room_of_veil500(tmd: Tmd, tmp_path: Path) -> None:
-    write_small(tmp_path)
-    ended = tmd("scene", "--environment", "Environments/kitchen/kitchen2.xml")
-    assert ended.code == ExitCode.OK, ended.err
-    assert ended.out.startswith("kitchen2: 6 pieces of furniture, 12 things to carry\n")
-    assert re.search(r"^  mug_1 +cup +at .* on counter_1$", ended.out, re.MULTILINE)
-    assert "note: robinia_7: nobody said what such a thing looks like, so it is a plain counter\n" in ended.err
-
-
 @pytest.mark.parametrize(
     ("arguments", "code", "told"),
     [
         (["--environment", "kitchen9"], ExitCode.BAD_INPUT, r"error: there is no environment 'kitchen9'"),
         (["--environment", "none.yaml"], ExitCode.BAD_INPUT, r"error: none\.yaml"),
-        (["--environment", "none.xml"], ExitCode.BAD_DATA, r"error: .*none\.xml is not an environment of VEIL-500"),
         (["--environment", BLOCKS / "p01.pddl"], ExitCode.BAD_INPUT, r"error: .*no scene of it"),
         (["--environment", "kitchen1", "--picture", "a.jpg"], ExitCode.USAGE, r"error: .*does not end in \.png"),
         (["--environment", "kitchen1", "--picture", "no/a.png"], ExitCode.CANNOT_WRITE, r"error: no/a\.png cannot be"),

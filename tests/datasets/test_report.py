@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 from tmd.datasets.veil500 import VeilData, check_veil500
@@ -28,7 +27,6 @@ def test_small_report(small_directory: Path) -> None:
 
 def test_forms_of_the_report(small_directory: Path) -> None:
     report = check_veil500(small_directory)
-    assert json.loads(report.json())["counts"] == report.counts
     text = report.text()
     assert "mentions of unknown objects" in text
     assert text.count("\n") == sum(len(v) + 2 for v in report.counts.values()) + 1 + 2 + len(report.remarks)
@@ -41,8 +39,7 @@ def test_report_of_the_release(released: VeilData) -> None:
     assert counts["demonstrations"] == {"points": 360, "kitchen": 209, "living_room": 151}
     assert counts["by objective"]["Making Ramen"] == 45
     assert counts["by environment"]["living_room 6"] == 31
-    assert counts["execution under the literal rules"]["points executable, repaired"] == 317
-    assert counts["repair"]["points repaired"] == sum(counts["repair"].values()) / 2
+    assert counts["execution under the literal rules"] == {"points executable": 149, "steps not executable": 268}
     assert counts["environments"]["environments"] == 16
     assert counts["environments"]["placeholder positions, taken from the whole"] == 152
     assert counts["objects at the start"]["place unknown"] == 3

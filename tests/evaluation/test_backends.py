@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -17,18 +16,17 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Ended, fork_server, heed_interrupts, run_tmd
+from tests.cli.conftest import Ended, heed_interrupts, run_tmd
 from tmd import __version__
 from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation.models import model
 from tmd.evaluation.runs import cluster
-from tmd.evaluation.runs.config import ExperimentConfig, Shard
-from tmd.evaluation.runs.experiment import collect, run, work
+from tmd.evaluation.runs.config import ExperimentConfig
+from tmd.evaluation.runs.experiment import run
 from tmd.evaluation.runs.jobs import EvaluationJob, WorkerLostError
 
 ROOT = Path(__file__).parents[2]
 FILES = ("config.json", "predictions.jsonl", "metrics.json")
-SAME_CODE = "import tmd.evaluation.runs.cluster\ntmd.evaluation.runs.cluster.source_digest = lambda: 'tests'\n"
 COMMAND = ("experiment", "--task", "ramen", "--train-tasks", "ramen", "--models", "empty,chance")
 needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="the package distributed is not installed")
 needs_signals = pytest.mark.skipif(sys.platform == "win32", reason="no signals here")
@@ -73,7 +71,7 @@ def once(action: Callable[[], None]) -> Callable[[int, int], None]:
 def begin(out: Path, *options: str) -> subprocess.Popen[bytes]:
     """Start ``tmd experiment`` in a process group of its own."""
     return subprocess.Popen(
-        [sys.executable, "-c", f"{SAME_CODE}from tmd.cli import main\nmain()", *COMMAND, "--out", str(out), *options],
+        [sys.executable, "-c", "from tmd.cli import main\nmain()", *COMMAND, "--out", str(out), *options],
         cwd=out.parent,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         stdout=subprocess.PIPE,
@@ -97,69 +95,14 @@ def said(error: bytes) -> list[str]:
 # One machine
 
 
-def test_shards_make_the_whole(tmp_path: Path, serial: dict[str, bytes]) -> None:
-    counts = []
-    for number in (2, 1, 3):
-        counts.append(work(config(tmp_path, shard=Shard(number, 3))))
-        assert not (tmp_path / "metrics.json").exists()
-    assert sum(counts) == 20
-    assert len(list((tmp_path / "parts").iterdir())) == 20
-    times = {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()}
-    collect(config(tmp_path))
-    assert outcome(tmp_path) == serial
-    assert {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()} == times
-
-
-def test_every_unit_is_in_one_share() -> None:
-    for of in range(1, 9):
-        for index in range(1, 30):
-            assert sum(Shard(number, of).has(index) for number in range(1, of + 1)) == 1
-
-
 def test_processes_at_once_in_one_directory(tmp_path: Path, serial: dict[str, bytes]) -> None:
-    """A share, and the whole of it beside that, which does the share twice."""
+    """Both do the whole of it."""
     out = tmp_path / "out"
-    processes = [begin(out, "--jobs", "1", *options) for options in (("--shard", "2/2"), ())]
+    processes = [begin(out, "--jobs", "1") for _ in range(2)]
     told = [process.communicate(timeout=300) for process in processes]
     assert [process.returncode for process in processes] == [0, 0], told
     assert outcome(out) == serial
     assert not list(out.rglob(".*")), "drafts were left behind"
-
-
-@pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash here")
-def test_the_script_for_slurm(tmp_path: Path, serial: dict[str, bytes]) -> None:
-    """The script in the page, with the variables that Slurm sets; the second share comes first."""
-    page = (ROOT / "docs" / "experiments.md").read_text(encoding="utf-8")
-    script = re.search(r"<!-- slurm -->\n```bash\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
-    assert script
-    assert re.search(r"#SBATCH --array=1-(\d+)$", script[1], re.MULTILINE)[1] == "10"  # type: ignore[index]
-    text = script[1].replace("--task all", "--task ramen --train-tasks ramen").replace("empty,nearest", "empty,chance")
-    text = text.replace("shards=10", "shards=2")
-    assert text.count("--train-tasks") == text.count("chance") == text.count("shards=2") == 1
-    (tmp_path / "all.sh").write_text(text)
-    tmd = tmp_path / "bin" / "tmd"
-    tmd.parent.mkdir()
-    forked = f"-I -S {ROOT}/tests/cli/fork_server.py {fork_server()}"
-    tmd.write_text(f'#!/bin/sh\nexec "{sys.executable}" {forked} "$@"\n')
-    tmd.chmod(0o755)
-    path = {"PATH": f"{tmd.parent}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
-
-    def submit(*arguments: str, number: int = 1) -> subprocess.CompletedProcess[bytes]:
-        return subprocess.run(
-            ["bash", "all.sh", *arguments],
-            cwd=tmp_path,
-            env={**os.environ, **path, "SLURM_ARRAY_TASK_ID": str(number)},
-            capture_output=True,
-            check=False,
-        )
-
-    assert submit(number=2).returncode == ExitCode.OK
-    early = submit("report")
-    assert early.returncode == ExitCode.BAD_INPUT
-    assert b"10 of 20 parts are not done" in early.stderr
-    assert submit(number=1).returncode == ExitCode.OK
-    assert submit("report").returncode == ExitCode.OK
-    assert outcome(tmp_path / "runs" / "all") == serial
 
 
 @needs_signals
@@ -255,10 +198,6 @@ class Cluster:
 
     def work(self, count: int, *options: str) -> None:
         """Start some workers."""
-        if not options:
-            preload = self.directory / "same_code.py"
-            preload.write_text(SAME_CODE)
-            options = ("--preload", str(preload))
         for _ in range(count):
             self.workers.append(self.start("worker", "--no-nanny", "--nthreads", "1", *options))
 
@@ -273,12 +212,6 @@ class Cluster:
         self.dismiss()
         self.scheduler.kill()
         self.scheduler.wait()
-
-
-@pytest.fixture(autouse=True)
-def same_code(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The digest of the code, here and on the workers, is a word: somebody may edit the code while tests run."""
-    monkeypatch.setattr(cluster, "source_digest", lambda: "tests")
 
 
 @pytest.fixture(scope="module")
@@ -364,23 +297,12 @@ def test_an_interruption_leaves_the_cluster_ready(tmp_path: Path, cluster_: Clus
 
 @needs_dask
 @needs_signals
-def test_workers_that_stay_away_are_told(tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cluster, "PATIENCE", 1.0)
-    monkeypatch.setattr(cluster, "_LOOK", 0.2)
-    cluster_.work(1)
-    with pytest.raises(MissingToolError, match=r"the workers of .* are gone"):
-        run(on(cluster_, tmp_path / "out"), once(cluster_.workers[0].kill))
-    assert list((tmp_path / "out" / "parts").iterdir())
-
-
-@needs_dask
-@needs_signals
 def test_a_unit_that_kills_its_workers_is_told(
     tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     preload = tmp_path / "killer.py"
     preload.write_text(
-        SAME_CODE + "import os, signal\n"
+        "import os, signal\n"
         "from tmd.evaluation.models import model\n"
         "class Killer(model.Empty):\n"
         "    def fit(self, *_):\n"
@@ -394,20 +316,20 @@ def test_a_unit_that_kills_its_workers_is_told(
 
 
 @needs_dask
-def test_a_worker_with_other_code_or_data_is_told(
+def test_a_worker_with_another_version_or_data_is_told(
     tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     cluster_.work(1)
     with monkeypatch.context() as other:
-        other.setattr(cluster, "source_digest", lambda: "0123")
-        with pytest.raises(DataError, match=rf"has another tmd: .*, and the run has {__version__} \(code 0123\)"):
+        other.setattr(cluster, "__version__", "9.9")
+        with pytest.raises(DataError, match=rf"has tmd {__version__}, and the run has 9\.9"):
             run(on(cluster_, tmp_path / "out"))
     problems = tmp_path / "problems"
     problems.mkdir()
     (problems / "kitchen").symlink_to(ROOT / "problems" / "kitchen")
     (cluster_.directory / "problems" / "kitchen").mkdir(parents=True)
     monkeypatch.chdir(tmp_path)
-    with pytest.raises(DataError, match=r"the worker on tcp://.* (has other|cannot read the) data"):
+    with pytest.raises(DataError, match=r"the worker on .* (has other|cannot read the) data"):
         run(on(cluster_, tmp_path / "out", problems=None))
 
 
@@ -435,33 +357,11 @@ def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
     here = config(tmp_path, test_environments=(1,))
     unit = EvaluationJob("empty", "ramen_2-5", ("given",))
     found = cluster.open_dataset(here).fingerprint()
-    assert cluster.remote(here, unit, cluster.build(), found).parts.keys() == {"given"}
+    assert cluster.remote(here, unit, __version__, found).parts.keys() == {"given"}
     with pytest.raises(DataError, match=r"other data: their fingerprint is \w+, and not 0123"):
-        cluster.remote(here, unit, cluster.build(), "0123")
-    with pytest.raises(DataError, match="has another tmd"):
-        cluster.remote(here, unit, "0 (code tests)", found)
-
-
-def test_a_worker_reads_data_anew_when_they_have_changed(tmp_path: Path) -> None:
-    """It may live longer than the files it has read."""
-    folder = tmp_path / "problems" / "kitchen"
-    (folder / "ramen").mkdir(parents=True)
-    (folder / "environments").symlink_to(ROOT / "problems" / "kitchen" / "environments")
-    file = folder / "ramen" / "demonstrations.jsonl"
-    lines = (ROOT / "problems" / "kitchen" / "ramen" / "demonstrations.jsonl").read_text().splitlines(keepends=True)
-    file.write_text("".join(lines[:20]))
-    here = config(tmp_path, problems=tmp_path / "problems", test_environments=(1,))
-    before = cluster.open_dataset(here).fingerprint()
-    file.write_text("".join(lines))
-    cluster.forget_datasets()
-    after = cluster.open_dataset(here).fingerprint()
-    assert before != after
-    cluster.forget_datasets()
-    file.write_text("".join(lines[:20]))
-    assert cluster.open_dataset(here).fingerprint() == before
-    file.write_text("".join(lines))
-    unit = EvaluationJob("empty", "ramen_2-5", ("given",))
-    assert len(cluster.remote(here, unit, cluster.build(), after).parts["given"].splitlines()) == 10
+        cluster.remote(here, unit, __version__, "0123")
+    with pytest.raises(DataError, match="and the run has 0"):
+        cluster.remote(here, unit, "0", found)
 
 
 @needs_dask
@@ -507,10 +407,6 @@ def test_without_distributed_the_package_is_named(tmp_path: Path) -> None:
     [
         (("--backend", "dask"), "go together"),
         (("--scheduler", "tcp://a:1"), "go together"),
-        (("--shard", "0/2"), "is not a share"),
-        (("--shard", "3/2"), "is not a share"),
-        (("--shard", "1"), "is not a share"),
-        (("--shard", "1/2", "--step", "report"), "without --shard"),
         (("--drop-sentences", "1"), "below 1"),
         (("--drop-sentences", "-0.1"), "below 1"),
         (("--drop-sentences", "nan"), "below 1"),
@@ -522,17 +418,6 @@ def test_a_wrong_command_is_told(tmp_path: Path, options: tuple[str, ...], messa
     assert ended.code == ExitCode.USAGE
     assert message in ended.err
     assert not list(tmp_path.iterdir())
-
-
-def test_the_digest_of_the_code_tells_a_change(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.undo()
-    found = set()
-    for name, text in (("a.py", "x = 1\n"), ("a.py", "x = 2\n"), ("b/c.py", ""), ("b/notes.txt", "no code")):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(text)
-        cluster.source_digest.cache_clear()
-        found.add(cluster.source_digest(tmp_path))
-    assert len(found) == 3
 
 
 @needs_dask

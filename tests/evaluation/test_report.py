@@ -18,7 +18,6 @@ from rich.console import Console
 from tmd.diagnostics import OutputError, TmdError
 from tmd.evaluation.report.predictions import best_and_worst
 from tmd.evaluation.report.report import print_table, write_report
-from tmd.evaluation.report.rows import in_words
 from tmd.evaluation.runs.finished_run import read_run
 from tmd.evaluation.summary import summarise
 from tmd.records.metrics import Metrics
@@ -156,7 +155,7 @@ def test_every_part_is_there(page: str) -> None:
     assert "full − nearest +20.0 [+20.0, +20.0]" in said
     assert "full − empty +40.0 [+40.0, +40.0]" in said
     assert "[1.5, 1.5]" in said, "learned weights"
-    assert len(re.findall("<svg", page)) == 3
+    assert "1 in the first epoch, 0.167 in the last" in said
 
 
 def test_predictions_are_shown_step_by_step(page: str) -> None:
@@ -210,25 +209,6 @@ def test_a_run_of_few_rows_has_a_page(tmp_path: Path, models: tuple[str, ...]) -
     assert ("No row predicts anything" in page) == (models == ("empty",))
 
 
-def test_the_report_says_what_its_numbers_mean(tmp_path: Path) -> None:
-    said = Reader(write_report(finished(tmp_path, ("full", "nearest", "empty"))).read_text(encoding="utf-8")).said()
-    assert (
-        "By IED, Our full model leads with 67.0, 20.0 points ahead of Nearest Environment Instantiation (47.0)" in said
-    )
-    assert "as in the paper, where it is 11.9 points ahead of Nearest Environment Instantiation, on other data" in said
-
-
-def test_a_full_model_that_is_behind_a_baseline_is_said_to_be() -> None:
-    rows = [line("full", n, "ramen", 20.0 + n, success=n < 2) for n in range(10)]
-    rows += [line("templates", n, "ramen", 40.0 + n, success=n < 6) for n in range(10)]
-    config = {"config": {"task": "ramen", "data": "bundled", "seed": 0}, "folds": {}}
-    said = " ".join(in_words(Metrics.model_validate(summarise(rows, ("full", "templates")) | config)))
-    assert "A prediction succeeds if it can be executed" in said
-    assert "By success, Predefined Templates leads with 60.0, 40.0 points ahead of Our full model (20.0)" in said
-    assert "Our full model (24.5) is 20.0 points behind the best baseline here, Predefined Templates (44.5)" in said
-    assert "unlike in the paper, where it is 42.3 points ahead of Predefined Templates" in said
-
-
 def test_films_stay_files_beside_the_page(tmp_path: Path) -> None:
     run = finished(tmp_path)
     (run / "robot").mkdir()
@@ -264,24 +244,16 @@ def test_the_paper_stands_beside_rows_and_tasks_that_both_have(tmp_path: Path) -
     assert "study" not in said
 
 
-@pytest.mark.parametrize("curve", [[0.5, 0.25, 0.2], [{"round": 1, "epoch": 0, "loss": 0.5}], []])
-def test_curves_may_be_short_or_plain_numbers(tmp_path: Path, curve: list[Any]) -> None:
+@pytest.mark.parametrize("curve", [[{"round": 1, "epoch": 0, "loss": 0.5}], []])
+def test_curves_may_be_short(tmp_path: Path, curve: list[Any]) -> None:
     fit(finished(tmp_path, ("full",), ("ramen",)), curve=curve)
     page = write_report(tmp_path).read_text(encoding="utf-8")
     assert ("No curve was kept" in page) == (not curve)
-    assert ">objective<" not in page, "a panel for nothing"
 
 
-def test_the_same_run_has_the_same_bytes_whatever_the_user_likes(
-    directory: Path, page: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    import matplotlib as mpl
-
-    monkeypatch.setitem(mpl.rcParams, "font.size", 30)
-    monkeypatch.setitem(mpl.rcParams, "svg.fonttype", "path")
+def test_the_same_run_has_the_same_bytes(directory: Path, page: str) -> None:
     write_report(directory)
     assert (directory / "report.html").read_text(encoding="utf-8") == page
-    assert mpl.rcParams["font.size"] == 30
 
 
 @pytest.mark.parametrize(

@@ -370,15 +370,6 @@ def test_an_unknown_row_is_refused_with_one_that_is_like_it() -> None:
     assert "full" in (caught.value.hint or "")
 
 
-@pytest.mark.parametrize(
-    ("old", "new"), [("generating", "policy"), ("stating", "goals"), ("hand_set", "paper"), ("extended", "paper_ext")]
-)
-def test_the_old_name_of_a_row_is_refused_in_one_line_with_the_new_one(old: str, new: str) -> None:
-    with pytest.raises(TmdError, match=f"^the model '{old}' is now called '{new}") as caught:
-        make_model(old)
-    assert str(caught.value).count("\n") == 0
-
-
 def test_what_ships_is_what_is_measured() -> None:
     """The presets are rows as they are; ``full`` and its ablations differ from the paper's in one thing each."""
     for name, config in PRESETS.items():

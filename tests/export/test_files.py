@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import subprocess
 import sys
@@ -16,7 +15,6 @@ from tmd.export import directory as directories
 from tmd.export.directory import write_directory
 from tmd.export.formats import FORMATS, chosen_files
 from tmd.export.planned_problem import Planned, planned, with_outcome
-from tmd.export.record import format_record, format_schema, parse_record
 from tmd.files import draft_of
 from tmd.pddl.model import TRUE, Instruction
 from tmd.pddl.plan_file import parse_plan
@@ -30,48 +28,6 @@ def test_adl_is_read_back(source: Planned) -> None:
     assert problem == source.portable
     plan = parse_plan(files["plan.plan"])
     assert (plan.instructions, plan.cost) == (source.plan, source.cost)
-
-
-def test_a_record_is_read_back(source: Planned) -> None:
-    again = parse_record(format_record(source))
-    assert (again.plan, again.cost) == (source.plan, source.cost)
-    assert again.problem == source.portable
-
-
-def test_a_record_tells_what_each_step_changes(small: Planned) -> None:
-    record = json.loads(format_record(small))
-    state = {(atom.predicate, *atom.args) for atom in small.problem.init}
-    for step, after in zip(record["steps"], small.states[1:], strict=True):
-        state = (state - {tuple(atom) for atom in step["lost"]}) | {tuple(atom) for atom in step["gained"]}
-        assert state == {(atom.predicate, *atom.args) for atom in after}
-    assert sum(step["cost"] for step in record["steps"]) == record["cost"]
-
-
-def test_the_schema_says_what_a_record_has() -> None:
-    schema = json.loads(format_schema())
-    record = json.loads(format_record(planned_case("blocks")))
-    assert set(schema["properties"]) == set(record)
-    assert set(schema["$defs"]["StepRecord"]["properties"]) == set(record["steps"][0])
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        (lambda r: r.update(format="tmd-plan-9"), "format: .*tmd-plan-1"),
-        (
-            lambda r: r.pop("steps"),
-            "steps: the key is missing .*an older version of tmd: make it again with tmd export",
-        ),
-        (lambda r: r.update(more=1), "more: there is no such key"),
-        (lambda r: r["steps"].pop(), "the plan does not work: at the end the goal"),
-        (lambda r: r.update(domain_pddl="(define"), r"domain_pddl:1:1"),
-    ],
-)
-def test_a_record_that_is_wrong_is_told(change: object, message: str) -> None:
-    record = json.loads(format_record(planned_case("blocks")))
-    change(record)  # type: ignore[operator]
-    with pytest.raises(TmdError, match=message):
-        parse_record(json.dumps(record), "x.json")
 
 
 def test_sas_is_what_fast_downward_searches(tmp_path: Path) -> None:

@@ -23,7 +23,6 @@ SECONDS = 60.0
 @pytest.fixture(scope="module")
 def blocks(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The three blocks in every format."""
-    pytest.importorskip("google.protobuf")
     return exported(planned_case("blocks"), "blocks", tmp_path_factory.mktemp("interop"))
 
 

@@ -9,10 +9,8 @@ import pytest
 
 from tests.export.conftest import planned_case
 from tmd.diagnostics import TmdError
-from tmd.export.formats import FORMATS
 from tmd.export.planned_problem import Planned
 from tmd.export.unified import (
-    format_anml,
     from_unified_planning,
     plan_from_unified_planning,
     plan_to_unified_planning,
@@ -20,7 +18,6 @@ from tmd.export.unified import (
 )
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Instruction
-from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.validator import validate
 
 pytestmark = pytest.mark.filterwarnings("ignore")
@@ -144,35 +141,3 @@ def test_conditions_of_every_kind() -> None:
     problem = from_unified_planning(_shed(build))
     assert [o.name for o in problem.domain.constants] == ["l1"]
     assert validate(problem, [Instruction("switch")]).valid
-
-
-def test_anml_is_read_back() -> None:
-    from unified_planning.io import ANMLReader
-
-    source = planned_case("blocks")
-    text = format_anml(source.problem)
-    assert "action put_down(" in text
-    problem = ANMLReader().parse_problem_string(text)
-    assert {action.name for action in problem.actions} == {"pick_up", "put_down", "stack", "unstack"}
-
-
-def test_names_that_anml_cannot_tell_apart_are_refused() -> None:
-    domain = parse_domain("(define (domain d) (:predicates (a-b) (a_b)) (:action c :effect (a-b)))")
-    problem = parse_problem("(define (problem p) (:domain d) (:goal (a_b)))", domain)
-    with pytest.raises(TmdError, match="'a-b' cannot be written in ANML"):
-        format_anml(problem)
-
-
-def test_protocol_buffers_are_read_back(small: Planned) -> None:
-    pytest.importorskip("google.protobuf")
-    import unified_planning.engines  # noqa: F401 - the reader needs it and does not import it
-    import unified_planning.grpc.generated.unified_planning_pb2 as messages
-    from unified_planning.grpc.proto_reader import ProtobufReader
-
-    files = FORMATS["protobuf"].write(small)
-    reader = ProtobufReader()
-    problem = reader.convert(messages.Problem.FromString(files["problem.pb"]))
-    assert problem == to_unified_planning(small.problem)
-    plan = reader.convert(messages.Plan.FromString(files["plan.pb"]), problem)
-    assert plan_from_unified_planning(plan) == small.plan
-    assert files == FORMATS["protobuf"].write(small)

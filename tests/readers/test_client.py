@@ -267,16 +267,6 @@ def test_a_failure_that_may_pass_does_not_end_the_other_tests(start: Start, tmp_
     assert any("Hand me the cup." in str(body) for body in server.bodies)
 
 
-def test_readers_are_compared(start: Start, tmp_path: Path) -> None:
-    where = ["--llm-model", "fake", "--llm-url", answered(start), "--llm-cache", "off"]
-    words = ["test", "--cases", cases(tmp_path), "--compare", "rules,llm", *where]
-    ended = run_tmd([*words, "--json"], tmp_path)
-    found = json.loads(ended.out)
-    assert (found["both"], found["only_a"], found["only_b"], found["neither"], found["p"]) == (1, 1, 0, 0, 1.0)
-    assert found["b"]["summary"]["prompt_tokens"] == 2000 and "prompt_tokens" not in found["a"]["summary"]
-    assert "only rules: 1, only llm: 0; McNemar's exact test: p = 1" in run_tmd(words, tmp_path).out
-
-
 def test_a_question_has_its_exit_code_and_stands_in_the_json(start: Start, tmp_path: Path) -> None:
     options = [{"answer": "the cup", "goal": GOAL}, {"answer": "the book", "goal": "(at book1 shelf1 on)"}]
     question = {"text": "Which one?", "step": 0, "options": options}

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import io
 import re
-from base64 import b64decode, b64encode
+from base64 import b64encode
 from collections.abc import Iterator
 from dataclasses import replace
 from hashlib import sha256
 
-import numpy as np
 import pytest
 
 from tests.view.conftest import TEXT, corpus
@@ -24,8 +22,6 @@ from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Status
 from tmd.records.run import RanStep
 from tmd.view.page import render, shown_steps
-from tmd.view.pictures import read_strip
-from tmd.view.sources import demonstrated_subject
 from tmd.view.subject import PlannedStep, Ran, Subject, grounded_subject
 from tmd.world.world import World
 
@@ -74,9 +70,6 @@ def test_facts_are_what_pddl_says(kitchen: World, subject: Subject) -> None:
     for shown in shown_steps(kitchen.task.problem, subject.steps)[0]:
         after = apply(shown.planned.instruction, state, kitchen.task.problem)
         assert (set(shown.added), set(shown.removed)) == (after - state, state - after)
-        drawn = {drawing.name for drawing in (*shown.drawings, *shown.others)}
-        changed = {name for atom in after ^ state for name in atom.args if name in kitchen.profiles.objects}
-        assert drawn == {kitchen.profiles.wholes.get(name, name) for name in changed}
         state = after
 
 
@@ -85,7 +78,6 @@ def test_a_plan_that_breaks_is_shown_up_to_there(kitchen: World) -> None:
     shown, verdict = shown_steps(kitchen.task.problem, steps)
     assert verdict.status is Status.BROKEN_PRECONDITION
     assert [(s.reached, bool(s.broken)) for s in shown] == [(True, False), (True, True), (False, False)]
-    assert [(d.name, d.after) for d in shown[1].drawings] == [("cup1", "")]
     reader = Reader(render(Subject("broken", kitchen.task.problem, steps)).html)
     assert "its precondition (near pr2 cup1) does not hold" in reader.text and "Not reached." in reader.text
 
@@ -168,61 +160,6 @@ def test_a_thousand_steps_stay_below_ten_megabytes(kitchen: World) -> None:
     assert len(page.html.encode()) < 10_000_000
     reader = Reader(page.html)
     assert len(reader.of_class("step")) == 1_000
-
-
-def test_drawings_end_when_there_is_no_room(kitchen: World) -> None:
-    texts = there_and_back()
-    steps = planned(*(next(texts) for _ in range(20)))
-    shown, _ = shown_steps(kitchen.task.problem, steps, budget=10_000)
-    assert shown[0].drawn and not shown[-1].drawn
-    assert sum(len(d.before) + len(d.after) for s in shown for d in (*s.drawings, *s.others)) < 20_000
-    whole, _ = shown_steps(kitchen.task.problem, steps)
-    assert [(s.added, s.removed) for s in shown] == [(s.added, s.removed) for s in whole]
-
-
-@pytest.mark.parametrize("domain", ["kitchen", "living_room"])
-def test_demonstrations_have_pages(domain: str) -> None:
-    for demonstration in corpus(domain).demonstrations()[::50]:
-        world = corpus(domain).world(demonstration.environment)
-        shown = demonstrated_subject(demonstration, world, corpus(domain).lexicon)
-        page = render(shown)
-        assert page.verdict.valid
-        reader = Reader(page.html)
-        assert len(reader.of_class("step")) == len(demonstration.instructions)
-        assert (demonstration.goal is None) == ("✓ executable" in reader.text)
-        assert demonstration.goal is None or demonstration.goal in reader.text
-        assert shown.said is not None and shown.said.meant is not None
-        used = {arg for instruction in demonstration.instructions for arg in instruction.args}
-        assert any(name in used for meaning in shown.said.meant for names in meaning.values() for name in names)
-
-
-def test_the_pictures_of_a_filmstrip_are_found() -> None:
-    """As the robot's room lays them out: each picture has a colour of its own, and is cut out again."""
-    pytest.importorskip("PIL")
-    from PIL import Image
-
-    from tmd.robot.video.captions import filmstrip
-
-    for count in (1, 2, 3, 4, 5, 9, 13, 17, 40):
-        data = io.BytesIO()
-        filmstrip([np.full((38, 40, 3), 5 * place + 1, np.uint8) for place in range(count)]).save(data, "PNG")
-        strip = read_strip(data.getvalue(), count)
-        assert strip is not None and (strip.tile_width, strip.tile_height) == (40, 38)
-        sheet = np.asarray(Image.open(io.BytesIO(b64decode(strip.address.partition(",")[2]))))
-        for place, (x, y) in enumerate(strip.tiles):
-            assert (sheet[y : y + 38, x : x + 40] == 5 * place + 1).all()
-
-
-def test_what_is_no_strip_has_no_tiles() -> None:
-    pytest.importorskip("PIL")
-    from PIL import Image
-
-    assert read_strip(b"GIF89a", 3) is None and read_strip(b"", 0) is None
-    data = io.BytesIO()
-    Image.new("RGB", (333, 77)).save(data, "PNG")
-    strip = read_strip(data.getvalue(), 9)
-    assert strip is not None and not strip.tiles
-    assert not getattr(read_strip(data.getvalue(), 0), "tiles", None)
 
 
 def test_what_the_robot_did_stands_at_its_step(subject: Subject) -> None:

@@ -333,12 +333,10 @@ class DataFiles:
 
     def _lexicon(self, file: Path) -> None:
         from tmd.check.lexicon import (
-            check_goal_verbs,
             check_goals,
             check_lexicon,
             check_phrases,
             declared_verbs,
-            segments_of,
             texts_of,
         )
         from tmd.goals.tables import faults_of
@@ -348,13 +346,11 @@ class DataFiles:
         corpora = self._corpora(folder.path)
         lexicon = read_lexicon(file)
         texts = [text for path in corpora for text in texts_of(path)]
-        segments = (text for path in corpora for text in segments_of(path))
         meant = declared_verbs(lexicon, folder.domain)
         for fault in (
             *faults_of(lexicon, folder.domain),
             *check_lexicon(file, lexicon, meant, actions, _names(folder), texts),
             *check_goals(file, lexicon, folder.domain, self._problems_of(folder), lambda: self._nameable(folder)),
-            *check_goal_verbs(file, lexicon, meant, actions, segments),
             *check_phrases(file, lexicon),
         ):
             self.checker.report(fault, file)

@@ -13,11 +13,10 @@ from tmd.diagnostics import Location, TmdError
 
 
 class Severity(StrEnum):
-    """An error keeps ``tmd`` from using a file; a warning is worth a look; a note is for who wants to know more."""
+    """An error keeps ``tmd`` from using a file; a warning is worth a look."""
 
     ERROR = "error"
     WARNING = "warning"
-    NOTE = "note"
 
 
 _ERRORS = (
@@ -43,13 +42,11 @@ _WARNINGS = (
     "nested-when", "said-twice", "contradictory-effects", "unused-predicate", "unused-parameter", "no-effect",
     "never-applies", "never-produced", "too-many-cases", "type-without-objects", "unreachable-goal",
     "goal-holds", "ambiguous-domain", "unserved-verb", "unknown-target", "unread-noun", "impossible-goal",
-    "idle-phrase", "domain-not-found",
+    "idle-phrase", "domain-not-found", "too-many",
 )  # fmt: skip
-_NOTES = ("synonym-with-goal", "no-goal", "too-many")
 SEVERITY: Mapping[str, Severity] = {
     **dict.fromkeys(_ERRORS, Severity.ERROR),
     **dict.fromkeys(_WARNINGS, Severity.WARNING),
-    **dict.fromkeys(_NOTES, Severity.NOTE),
 }
 
 
@@ -73,7 +70,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """Error, warning or note."""
+        """Error or warning."""
         return SEVERITY[self.code]
 
 

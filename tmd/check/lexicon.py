@@ -8,15 +8,14 @@ from collections.abc import Callable, Collection, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from tmd.check.diagnostic import SEVERITY, Severity
 from tmd.check.lint.problem import Possible, Scope, types_of
 from tmd.diagnostics import Location, TmdError
-from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, family, read_pattern, read_table
+from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, read_pattern, read_table
 from tmd.goals.tables import declared_goals
 from tmd.language import parse as parse_text
-from tmd.language.lexicon.lexicon import Declared, Lexicon, section, verb_candidates
+from tmd.language.lexicon.lexicon import Declared, Lexicon, verb_candidates
 from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
 from tmd.pddl.reading.checking import check_condition
 from tmd.pddl.reading.formulas import read_condition
@@ -91,22 +90,8 @@ def _declares(lexicon: Lexicon, section_name: str, verb: str) -> bool:
     return place is not None and place.file == lexicon.source
 
 
-def texts_of(path: Path) -> list[str]:
-    """Return the texts of a corpus, as far as it can be read."""
-    return [line["text"] for line in _lines_of(path) if isinstance(line.get("text"), str)]
-
-
-def segments_of(path: Path) -> list[str]:
-    """Return the pieces of a corpus' texts that have instructions, as far as it can be read."""
-    found: list[str] = []
-    for line in _lines_of(path):
-        with suppress(KeyError, TypeError):
-            found += [str(segment["text"]) for segment in line["segments"] if segment["instructions"]]
-    return found
-
-
-def _lines_of(path: Path) -> Iterator[dict[str, Any]]:
-    """Yield the JSON objects of a file of JSON Lines; other lines are passed over."""
+def texts_of(path: Path) -> Iterator[str]:
+    """Yield the texts of a corpus; lines that cannot be read are passed over."""
     try:
         lines = read_text(path).splitlines()
     except TmdError:
@@ -114,8 +99,8 @@ def _lines_of(path: Path) -> Iterator[dict[str, Any]]:
     for line in lines:
         with suppress(ValueError, RecursionError):
             value = json.loads(line)
-            if isinstance(value, dict):
-                yield value
+            if isinstance(value, dict) and isinstance(value.get("text"), str):
+                yield value["text"]
 
 
 def check_phrases(path: Path, lexicon: Lexicon) -> Iterator[TmdError]:
@@ -154,83 +139,6 @@ class _Served:
             stem in self._stems[word] and particle in text[place + 1 : place + 1 + _PARTICLE_WITHIN]
             for place, word in enumerate(text)
         )
-
-
-# So sure must a word be a verb (:meth:`tmd.language.lexicon.lexicon.Lexicon.verb`).
-_A_VERB = 2
-# The sections of words that only lead to what is asked for: *please*, *I need you to*.
-_POLITE = ("lead_verbs", "let_verbs", "modals", "adverbs")
-
-
-def check_goal_verbs(
-    path: Path, lexicon: Lexicon, meant: Collection[str], actions: Collection[str], segments: Iterable[str]
-) -> Iterator[TmdError]:
-    """Report notes on the verbs of a lexicon that declares goals.
-
-    Args:
-        path: The lexicon's file.
-        lexicon: What it says.
-        meant: The verbs that have a declared meaning.
-        actions: The names of the domain's actions.
-        segments: The pieces of its demonstrations' texts that were carried out one after another.
-    """
-    if not meant:
-        return
-    written = Written(path)
-    yield from _standing_for_another(lexicon, written)
-    verbs = dict.fromkeys((name for action in actions for name in _verb_of_action(action, lexicon)), "an action")
-    for text in segments:
-        for verb in _first_verb(text, lexicon):
-            verbs.setdefault(verb, "a demonstration")
-    for verb, where in sorted(verbs.items()):
-        if not _has_goal(verb, meant, lexicon):
-            message = f"no goal says what '{verb}' means, which {where} speaks of"
-            hint = f"write '- {verb} X: (…)' under goals, or '{verb}: OTHER' under verb_synonyms"
-            yield written.error(written.in_section("goals"), message, hint, "no-goal")
-
-
-def _standing_for_another(lexicon: Lexicon, written: Written) -> Iterator[TmdError]:
-    """Report verbs with their own row that share the templates of another verb."""
-    told: set[str] = set()
-    for entry in lexicon.goals:
-        for verb in entry.pattern.partition(" ")[0].split("|"):
-            other = lexicon.canonical_verb(verb)
-            if other != verb and verb not in told and lexicon.own("verb_synonyms", verb):
-                told.add(verb)
-                message = f"'{verb}' has a goal of its own, and stands for '{other}' as well"
-                hint = f"its own goals are tried before those of '{other}'; remove one of the two if they mean the same"
-                yield written.error(written.in_pattern(entry, verb), message, hint, "synonym-with-goal")
-
-
-def _verb_of_action(name: str, lexicon: Lexicon) -> Iterator[str]:
-    """Yield the verb of an action's name: itself with its particle, or its first word."""
-    stem, _, rest = name.partition("_")
-    if not _is_verb(stem, lexicon):
-        return
-    yield f"{stem}_{rest}" if rest and lexicon.particle(stem, rest) is not None else stem
-
-
-def _first_verb(text: str, lexicon: Lexicon) -> Iterator[str]:
-    """Yield the verb that a piece of a text begins with, if it begins with one."""
-    words = text.lower().replace(",", " ").replace(".", " ").split()
-    found = lexicon.verb(words[0]) if words else None
-    if found is None or found[2] < _A_VERB or found[1] != "base" or any(found[0] in section(s) for s in _POLITE):
-        return
-    stem = found[0]
-    near = words[1 : 1 + _PARTICLE_WITHIN]
-    yield next((f"{stem}_{word}" for word in near if lexicon.particle(stem, word)), stem)
-
-
-def _is_verb(word: str, lexicon: Lexicon) -> bool:
-    found = lexicon.verb(word)
-    return found is not None and found[0] == word and found[2] >= _A_VERB
-
-
-def _has_goal(verb: str, meant: Collection[str], lexicon: Lexicon) -> bool:
-    """Return whether a row is for a verb, for its verb without a particle, or for one that means the same."""
-    plain = verb.partition("_")[0]
-    own = {verb, plain, lexicon.canonical_verb(verb), lexicon.canonical_verb(plain)}
-    return any(verb in meant for verb in own | {other for one in own for other in family(one)})
 
 
 # The word of a pattern that a fault speaks of.

@@ -11,9 +11,7 @@ from tmd.cli.grounding import answer, remarks
 from tmd.cli.options import ReadingOptions
 from tmd.cli.plans import exit_code, why_invalid, why_none
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.evaluation.runs.finished_run import predicted_plan
 from tmd.export.planned_problem import Planned, planned, with_outcome
-from tmd.export.record import parse_record
 from tmd.export.strips import restored
 from tmd.json_record import json_value
 from tmd.pddl.model import TRUE, Instruction, Problem
@@ -23,14 +21,10 @@ from tmd.pddl.reading.syntax import read_text
 from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import Solved
 from tmd.records.grounding import GroundingRecord
-from tmd.records.plan import FORMAT
 from tmd.world.roots import Roots
 
 ASKED, CHANGED = "asked", "changed"
 """Goals by name, for a text: what it asks for, and everything that its plan changes."""
-
-
-_MAKER = "give what tmd ground --json or tmd export --format json wrote"
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +37,6 @@ class ExportRequest:
     planner: str | None
     text: str | None
     goal: str | None
-    example: str | None
-    model: str | None
     seconds: float | None
     memory: int | None
     reading: ReadingOptions
@@ -70,10 +62,6 @@ def planned_source(roots: Roots, asked: ExportRequest) -> Planned:
     of_text = asked.text is not None or path.suffix == ".json"
     if asked.goal in (ASKED, CHANGED) and not of_text:
         raise click.UsageError(f"--goal {asked.goal} is for a text, or for what tmd ground --json printed")
-    if path.is_dir():
-        return _checked(*predicted_plan(roots, path, asked.example, asked.model), asked.goal)
-    if asked.example or asked.model:
-        raise click.UsageError(f"--example and --model are for the directory of a run, and {path} is none")
     if path.suffix == ".json":
         return _of_json(roots, path, asked)
     if path.suffix == ".pddl" and asked.text is None:
@@ -102,13 +90,11 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned:
 
 
 def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned:
-    """Return a plan of ``tmd ground --json``, or what ``tmd export --format json`` wrote."""
-    text = read_text(path)
-    value = json_value(text, str(path), hint=_MAKER)
-    if isinstance(value, dict) and value.get("format") == FORMAT:
-        return parse_record(text, str(path))
+    """Return a plan of ``tmd ground --json``."""
+    hint = "give what tmd ground --json wrote"
+    value = json_value(read_text(path), str(path), hint=hint)
     if not isinstance(value, dict) or "plans" not in value:
-        raise TmdError(f"{path} is no plan", hint=_MAKER)
+        raise TmdError(f"{path} is no plan", hint=hint)
     told = GroundingRecord.from_value(value, str(path))
     if not told.plans:
         raise NotPlannedError(f"{path} has no plan", ExitCode.NOT_GROUNDED)

@@ -47,7 +47,7 @@ def _gathered(name: str, kind: Callable[..., object], *options: _Decorator) -> C
         def gathering(*args: Any, **given: Any) -> Any:  # noqa: ANN401 - what the command takes and gives
             made = kind(**{option: given.pop(option) for option in names})
             if isinstance(made, ReadingOptions):
-                made.check(compare=bool(given.get("compare")))
+                made.check()
             return command(*args, **{name: made}, **given)
 
         others = len(getattr(gathering, "__click_params__", ()))
@@ -207,27 +207,23 @@ class ReadingOptions:
 
     def settings(self) -> ModelSettings | None:
         """Return how the language model is reached; ``None`` where none is asked."""
-        return self.model_settings() if self.reader == "llm" else None
-
-    def model_settings(self) -> ModelSettings:
-        """Return how the language model is reached, for any reader."""
+        if self.reader != "llm":
+            return None
         from tmd.readers.llm.client import ModelSettings
 
         return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache, timeout=self.llm_timeout)
 
-    def check(self, *, compare: bool = False) -> None:
+    def check(self) -> None:
         """Refuse options of a language model where none is asked, and settings with which none can be.
-
-        Args:
-            compare: Whether a language model is asked even if the reader is another.
 
         Raises:
             click.UsageError: There are options for a language model without ``--reader llm``.
             ModelError: There is no model, or no key for a server that needs one.
         """
         given = [f.name for f in fields(self) if f.name != "reader" and getattr(self, f.name) != f.default]
-        if compare or self.reader == "llm":
-            self.model_settings().resolved()
+        settings = self.settings()
+        if settings is not None:
+            settings.resolved()
         elif given:
             raise click.UsageError(f"--{given[0].replace('_', '-')} is for --reader llm")
 

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tmd.diagnostics import TmdError
-from tmd.evaluation.summary import mcnemar
 from tmd.grounded import Grounded
-from tmd.json_record import rounded
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.semantics import holds
@@ -19,7 +17,6 @@ from tmd.records.grounding import ModelUse
 from tmd.records.sentence_test import (
     KindSummary,
     Outcome,
-    ReaderComparison,
     SentenceCase,
     SentenceReport,
     SentenceSummary,
@@ -123,18 +120,3 @@ def _case(result: SentenceResult) -> SentenceCase:
     if result.usage is not None:
         values["model"] = ModelUse.of(result.usage)
     return SentenceCase(id=result.test.id, **values)
-
-
-def compared(a: Sequence[SentenceResult], b: Sequence[SentenceResult], readers: tuple[str, str]) -> ReaderComparison:
-    """Compare two readers on the same tests."""
-    pairs = [(x.outcome.passed, y.outcome.passed) for x, y in zip(a, b, strict=True)]
-    only_a, only_b = pairs.count((True, False)), pairs.count((False, True))
-    return ReaderComparison(
-        a=report(a, readers[0]),
-        b=report(b, readers[1]),
-        both=pairs.count((True, True)),
-        only_a=only_a,
-        only_b=only_b,
-        neither=pairs.count((False, False)),
-        p=rounded(mcnemar(only_a, only_b)),
-    )

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations, product
-from math import comb
 from statistics import fmean, stdev
 from typing import Any, TypeAlias
 
@@ -188,18 +187,6 @@ def holm(values: Sequence[float]) -> list[float]:
     scaled = np.minimum(1.0, np.arange(count, 0, -1) * np.array(values)[order])
     corrected[order] = np.maximum.accumulate(scaled)
     return [float(value) for value in corrected]
-
-
-def mcnemar(only_a: int, only_b: int) -> float:
-    """Return the two-sided p-value of McNemar's exact test.
-
-    Args:
-        only_a: The number of cases that only the first of two passes.
-        only_b: The number of cases that only the second passes.
-    """
-    n = only_a + only_b
-    tail = sum(comb(n, k) for k in range(min(only_a, only_b) + 1))
-    return min(1.0, float(2 * tail / 2**n))
 
 
 def _key(prediction: dict[str, Any]) -> _Key:

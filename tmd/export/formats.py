@@ -24,13 +24,11 @@ class Format:
 
     Attributes:
         name: Its name on the command line.
-        about: What it is, in one line.
         make: Makes its files.
     """
 
     name: str
-    about: str
-    make: Callable[[Planned], Files | Texts]
+    make: Callable[[Planned], Texts]
 
     def write(self, source: Planned) -> Files:
         """Return its files.
@@ -38,8 +36,7 @@ class Format:
         Raises:
             TmdError: The format cannot say the problem, or a program for it is missing.
         """
-        files = self.make(source).items()
-        return {name: data.encode("utf-8") if isinstance(data, str) else data for name, data in files}
+        return {name: text.encode("utf-8") for name, text in self.make(source).items()}
 
 
 def _adl(source: Planned) -> Texts:
@@ -94,19 +91,6 @@ def _plansys2(source: Planned) -> Texts:
     }
 
 
-def _anml(source: Planned) -> Texts:
-    from tmd.export.unified import format_anml
-
-    return {"problem.anml": format_anml(source.problem)}
-
-
-def _protobuf(source: Planned) -> Files:
-    from tmd.export.unified import messages
-
-    problem, plan = messages(source)
-    return {"problem.pb": problem, "plan.pb": plan}
-
-
 def _tree(source: Planned) -> Texts:
     from tmd.export.behavior_tree import format_tree
 
@@ -119,12 +103,6 @@ def _sas(source: Planned) -> Texts:
     return {"output.sas": translated(source.problem), "sas_plan": _ipc(source)["plan.plan"]}
 
 
-def _json(source: Planned) -> Texts:
-    from tmd.export.record import format_record, format_schema
-
-    return {"plan.json": format_record(source), "plan.schema.json": format_schema()}
-
-
 # What is written where no format is asked for.
 DEFAULT = "adl"
 
@@ -132,16 +110,13 @@ DEFAULT = "adl"
 FORMATS: Mapping[str, Format] = {
     form.name: form
     for form in (
-        Format("adl", "flat typed ADL: domain, problem and plan side by side", _adl),
-        Format("ipc", "the plan alone, as the planning competitions write it", _ipc),
-        Format("strips", "ground STRIPS with the plan's conditional effects decided, and its plan", _strips),
-        Format("durative", "PDDL 2.1 with durative actions, and a plan with times", _durative),
-        Format("anml", "ANML, by unified-planning", _anml),
-        Format("protobuf", "problem and plan as protocol buffers of unified-planning", _protobuf),
-        Format("plansys2", "PlanSys2: durative STRIPS, and the plan as POPF prints it", _plansys2),
-        Format("bt", "a behaviour tree for BehaviorTree.CPP 4", _tree),
-        Format("sas", "SAS+ by Fast Downward's translator, and the plan", _sas),
-        Format("json", "problem and plan in a form of our own, and its JSON Schema", _json),
+        Format("adl", _adl),
+        Format("ipc", _ipc),
+        Format("strips", _strips),
+        Format("durative", _durative),
+        Format("plansys2", _plansys2),
+        Format("bt", _tree),
+        Format("sas", _sas),
     )
 }
 

@@ -1,4 +1,4 @@
-"""Problems and plans as objects of unified-planning and back, and the forms that it writes: ANML, protocol buffers.
+"""Problems and plans as objects of unified-planning and back.
 
 unified-planning is imported when it is first needed, which takes about a third of a second.
 """
@@ -14,7 +14,6 @@ from importlib.util import find_spec
 from typing import Any, TypeAlias
 
 from tmd.diagnostics import MissingToolError, TmdError
-from tmd.export.planned_problem import Planned
 from tmd.pddl.derived import without_derived
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.normalise import portable
@@ -22,8 +21,6 @@ from tmd.pddl.reading.checking import check_problem, used_requirements
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.writer import format_domain, format_problem
 
-_WORD = re.compile(r"[A-Za-z_][\w-]*")
-_HYPHENED = re.compile(r"[A-Za-z_]\w*(?:-\w+)+")
 # A ``unified_planning.model.Problem``; the package ships no types.
 UpProblem: TypeAlias = Any
 # A plan of unified-planning.
@@ -45,7 +42,8 @@ def to_unified_planning(problem: Problem) -> UpProblem:
         MissingToolError: unified-planning is not installed.
         TmdError: The problem cannot be written in the form that other tools read.
     """
-    _needed("unified_planning", "unified-planning")
+    if find_spec("unified_planning") is None:
+        raise MissingToolError("the package unified-planning is not installed", hint="pip install unified-planning")
     from unified_planning.io import PDDLReader
 
     plain = portable(without_derived(_without_idle_costs(problem)))
@@ -66,18 +64,6 @@ def _shared_names() -> Iterator[None]:
         yield
     finally:
         environment.error_used_name = before
-
-
-@contextmanager
-def _refusals(form: str) -> Iterator[None]:
-    """Convert errors of unified-planning, which are of many kinds, to :class:`TmdError`."""
-    try:
-        yield
-    except TmdError:
-        raise
-    except Exception as error:
-        why = " ".join(str(error).split()) or type(error).__name__
-        raise TmdError(f"unified-planning cannot write this problem as {form}: {why}") from error
 
 
 def _without_idle_costs(problem: Problem) -> Problem:
@@ -194,56 +180,3 @@ def plan_from_unified_planning(plan: UpPlan) -> tuple[Instruction, ...]:
         Instruction(a.action.name.lower(), tuple(str(argument).lower() for argument in a.actual_parameters))
         for a in actions
     )
-
-
-def format_anml(problem: Problem) -> str:
-    """Return a problem as ANML, by unified-planning's writer.
-
-    ANML's names have no hyphens; each becomes ``_``. ANML has no costs of actions.
-
-    Raises:
-        MissingToolError: unified-planning is not installed.
-        TmdError: unified-planning refuses the problem, or two names become the same.
-    """
-    _needed("unified_planning", "unified-planning")
-    from unified_planning.io import ANMLWriter
-
-    with _refusals("ANML"):
-        text: str = ANMLWriter(to_unified_planning(replace(problem, minimize_cost=False))).get_problem()
-    names = set(_HYPHENED.findall(text))
-    taken = set(_WORD.findall(text))
-    for name in sorted(names):
-        if name.replace("-", "_") in taken - names:
-            raise TmdError(
-                f"'{name}' cannot be written in ANML, whose names have no hyphens",
-                hint=f"rename it: there is a {name.replace('-', '_')} as well",
-            )
-    return _HYPHENED.sub(lambda found: found[0].replace("-", "_"), text)
-
-
-def messages(source: Planned) -> tuple[bytes, bytes]:
-    """Return problem and plan as the protocol buffers ``Problem`` and ``Plan`` of unified-planning.
-
-    Raises:
-        MissingToolError: unified-planning or protobuf is not installed.
-        TmdError: The problem cannot be written in the form that other tools read.
-    """
-    _needed("unified_planning", "unified-planning")
-    _needed("google.protobuf", "protobuf")
-    from unified_planning.grpc.proto_writer import ProtobufWriter
-
-    writer = ProtobufWriter()
-    with _refusals("protocol buffers"):
-        problem = to_unified_planning(source.problem)
-        converted = (writer.convert(problem), writer.convert(plan_to_unified_planning(source.plan, problem)))
-    written: tuple[bytes, bytes] = tuple(message.SerializeToString(deterministic=True) for message in converted)
-    return written
-
-
-def _needed(module: str, package: str) -> None:
-    try:
-        found = find_spec(module)
-    except (ModuleNotFoundError, ValueError):
-        found = None
-    if found is None:
-        raise MissingToolError(f"the package {package} is not installed", hint=f"pip install {package}")

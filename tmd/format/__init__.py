@@ -1,4 +1,4 @@
-"""Formatting of PDDL and YAML: the same layout everywhere; comments and the author's own line breaks stay.
+"""Formatting of PDDL and JSON: the same layout everywhere; comments and the author's own line breaks stay.
 
 Begin with :mod:`tmd.format.files`.
 """

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from tmd.diagnostics import TmdError
 from tmd.files import write_text
+from tmd.format.pddl_layout import format_pddl
 from tmd.pddl.reading.syntax import read_text
 
 # The files that can be laid out.
-SUFFIXES = (".pddl", ".yaml", ".yml")
+SUFFIX = ".pddl"
 
 
 def format_file(path: str | Path, *, write: bool = True) -> bool:
-    """Lay out a PDDL or YAML file; comments and line breaks stay.
+    """Lay out a PDDL file; comments and line breaks stay.
 
     Args:
         path: The file.
@@ -22,26 +24,18 @@ def format_file(path: str | Path, *, write: bool = True) -> bool:
         Whether the file changes.
 
     Raises:
-        TmdError: It cannot be read or written, or has a fault that makes laying it out impossible.
+        TmdError: It is not PDDL, cannot be read or written, or has a fault that makes laying it out impossible.
     """
     file = Path(path)
+    if file.suffix != SUFFIX:
+        raise TmdError(f"{file}: only PDDL is laid out", hint=f"its name ends in {SUFFIX}")
     raw = read_text(file)
-    text = _laid_out(raw, file)
+    text = format_pddl(raw, str(file))
     if text == raw and not _has_marks(file):
         return False
     if write:
         write_text(file, text)
     return True
-
-
-def _laid_out(text: str, file: Path) -> str:
-    if file.suffix == ".pddl":
-        from tmd.format.pddl_layout import format_pddl
-
-        return format_pddl(text, str(file))
-    from tmd.format.yaml_layout import format_yaml
-
-    return format_yaml(text, str(file))
 
 
 def _has_marks(file: Path) -> bool:

@@ -8,7 +8,6 @@ module               format
 ``grounding``        ``tmd ground --json``, with ``--goal-only`` as well
 ``run``              ``tmd run --json``, and the lines of ``tmd run --log``
 ``sentence_test``    ``tmd test --json``
-``plan``             ``plan.json`` of ``tmd export --format json``
 ``prediction``       a line of ``predictions.jsonl`` and of ``parts/`` in a run of ``tmd experiment``
 ``metrics``          ``metrics.json`` there
 ``fit``              a file of ``fits/`` there

@@ -15,18 +15,10 @@ class CurvePoint(JsonRecord):
 
 
 class WorldFit(JsonRecord):
-    """Weights learned for one kind of world. A curve may also be plain numbers: the loss of one round each."""
+    """Weights learned for one kind of world, and the curve of their learning."""
 
     weights: dict[str, float]
-    curve: tuple[CurvePoint | float, ...]
-
-    @property
-    def points(self) -> list[CurvePoint]:
-        """The curve."""
-        return [
-            point if isinstance(point, CurvePoint) else CurvePoint(round=number, epoch=0, loss=point)
-            for number, point in enumerate(self.curve)
-        ]
+    curve: tuple[CurvePoint, ...]
 
 
 class Fit(JsonRecord):

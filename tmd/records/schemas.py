@@ -15,10 +15,9 @@ from tmd.records.clauses import ParsedRecord
 from tmd.records.fit import Fit
 from tmd.records.grounding import GoalOnlyRecord, GroundingRecord
 from tmd.records.metrics import Metrics
-from tmd.records.plan import PlanRecord
 from tmd.records.prediction import PredictionRecord
 from tmd.records.run import RunEvent, RunRecord
-from tmd.records.sentence_test import ReaderComparison, SentenceReport
+from tmd.records.sentence_test import SentenceReport
 from tmd.records.trajectory import TrajectoryLine
 from tmd.records.trial import Trial
 
@@ -30,9 +29,7 @@ FORMATS: dict[str, Any] = {
     "run": RunRecord,
     "run-log": RunEvent,
     "test": SentenceReport,
-    "test-compare": ReaderComparison,
     "llm-reply": Reply,
-    "plan": PlanRecord,
     "prediction": PredictionRecord,
     "metrics": Metrics,
     "fit": Fit,

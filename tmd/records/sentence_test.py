@@ -75,18 +75,3 @@ class SentenceReport(JsonRecord):
     kinds: tuple[KindSummary, ...] = Field(description="The same for the tests of each kind; a test may have several.")
     reader: str
     cases: tuple[SentenceCase, ...]
-
-
-class ReaderComparison(JsonRecord):
-    """``tmd test --compare A,B --json``: two readers on the same tests."""
-
-    WHAT = "what tmd test --compare --json prints"
-    REMAKE = "make it again with tmd test --compare --json"
-
-    a: SentenceReport
-    b: SentenceReport
-    both: int = Field(description="Tests that both pass.")
-    only_a: int
-    only_b: int
-    neither: int
-    p: float = Field(description="McNemar's exact test, two-sided, of no difference.")

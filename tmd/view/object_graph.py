@@ -46,10 +46,6 @@ class Anatomy:
         whole = self.whole(name)
         return name.removeprefix(f"{whole}_") if whole != name else name
 
-    def things(self, atom: GroundAtom) -> list[str]:
-        """Return the objects that a fact is about, wholes for parts, each once; constants are none."""
-        return list(dict.fromkeys(self.whole(a) for a in atom.args if a in self.classes and a not in self.constants))
-
 
 def anatomy(problem: Problem) -> Anatomy:
     """Return the object graphs of a problem; parts are what its static ``part_of`` facts say."""

@@ -6,12 +6,12 @@ import re
 from base64 import b64encode
 from collections import defaultdict
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from hashlib import sha256
 
 from tmd import __version__
 from tmd.language.clause import Clause, print_clause
-from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.model import GroundAtom, Problem
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula
@@ -20,8 +20,6 @@ from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
-from tmd.view.object_graph import Anatomy, GraphChanges, anatomy, draw
-from tmd.view.pictures import Strip
 from tmd.view.subject import PlannedStep, Subject
 from tmd.view.wording import Wording
 
@@ -67,12 +65,10 @@ def render(subject: Subject) -> Page:
             pddl=format_formula,
             steps=steps,
             folded=len(steps) > FEW,
-            undrawn=next((step.number for step in steps if step.reached and not step.drawn), None),
             sentence="" if said is None else lit_sentence(said.parsed, said.meant, said.unseen),
             notation=print_clause,
             notes=_notes,
             candidates=_candidates(subject, verdict),
-            picture=_picture,
             version=__version__,
             style=style() + data("page.css"),
             script=script,
@@ -108,32 +104,6 @@ def _notes(clause: Clause) -> tuple[str, ...]:
     return (*quantities, *(f"{word}: {' '.join(value.split())}" for word, value in said if value))
 
 
-def _picture(strip: Strip | None, place: int) -> str:
-    """Return the style that shows one picture of the sheet at any size; empty where there is none."""
-    if strip is None or place >= len(strip.tiles):
-        return ""
-    x, y = strip.tiles[place]
-    across, down = strip.width - strip.tile_width, strip.height - strip.tile_height
-    size = f"{100 * strip.width / strip.tile_width:.4f}% {100 * strip.height / strip.tile_height:.4f}%"
-    return (
-        f"aspect-ratio:{strip.tile_width}/{strip.tile_height};background-size:{size};"
-        f"background-position:{100 * x / across:.4f}% {100 * y / down:.4f}%"
-    )
-
-
-# Characters of drawings on a page; the steps after that have none.
-BUDGET = 6_000_000
-
-
-@dataclass(frozen=True, slots=True)
-class Drawing:
-    """An object before and after a step; ``after`` is empty where the step cannot be done."""
-
-    name: str
-    before: str
-    after: str
-
-
 @dataclass(frozen=True, slots=True)
 class ShownStep:
     """A step as it is shown.
@@ -143,89 +113,32 @@ class ShownStep:
         planned: The step.
         added: The facts that hold after it and did not before, sorted.
         removed: The facts that held before it and do not after, sorted.
-        drawings: The objects that it names, as far as something about them changes.
-        others: Further objects that change.
         broken: Why it cannot be done; empty where it can.
         reached: Whether the plan gets there at all.
-        drawn: Whether there was room for drawings.
     """
 
     number: int
     planned: PlannedStep
     added: tuple[GroundAtom, ...] = ()
     removed: tuple[GroundAtom, ...] = ()
-    drawings: tuple[Drawing, ...] = ()
-    others: tuple[Drawing, ...] = ()
     broken: str = ""
     reached: bool = True
-    drawn: bool = True
 
 
-@dataclass
-class _Sheet:
-    """Drawings of a page, up to a limit of characters."""
-
-    graph: Anatomy
-    left: int = BUDGET
-    full: bool = field(default=False, init=False)
-
-    def draw(self, names: Sequence[str], before: State, after: State | None) -> tuple[Drawing, ...]:
-        """Return the named objects, each only once the sheet is full."""
-        found = []
-        for name in names:
-            if self.full:
-                break
-            drawing = self._drawing(name, before, after)
-            self.left -= len(drawing.before) + len(drawing.after)
-            self.full = self.left < 0
-            found.append(drawing)
-        return tuple(found)
-
-    def _drawing(self, name: str, before: State, after: State | None) -> Drawing:
-        if after is None:
-            return Drawing(name, draw(self.graph, before, name), "")
-        first = draw(self.graph, before, name, GraphChanges(removed=before - after))
-        return Drawing(name, first, draw(self.graph, after, name, GraphChanges(added=after - before)))
-
-
-def shown_steps(
-    problem: Problem, steps: Sequence[PlannedStep], budget: int = BUDGET
-) -> tuple[list[ShownStep], Verdict]:
-    """Return every step of a plan, and whether the plan works.
-
-    Args:
-        problem: Where it begins.
-        steps: The plan.
-        budget: How many characters the drawings may have.
-    """
+def shown_steps(problem: Problem, steps: Sequence[PlannedStep]) -> tuple[list[ShownStep], Verdict]:
+    """Return every step of a plan that begins in ``problem``, and whether the plan works."""
     verdict = validate(problem, [step.instruction for step in steps])
-    sheet = _Sheet(anatomy(problem), budget)
-    return list(_shown(problem, steps, verdict, sheet)), verdict
+    return list(_shown(problem, steps, verdict)), verdict
 
 
-def _shown(problem: Problem, steps: Sequence[PlannedStep], verdict: Verdict, sheet: _Sheet) -> Iterator[ShownStep]:
+def _shown(problem: Problem, steps: Sequence[PlannedStep], verdict: Verdict) -> Iterator[ShownStep]:
     state = problem.init
     for number, step in enumerate(steps, start=1):
         if verdict.step is None or number < verdict.step:
             after = apply(step.instruction, state, problem)
-            yield _done(number, step, state, after, sheet)
+            yield ShownStep(number, step, tuple(sorted(after - state)), tuple(sorted(state - after)))
             state = after
         elif number == verdict.step:
-            drawings = sheet.draw(_named(sheet.graph, step.instruction), state, None)
-            yield ShownStep(number, step, drawings=drawings, broken=verdict.reason, drawn=not sheet.full)
+            yield ShownStep(number, step, broken=verdict.reason)
         else:
             yield ShownStep(number, step, reached=False)
-
-
-def _done(number: int, step: PlannedStep, before: State, after: State, sheet: _Sheet) -> ShownStep:
-    added, removed = sorted(after - before), sorted(before - after)
-    changed = dict.fromkeys(thing for atom in (*added, *removed) for thing in sheet.graph.things(atom))
-    named = [name for name in _named(sheet.graph, step.instruction) if name in changed] or list(changed)
-    drawings = sheet.draw(named, before, after)
-    others = sheet.draw([name for name in changed if name not in named], before, after)
-    return ShownStep(number, step, tuple(added), tuple(removed), drawings, others, drawn=not sheet.full)
-
-
-def _named(graph: Anatomy, instruction: Instruction) -> list[str]:
-    """Return the objects among the arguments, wholes for parts."""
-    return graph.things(GroundAtom(instruction.name, instruction.args))

@@ -1,35 +1,26 @@
-"""Subjects of pages read from files: a grounded text, a run, a plan, a demonstration."""
+"""Subjects of pages read from files: a grounded text, a run, a plan."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from base64 import b64encode
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from tmd import __version__
 from tmd.diagnostics import ExitCode, Location, OptionError, TmdError
-from tmd.export.record import parse_record
 from tmd.export.strips import restored
 from tmd.files import read_bytes
 from tmd.grounded import why_refused
 from tmd.json_record import json_value
 from tmd.language import parse
-from tmd.language.clause import Clause
-from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.model import Problem
-from tmd.pddl.plan_file import Plan, parse_plan
-from tmd.pddl.reading.reader import with_goal
-from tmd.pddl.reading.syntax import nearest, read_standard_input, read_text
+from tmd.pddl.plan_file import parse_plan
+from tmd.pddl.reading.syntax import read_standard_input, read_text
 from tmd.pddl.validator import Verdict
 from tmd.records.grounding import GroundingRecord
-from tmd.records.plan import FORMAT
 from tmd.records.run import EndEvent, RanStep, RunRecord, RunRequest, StepEvent, read_log
-from tmd.view.meaning import Meaning, after, meaning
-from tmd.view.pictures import Strip, read_strip
 from tmd.view.subject import PlannedStep, Ran, Said, Subject, grounded_subject, title_of
 from tmd.world.corpus import Corpus
-from tmd.world.demonstration import Demonstration, Segment, read_demonstration
 from tmd.world.roots import Roots
 from tmd.world.world import World
 
@@ -37,11 +28,12 @@ from tmd.world.world import World
 Lines = Sequence[tuple[int, str]]
 # Plans with more steps are refused: such a page cannot be read.
 MAX_STEPS = 10_000
-_KINDS = "give what tmd ground --json or tmd run --json printed, a log of tmd run, a plan file, or demonstrations"
+_KINDS = "give what tmd ground --json or tmd run --json printed, a log of tmd run, or a plan file"
 
 
 # Standard input or output.
 STANDARD = "-"
+_PNG = b"\x89PNG\r\n\x1a\n"
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +44,6 @@ class ViewRequest:
     environment: str | None = None
     domain: str | None = None
     problem: Path | None = None
-    demonstration: str | None = None
     strip: Path | None = None
 
     @property
@@ -76,10 +67,9 @@ class ViewRequest:
         Raises:
             OptionError: One of them was given.
         """
-        for name in ("problem", "environment", "domain", "demonstration", "strip"):
+        for name in ("problem", "environment", "domain", "strip"):
             if name not in meant and getattr(self, name) is not None:
-                option = "--id" if name == "demonstration" else f"--{name}"
-                raise OptionError(f"{option} has no meaning for {self.name}", hint="leave it out")
+                raise OptionError(f"--{name} has no meaning for {self.name}", hint="leave it out")
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +82,6 @@ class FoundSubject:
         remarks: Lines for standard error.
         locations: Where the steps of a plan file stand.
         of_text: Whether there is a text that should have a plan.
-        asks: Whether the text has a question that was not answered.
     """
 
     subject: Subject
@@ -100,14 +89,11 @@ class FoundSubject:
     remarks: tuple[str, ...] = ()
     locations: tuple[Location, ...] = ()
     of_text: bool = False
-    asks: bool = False
 
     def ending(self, verdict: Verdict) -> ExitCode:
         """Return the exit code, given the validator's verdict on the plan."""
         if self.of_text and not (self.subject.steps or self.subject.plans):
             return ExitCode.NOT_GROUNDED
-        if self.asks:
-            return ExitCode.QUESTION
         return ExitCode.OK if verdict.valid else ExitCode.INVALID_PLAN
 
     def complaint(self, verdict: Verdict) -> str:
@@ -151,13 +137,6 @@ def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> Found
         first = _object(asked, lines[0][1])  # of JSON Lines, or all on one line
     except TmdError:
         first = _object(asked, text)
-    if "segments" in first:
-        asked.only("demonstration", "environment", "domain")
-        return _demonstration_found(roots, asked, lines)
-    if first.get("format") == FORMAT:
-        asked.only()
-        planned = parse_record(text, asked.name)
-        return _plan_of(asked, planned.problem, Plan(planned.plan))
     if "event" in first or ("mode" in first and "steps" in first):
         asked.only("environment", "domain", "strip")
         run, done = _run(asked, first, lines)
@@ -188,10 +167,10 @@ def _record_found(
     corpus, world = scene
     record = told if isinstance(told, GroundingRecord) else told.grounding
     made: dict[str, object] = {} if record is None else dict(record.made_with)
-    strip = None
+    strip = ""
     if isinstance(told, RunRequest):
         made |= {name: getattr(told, name) for name in ("version", "planner", "mode", "seed")}
-        strip = _strip(asked, told.strip, len(done.steps) if done else 0)
+        strip = _strip(asked, told.strip)
     rows = made_rows({**made, "domain": corpus.folder.name, "environment": world.name})
     if record is not None:
         refused = record.refused
@@ -232,95 +211,24 @@ def _ended(end: RunRecord | EndEvent, steps: tuple[RanStep, ...]) -> Ran:
     return Ran(end.status, end.reason or "", end.repairs, end.seconds, steps)
 
 
-def _strip(asked: ViewRequest, recorded: str | None, count: int) -> Strip | None:
-    """Return the filmstrip of a run: the one that was named, else what lies beside the log."""
+def _strip(asked: ViewRequest, recorded: str | None) -> str:
+    """Return the filmstrip of a run as a ``data:`` address: the one that was named, else what lies beside the log."""
     path = asked.strip
     if path is None and asked.source != STANDARD:
         names = ([Path(recorded).name] if recorded else []) + [asked.path.with_suffix(".png").name]
         path = next((asked.path.parent / name for name in names if (asked.path.parent / name).is_file()), None)
     if path is None:
-        return None
+        return ""
     hint = "give what tmd run --strip wrote"
     try:
-        found = read_strip(read_bytes(path), count)
+        found = read_bytes(path)
     except OSError as error:
         raise TmdError(f"{path} cannot be read: {error.strerror}", hint=hint) from None
-    if found is None and asked.strip is not None:
+    if found.startswith(_PNG):
+        return f"data:image/png;base64,{b64encode(found).decode()}"
+    if asked.strip is not None:
         raise TmdError(f"{path} is not a PNG picture", hint=hint)
-    return found
-
-
-def _demonstration_found(roots: Roots, asked: ViewRequest, lines: Lines) -> FoundSubject:
-    """Read one demonstration of a corpus."""
-    read = [read_demonstration(Path(asked.name), number, line) for number, line in lines]
-    chosen = _chosen(asked, read)
-    corpus, world = _scene(roots, asked, None, chosen.environment, _bundled_beside(asked, chosen.environment))
-    where = {"version": __version__, "domain": corpus.folder.name, "environment": world.name, "file": asked.path.name}
-    subject = demonstrated_subject(chosen, world, corpus.lexicon, made_rows(where))
-    return FoundSubject(subject, asked.path.with_name(f"{_file_name(chosen.id)}.html"))
-
-
-def _chosen(asked: ViewRequest, read: Sequence[Demonstration]) -> Demonstration:
-    ids = [demonstration.id for demonstration in read]
-    if asked.demonstration is None and len(read) == 1:
-        return read[0]
-    if asked.demonstration is None:
-        raise TmdError(f"{asked.name} has {len(read)} demonstrations", hint=f"give --id, such as --id {ids[0]}")
-    if asked.demonstration not in ids:
-        hint = nearest(asked.demonstration, ids, what="demonstrations")
-        raise TmdError(f"{asked.name} has no demonstration '{asked.demonstration}'", hint=hint)
-    return read[ids.index(asked.demonstration)]
-
-
-def _file_name(text: str) -> str:
-    """Return an identifier as the name of a file."""
-    return "".join(c if c.isalnum() or c in "-_." else "_" for c in text).lstrip(".")[:100] or "demonstration"
-
-
-def _bundled_beside(asked: ViewRequest, environment: str) -> str | None:
-    """Return the environment's file near the corpus: ``<domain>/environments/`` beside ``<domain>/<task>/``."""
-    directory = asked.path.resolve().parent.parent / "environments"
-    paths = [directory / f"{Path(environment).name}{suffix}" for suffix in (".yaml", ".pddl")]
-    found = next((str(path) for path in paths if path.is_file()), None)
-    return None if asked.source == STANDARD else found
-
-
-def demonstrated_subject(
-    demonstration: Demonstration, world: World, lexicon: Lexicon, made: Iterable[tuple[str, str]] = ()
-) -> Subject:
-    """Return a demonstration, with its text parsed, its instructions by segment, and its goal if it has one.
-
-    Raises:
-        TmdError: The goal is not a condition of the environment.
-    """
-    problem = world.task.problem
-    parsed = parse(demonstration.text, lexicon)
-    steps = [
-        PlannedStep(instruction, f"segment {number}", " ".join(demonstration.text[part.start : part.end].split()))
-        for number, part in enumerate(demonstration.segments, start=1)
-        for instruction in part.instructions
-    ]
-    return Subject(
-        f"{demonstration.id}: a demonstration in {demonstration.environment}",
-        problem if demonstration.goal is None else with_goal(problem, demonstration.goal, "goal"),
-        tuple(steps),
-        Said(parsed, tuple(_meanings(parsed.clauses, demonstration.segments, world))),
-        made=(
-            *made,
-            ("task", demonstration.task),
-            ("stated end", " ".join(demonstration.end_state) or "none"),
-            ("goal", demonstration.goal or "none"),
-        ),
-    )
-
-
-def _meanings(clauses: Iterable[Clause], segments: Sequence[Segment], world: World) -> Iterator[Meaning]:
-    """Yield the meanings of each clause's nouns among the objects used for the segment that it is in."""
-    for clause in clauses:
-        start = clause.span.start
-        done = [i for part in segments if part.end <= start for i in part.instructions]
-        own = [i for part in segments if part.start <= start < part.end for i in part.instructions]
-        yield meaning(clause, own, world, after(done, world, world.task.init))
+    return ""
 
 
 def _scene(
@@ -354,10 +262,6 @@ def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
         problem = roots.problem(asked.problem, asked.domain)
     else:
         problem = roots.world(asked.environment or "", asked.domain)[1].task.problem
-    return _plan_of(asked, problem, plan)
-
-
-def _plan_of(asked: ViewRequest, problem: Problem, plan: Plan) -> FoundSubject:
     where = {"problem": asked.problem, "environment": asked.environment or problem.name, "domain": problem.domain.name}
     steps = tuple(PlannedStep(instruction) for instruction in restored(problem, plan.instructions))
     subject = Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where))

@@ -12,7 +12,6 @@ from tmd.pddl.model import Instruction, Problem
 from tmd.records.run import RanStep
 from tmd.view.goals import doubts
 from tmd.view.meaning import Meaning, meanings, meanings_in
-from tmd.view.pictures import Strip
 from tmd.world.world import World
 
 # Characters of a text that a title shows.
@@ -25,7 +24,7 @@ class PlannedStep:
 
     Attributes:
         instruction: What to do.
-        origin: ``clause 2``, ``segment 1``; empty without a text.
+        origin: ``clause 2``; empty without a text.
         words: The words of the text that it serves.
         latent: Whether they left it unsaid.
     """
@@ -71,9 +70,9 @@ class Ran:
     seconds: float = 0.0
     steps: tuple[RanStep, ...] = ()
 
-    def of(self, number: int, last: int) -> list[tuple[int, RanStep]]:
-        """Return the steps that belong to place ``number`` of a plan of ``last``, each with its place in the run."""
-        return [(i, s) for i, s in enumerate(self.steps) if min(max(s.number, 1), last) == number]
+    def of(self, number: int, last: int) -> list[RanStep]:
+        """Return the steps that belong to place ``number`` of a plan of ``last``."""
+        return [step for step in self.steps if min(max(step.number, 1), last) == number]
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +87,7 @@ class Subject:
         plans: All ranked plans, the one shown first; empty where nothing was ranked.
         refusals: Templates that could not be used.
         ran: What a robot made of it.
-        strip: The pictures of that.
+        strip: The filmstrip of that, as a ``data:`` address; empty without one.
         made: What decides all this, as names and values.
         refused: The reason why there is no plan for the text; empty where there is one, or where it is not known.
         doubts: Reasons to doubt the plan.
@@ -101,7 +100,7 @@ class Subject:
     plans: tuple[RankedPlan, ...] = ()
     refusals: tuple[RejectedProposal, ...] = ()
     ran: Ran | None = None
-    strip: Strip | None = None
+    strip: str = ""
     made: tuple[tuple[str, str], ...] = ()
     refused: str = ""
     doubts: tuple[str, ...] = ()
@@ -145,7 +144,7 @@ def grounded_subject(
     unknown: Iterable[str] = (),
     made: Iterable[tuple[str, str]] = (),
     ran: Ran | None = None,
-    strip: Strip | None = None,
+    strip: str = "",
     refused: str = "",
 ) -> Subject:
     """Return the best plan of a grounded text; without any plan the text alone."""

@@ -33,9 +33,8 @@ if TYPE_CHECKING:
     metavar="plain|graph",
     help="Begin with plain PDDL, or with classes of things that have parts.",
 )
-@json_option
 @click.pass_obj
-def new(roots: Roots, domain: str, start: str, as_json: bool) -> None:
+def new(roots: Roots, domain: str, start: str) -> None:
     """Begin the domain DOMAIN.
 
     Writes domains/DOMAIN and problems/DOMAIN here (--domains and --problems say where else): a domain with a lexicon,
@@ -44,8 +43,7 @@ def new(roots: Roots, domain: str, start: str, as_json: bool) -> None:
     from tmd.world.scaffold import scaffold
 
     made = scaffold(domain, start, roots.domains or Path("domains"), roots.problems or Path("problems"))
-    files = [path.as_posix() for path in made.files]
-    emit({"domain": domain, "from": start, "files": files} if as_json else _next_steps(domain, start, made))
+    emit(_next_steps(domain, start, made))
 
 
 def _next_steps(domain: str, start: str, made: Scaffold) -> str:
@@ -78,11 +76,8 @@ def _next_steps(domain: str, start: str, made: Scaffold) -> str:
 @learned_option
 @click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
 @seed_option()
-@json_option
 @click.pass_obj
-def learn(
-    roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int, as_json: bool
-) -> None:
+def learn(roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int) -> None:
     """Learn from the demonstrations of DOMAIN, and save it.
 
     `tmd ground` uses what was saved for as long as the domain, its environments and demonstrations, and tmd itself, are
@@ -94,55 +89,34 @@ def learn(
     if not no_weights and sys.stderr.isatty():
         emit("the weights take a while to learn; --no-weights leaves them out\n", error=True)
     corpus = roots.corpus(roots.folder(domain))
-    report = _learned(corpus, learn_domain(corpus, out or learned, weights=not no_weights, seed=seed))
-    emit(report if as_json else _learned_text(report))
+    emit(_learned_text(corpus, learn_domain(corpus, out or learned, weights=not no_weights, seed=seed)))
 
 
-def _learned(corpus: Corpus, found: LearnedDomain) -> dict[str, object]:
-    from tmd.json_record import rounded
-
+def _learned_text(corpus: Corpus, found: LearnedDomain) -> str:
     library, reward = found.knowledge.library, found.knowledge.reward
-    verbs = sorted(library.verbs(), key=lambda verb: (-len(library.templates(verb)), verb))
-    curve = found.tuned.curve if found.tuned else ()
-    return {
-        "domain": corpus.folder.name,
-        "demonstrations": len(corpus.demonstrations()),
-        "goals": sum(d.goal is not None for d in corpus.demonstrations()),
-        "environments": sorted({d.environment for d in corpus.demonstrations()}),
-        "templates": {verb: len(library.templates(verb)) for verb in verbs},
-        "unaligned": len(library.unaligned),
-        "policy": {"before": rounded(reward.before), "after": rounded(reward.after)} if reward else None,
-        "weights": {"before": rounded(curve[0]["loss"]), "after": rounded(min(p["loss"] for p in curve))}
-        if curve
-        else None,
-        "saved": str(found.directory),
-    }
-
-
-def _learned_text(report: dict[str, object]) -> str:
-    templates, places = report["templates"], report["environments"]
-    assert isinstance(templates, dict)
-    assert isinstance(places, list)
-    width = max(map(len, templates), default=0)
+    counts = {verb: len(library.templates(verb)) for verb in library.verbs()}
+    width = max(map(len, counts), default=0)
+    demonstrations = corpus.demonstrations()
+    places = sorted({demonstration.environment for demonstration in demonstrations})
     lines = [
-        f"{report['domain']}: {report['demonstrations']} demonstrations in {', '.join(places)}",
-        f"{sum(templates.values())} templates",
-        *(f"  {verb:<{width}}  {count:>4}" for verb, count in templates.items()),
+        f"{corpus.folder.name}: {len(demonstrations)} demonstrations in {', '.join(places)}",
+        f"{sum(counts.values())} templates",
+        *(f"  {verb:<{width}}  {counts[verb]:>4}" for verb in sorted(counts, key=lambda verb: (-counts[verb], verb))),
     ]
-    if report["unaligned"]:
-        lines.append(f"{report['unaligned']} pieces of text with instructions, but without a verb, taught nothing")
-    for name, what in (("policy", "mean ln P of what was shown"), ("weights", "mean loss of the plans chosen")):
-        part = report[name]
-        if isinstance(part, dict):
-            lines.append(f"{name}: {what} {part['before']:.4f} before, {part['after']:.4f} after")
-    return "\n".join([*lines, f"saved in {report['saved']}"]) + "\n"
+    if library.unaligned:
+        lines.append(f"{len(library.unaligned)} pieces of text with instructions, but without a verb, taught nothing")
+    if reward:
+        lines.append(f"policy: mean ln P of what was shown {reward.before:.4f} before, {reward.after:.4f} after")
+    losses = [point["loss"] for point in found.tuned.curve] if found.tuned else []
+    if losses:
+        lines.append(f"weights: mean loss of the plans chosen {losses[0]:.4f} before, {min(losses):.4f} after")
+    return "\n".join([*lines, f"saved in {found.directory}"]) + "\n"
 
 
 @click.command("check", short_help="Find everything that is wrong with domains, problems and their files.")
 @click.argument("paths", metavar="PATH...", nargs=-1)
 @click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
 @click.option("--strict", is_flag=True, help="Treat warnings as errors.")
-@click.option("--notes", is_flag=True, help="Print notes as well.")
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option("--explain", metavar="VERB", help="Print all that is known of a verb, in the domains that are named.")
 @json_option
@@ -152,7 +126,6 @@ def check(
     paths: tuple[str, ...],
     domain: str | None,
     strict: bool,
-    notes: bool,
     fix: bool,
     explain: str | None,
     as_json: bool,
@@ -163,7 +136,7 @@ def check(
     With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
     """
     if explain is not None:
-        if any((domain, strict, notes, fix)):
+        if any((domain, strict, fix)):
             raise click.UsageError("--explain takes domains and --json only")
         return _explain(roots, explain, paths, as_json)
     if not paths:
@@ -173,23 +146,22 @@ def check(
     from tmd.check.report import check_paths
 
     report = check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
-    return _print_report(report, strict=strict, notes=notes, as_json=as_json)
+    return _print_report(report, strict=strict, as_json=as_json)
 
 
-def _print_report(report: CheckReport, *, strict: bool, notes: bool, as_json: bool) -> ExitCode:
+def _print_report(report: CheckReport, *, strict: bool, as_json: bool) -> ExitCode:
     """Print what was found; return how the program ends."""
     from tmd.check.diagnostic import Severity
 
-    shown = [d for d in report.diagnostics if notes or d.severity is not Severity.NOTE]
+    count = report.counts
+    errors, warnings = count[Severity.ERROR], count[Severity.WARNING]
     if as_json:
         emit(_all_json(report))
     else:
-        emit("".join(map(_text, shown)))
+        emit("".join(map(_text, report.diagnostics)))
         emit("".join(f"{file}: fixed\n" for file in report.fixed))
-        emit(_summary(report, notes))
-    count = report.counts
-    faulty = count[Severity.ERROR] or (strict and count[Severity.WARNING])
-    return ExitCode.FAULTS_FOUND if faulty else ExitCode.OK
+        emit(f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)\n")
+    return ExitCode.FAULTS_FOUND if errors or (strict and warnings) else ExitCode.OK
 
 
 def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> ExitCode:
@@ -199,15 +171,6 @@ def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> Ex
     found = explain(verb, [roots.corpus(roots.folder(name)) for name in names])
     emit(found.to_value() if as_json else explanation_text(found))
     return ExitCode.OK
-
-
-def _summary(report: CheckReport, shown: bool) -> str:
-    """Return the numbers of files and problems; notes only where there are some."""
-    errors, warnings, notes = report.counts.values()
-    said = f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)"
-    if notes:
-        said += f", {notes} note(s)" + ("" if shown else " (--notes prints them)")
-    return said + "\n"
 
 
 def _all_json(report: CheckReport) -> dict[str, object]:
@@ -242,21 +205,21 @@ def _json(diagnostic: Diagnostic) -> dict[str, object]:
     }
 
 
-@click.command("fmt", short_help="Format PDDL and YAML files.")
+@click.command("fmt", short_help="Format PDDL files.")
 @click.argument("paths", metavar="PATH...", nargs=-1, required=True)
 @click.option("--check", "only_check", is_flag=True, help="Write nothing; exit with 13 if a file would be reformatted.")
 @click.pass_obj
 def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
-    """Lay out files, or all PDDL and YAML files of folders; comments and line breaks stay.
+    """Lay out files, or all PDDL files of folders; comments and line breaks stay.
 
     A file with a fault that makes laying it out impossible is left as it is, and told; then this ends with 31.
     """
     from tmd.check.checker import files_of
-    from tmd.format.files import SUFFIXES, format_file
+    from tmd.format.files import SUFFIX, format_file
 
     changed = 0
     failed: list[TmdError] = []
-    files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix in SUFFIXES]
+    files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix == SUFFIX]
     for file in files:
         try:
             if not format_file(file, write=not only_check):

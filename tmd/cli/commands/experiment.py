@@ -11,12 +11,12 @@ from typing import IO, TYPE_CHECKING, Any, cast
 
 import click
 
-from tmd.cli.options import PATH, json_option, seed_option
+from tmd.cli.options import PATH, seed_option
 from tmd.cli.output import ErrorStream, emit
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
-    from tmd.evaluation.runs.config import ExperimentConfig, Shard
+    from tmd.evaluation.runs.config import ExperimentConfig
 
 
 @contextmanager
@@ -99,20 +99,6 @@ def names(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
     return found
 
 
-def share(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
-    """Parse a share: ``2/8`` is the second of eight (a callback of :mod:`click`).
-
-    Raises:
-        click.BadParameter: It is not a share.
-    """
-    if value is None:
-        return None
-    match = re.fullmatch(r"(\d{1,6})/(\d{1,6})", value.strip())
-    if match is None or not 1 <= int(match[1]) <= int(match[2]):
-        raise click.BadParameter(f"'{value}' is not a share such as 1/8, 2/8 … 8/8", ctx, param)
-    return int(match[1]), int(match[2])
-
-
 def probability(ctx: click.Context, param: click.Parameter, value: float) -> float:
     """Check a number from 0 to below 1 (a callback of :mod:`click`).
 
@@ -159,7 +145,6 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
     help="Processes on this machine, or a cluster.",
 )
 @click.option("--scheduler", metavar="tcp://HOST:PORT", help="The cluster's scheduler.")
-@click.option("--shard", callback=share, metavar="I/N", help="Do only this share of the work, without a report.")
 @click.option(
     "--step",
     type=click.Choice(["all", "robot", "report"]),
@@ -182,7 +167,6 @@ def experiment(
     jobs: int | None,
     models: tuple[str, ...] | None,
     veil500: Path | None,
-    shard: tuple[int, int] | None,
     step: str,
     robot: str | None,
     **settings: Any,  # noqa: ANN401 - fields of ExperimentConfig
@@ -193,14 +177,10 @@ def experiment(
     """
     if (backend == "dask") != (scheduler is not None):
         raise click.UsageError("--backend dask and --scheduler tcp://HOST:PORT go together")
-    if shard and step != "all":
-        raise click.UsageError(f"--step {step} needs the whole run: give it without --shard")
-    if shard and robot not in (None, "off"):
-        raise click.UsageError("the robot acts when the whole run is done: give --robot without --shard")
     if step == "robot" and robot == "off":
         raise click.UsageError("--step robot and --robot off do not go together")
 
-    from tmd.evaluation.runs.config import ExperimentConfig, Shard
+    from tmd.evaluation.runs.config import ExperimentConfig
 
     config = ExperimentConfig(
         veil500=veil500 if settings["data"] == "veil500" else None,
@@ -210,24 +190,12 @@ def experiment(
         backend=backend,
         scheduler=scheduler,
         jobs=jobs or _processors(),
-        shard=Shard(*shard) if shard else None,
         **settings,
     )
-    if config.shard:
-        _share(config, config.shard)
-    else:
-        _whole(config, step, robot or ("kinematic" if step == "robot" else "off"))
+    _run(config, step, robot or ("kinematic" if step == "robot" else "off"))
 
 
-def _share(config: ExperimentConfig, shard: Shard) -> None:
-    from tmd.evaluation.runs.experiment import work
-
-    with warnings_shown(), progress_bar(f"{config.task}, {config.data} data, {shard.number}/{shard.of}") as progress:
-        parts = work(config, progress)
-    emit(f"done: share {shard.number} of {shard.of}, {parts} parts in {config.out}\n")
-
-
-def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
+def _run(config: ExperimentConfig, step: str, robot: str) -> None:
     from tmd.evaluation.report.report import REPORT, print_table
     from tmd.robot_trials.experiment import run_experiment
 
@@ -265,13 +233,11 @@ def data() -> None:
 
 @data.command("check")
 @click.argument("directory", metavar="DIR", type=PATH)
-@json_option
-def check(directory: Path, as_json: bool) -> None:
-    """Read a copy of VEIL-500 and count what was found, repaired and dropped.
+def check(directory: Path) -> None:
+    """Read a copy of VEIL-500 and count what was found and dropped.
 
     Ends with 33 where the copy is missing or damaged.
     """
     from tmd.datasets.veil500.report import check_veil500
 
-    report = check_veil500(directory)
-    emit(report.json() if as_json else report.text())
+    emit(check_veil500(directory).text())

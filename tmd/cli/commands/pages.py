@@ -1,44 +1,28 @@
-"""``tmd view`` and ``tmd studio``: plans, runs and demonstrations in the browser."""
+"""``tmd view`` and ``tmd studio``: plans and runs in the browser."""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
-from click.core import ParameterSource
 
-from tmd.cli.options import (
-    PATH,
-    GivenText,
-    ReadingOptions,
-    grounding_options,
-    learned_option,
-    reading_options,
-    text_options,
-)
+from tmd.cli.options import PATH, learned_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
-    from tmd.view.sources import FoundSubject
     from tmd.world.corpus import Corpus
 
-_OF_GROUNDING = ("top", "planner", "model", "weights", "beam", "trim", "reader", "llm_model", "llm_url", "verify")
 
-
-@click.command("view", short_help="Write one HTML page of a plan, a run or a demonstration.")
-@click.argument("source", required=False, metavar="[PLAN|RUN]")
-@click.option(
-    "--environment", metavar="FILE|NAME", help="Where: for a text, for a plan file, or instead of what a file names."
-)
-@text_options()
+@click.command("view", short_help="Write one HTML page of a plan or a run.")
+@click.argument("source", metavar="PLAN|RUN")
+@click.option("--environment", metavar="FILE|NAME", help="Where: for a plan file, or instead of what a file names.")
 @click.option("--problem", type=PATH, metavar="FILE", help="Of a plan file: its PDDL problem.")
 @click.option(
     "--domain", "domain_name", metavar="NAME|FILE", help="The domain; otherwise the environment's or problem's own."
 )
-@click.option("--id", "demonstration", metavar="ID", help="Of a file of demonstrations: which one.")
 @click.option(
     "--strip",
     type=PATH,
@@ -46,43 +30,27 @@ _OF_GROUNDING = ("top", "planner", "model", "weights", "beam", "trim", "reader",
     help="Of a run: its filmstrip; beside the log if not.",
 )
 @click.option("--out", metavar="FILE|-", help="The page; beside what it shows by default. - is standard output.")
-@grounding_options
-@reading_options
-@click.pass_context
+@click.pass_obj
 def view(
-    ctx: click.Context,
-    source: str | None,
+    roots: Roots,
+    source: str,
     environment: str | None,
-    spoken: GivenText,
     problem: Path | None,
     domain_name: str | None,
-    demonstration: str | None,
     strip: Path | None,
     out: str | None,
-    options: dict[str, Any],
-    reading: ReadingOptions,
 ) -> ExitCode:
     """Write one HTML page: what was said, what it means here, the plan step by step, and the candidates.
 
-    PLAN|RUN is what "tmd ground --json" or "tmd run --json" printed, a log of "tmd run", a plan file (with --problem or
-    --environment), or a file of demonstrations (with --id); - is standard input. Without it a text is grounded as by
-    "tmd ground". Ends with 11 where the plan does not work and with 12 where there is none; the page is written anyhow.
+    PLAN|RUN is what "tmd ground --json" or "tmd run --json" printed, a log of "tmd run", or a plan file (with --problem
+    or --environment); - is standard input, as in "tmd ground ... --json | tmd view -". Ends with 11 where the plan does
+    not work and with 12 where there is none; the page is written anyhow.
     """
-    roots: Roots = ctx.obj
-    given = [name for name in _OF_GROUNDING if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE]
-    if source is not None and (given or spoken):
-        raise click.UsageError("a text, and how it is grounded, are for --environment without PLAN|RUN")
-    if source is None and (environment is None or (problem, demonstration, strip) != (None, None, None)):
-        raise click.UsageError("give PLAN|RUN, or --environment and --text")
-
     from tmd.files import write_text
     from tmd.view.page import render
     from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
-    if source is None:
-        found = _subject_of_text(roots, spoken.request(), environment or "", domain_name, reading, options)
-    else:
-        found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, demonstration, strip))
+    found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, strip))
     target = out or (STANDARD if source == STANDARD else str(found.beside))
     _refuse_to_overwrite(target, source, problem, strip)
     page = render(found.subject)
@@ -94,35 +62,6 @@ def view(
     for line in (*found.remarks, found.complaint(page.verdict)):
         emit(line, error=True)
     return found.ending(page.verdict)
-
-
-def _subject_of_text(
-    roots: Roots,
-    text: str,
-    environment: str,
-    domain: str | None,
-    reading: ReadingOptions,
-    options: dict[str, Any],
-) -> FoundSubject:
-    """Ground a text now.
-
-    Raises:
-        TmdError: The environment, or how it is to be grounded, is wrong.
-    """
-    from tmd.cli.grounding import answer, remarks
-    from tmd.view.sources import FoundSubject, made_rows
-    from tmd.view.subject import text_subject
-
-    found = answer(*roots.world(environment, domain), environment, text, reading, **options)
-    rows = made_rows({**found.made_with, "domain": found.domain, "environment": environment})
-    told = tuple(remarks(found.grounded))
-    return FoundSubject(
-        text_subject(found.grounded, rows),
-        Path(f"{found.grounded.world.name}.html"),
-        told,
-        of_text=True,
-        asks=found.grounded.question is not None,
-    )
 
 
 def _refuse_to_overwrite(target: str, *shown: str | Path | None) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -146,14 +146,14 @@ _ALL = "all"
 
 
 @click.command("export", short_help="Write a problem and its plan for other tools.")
-@click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json|RUN")
+@click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json")
 @click.argument("directory", type=PATH, metavar="DIR")
 @click.option(
     "--format",
     "formats",
     multiple=True,
     metavar="A,B|all",
-    help="adl (default), ipc, strips, durative, anml, protobuf, plansys2, bt, sas, json.",
+    help="adl (default), ipc, strips, durative, plansys2, bt, sas.",
 )
 @click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
 @click.option("--plan", type=PATH, metavar="FILE", help="Take this plan; otherwise one is found.")
@@ -166,10 +166,7 @@ _ALL = "all"
     metavar="CONDITION|asked|changed",
     help="Another goal; of a text what it asks for (the default), or all that its plan changes.",
 )
-@click.option("--example", metavar="ID", help="Of a run: which example.")
-@click.option("--model", metavar="NAME", help="Of a run: whose prediction.")
 @overwrite_option
-@json_option
 @click.pass_obj
 def export(
     roots: Roots,
@@ -179,13 +176,12 @@ def export(
     formats: Sequence[str],
     spoken: GivenText,
     overwrite: bool,
-    as_json: bool,
     **options: Any,  # noqa: ANN401 - fields of ExportRequest
 ) -> ExitCode:
     """Write a problem and a plan for it into DIR.
 
-    The source is a PDDL problem, an environment (with a text, a plan or a goal), a plan of "tmd ground --json", or the
-    directory of an experiment. A plan is executed before it is written: ends with 11 where it does not work, with 10,
+    The source is a PDDL problem, an environment (with a text, a plan or a goal), or a plan of "tmd ground
+    --json". A plan is executed before it is written: ends with 11 where it does not work, with 10,
     12 or 20 where none is found. One format fills DIR, several a directory each. A format that fails does not keep the
     others back: why is told, and the exit code is that of the first failure.
     """
@@ -200,8 +196,6 @@ def export(
         found = planned_source(roots, request)
     except NotPlannedError as none:
         emit(f"{'invalid' if none.code is ExitCode.INVALID_PLAN else 'no plan'}: {none}\n", error=True)
-        if as_json:
-            emit(_summary(directory, {}, None, str(none), {}))
         return none.code
     written = chosen_files(found, names)
     failures = written.failures
@@ -209,20 +203,10 @@ def export(
         raise next(iter(failures.values()))
     flat = {path: data for files in written.files.values() for path, data in files.items()}
     write_directory(directory, flat, overwrite=overwrite)
-    if as_json:
-        listed = {name: list(files) for name, files in written.files.items()}
-        emit(_summary(directory, listed, found.cost, None, {name: str(error) for name, error in failures.items()}))
-    else:
-        emit("".join(f"{directory / path}\n" for path in flat))
+    emit("".join(f"{directory / path}\n" for path in flat))
     for name, error in failures.items():
         emit(f"not written: {name}: {one_line(str(error))}\n", error=True)
     return next((error.exit_code for error in failures.values()), ExitCode.OK)
-
-
-def _summary(
-    directory: Path, written: Mapping[str, list[str]], cost: int | None, reason: str | None, failed: Mapping[str, str]
-) -> Mapping[str, object]:
-    return {"directory": str(directory), "written": written, "cost": cost, "reason": reason, "failed": failed}
 
 
 def _chosen(given: Sequence[str]) -> list[str]:

@@ -120,7 +120,6 @@ def ground(
 @click.option("--model", "model_name", default=DEFAULT, show_default=True, metavar="NAME", help="The model.")
 @click.option("--guess", is_flag=True, help="Plan even where what was said is not understood or cannot be done.")
 @reading_options
-@click.option("--compare", metavar="A,B", help="Run the tests with two readers, and compare them: rules,llm.")
 @click.option("--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Processes.")
 @learned_option
 @json_option
@@ -132,7 +131,6 @@ def test(
     model_name: str,
     guess: bool,
     reading: ReadingOptions,
-    compare: str | None,
     jobs: int,
     learned: Path | None,
     as_json: bool,
@@ -142,25 +140,13 @@ def test(
     A test is a line of JSON: {"id", "domain", "environment", "text", "goal"}; the goal is a PDDL condition that must
     hold at the end of the first plan, or null where the request must be refused. Ends with 1 where a test fails.
     """
-    from tmd.evaluation.sentence_tests import compared, report
+    from tmd.evaluation.sentence_tests import report
 
     tests = _tests(roots, domain, cases)
-    options = {"model": model_name, "guess": guess, "jobs": jobs}
-    if compare is not None:
-        ways: dict[str, dict[str, Any]] = {
-            "rules": {"reader": "rules", "llm": None, "verify": False},
-            "llm": {"reader": "llm", "llm": reading.model_settings(), "verify": reading.verify},
-        }
-        readers = _two_readers(compare)
-        found = [_run(roots, tests, learned, {**options, **ways[reader]}) for reader in readers]
-        comparison = compared(found[0], found[1], readers)
-        emit(comparison.to_value() if as_json else _side_by_side(found, readers, comparison.p))
-    else:
-        how = {"reader": reading.reader, "llm": reading.settings(), "verify": reading.verify}
-        found = [_run(roots, tests, learned, {**options, **how})]
-        emit(report(found[0], reading.reader).to_value() if as_json else _text(found[0]))
-    passed = all(result.outcome.passed for results in found for result in results)
-    return ExitCode.OK if passed else ExitCode.TESTS_FAILED
+    how = {"reader": reading.reader, "llm": reading.settings(), "verify": reading.verify}
+    found = _run(roots, tests, learned, {"model": model_name, "guess": guess, "jobs": jobs, **how})
+    emit(report(found, reading.reader).to_value() if as_json else _text(found))
+    return ExitCode.OK if all(result.outcome.passed for result in found) else ExitCode.TESTS_FAILED
 
 
 def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[SentenceTest]:
@@ -171,13 +157,6 @@ def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[Sent
     if domain:
         return domain_sentences(roots.corpus(roots.folder(domain)).directory)
     return [test for path in cases for test in read_sentences(path)]
-
-
-def _two_readers(given: str) -> tuple[str, str]:
-    names = tuple(name.strip() for name in given.split(","))
-    if len(names) != 2 or set(names) - {"rules", "llm"}:
-        raise click.UsageError("--compare takes two readers: rules,llm")
-    return names[0], names[1]
 
 
 def _run(
@@ -236,21 +215,3 @@ def _total(results: Sequence[SentenceResult]) -> str:
         f"{line}; {counts.prompt_tokens} + {counts.completion_tokens} tokens, {counts.seconds:.1f} s, "
         f"{counts.cached} cached, {counts.corrections} corrected"
     )
-
-
-def _side_by_side(found: Sequence[Sequence[SentenceResult]], readers: tuple[str, str], p: float) -> str:
-    """Return the tests that the readers pass, kind by kind, and the test of the difference."""
-    from tmd.evaluation.sentence_tests import by_kind
-
-    first, second = found
-    width = max((len(kind) for kind in by_kind(first)), default=3)
-    lines = [f"{'':{width}}  {readers[0]:>6}  {readers[1]:>6}  of"]
-    others = by_kind(second)
-    for kind, own in (*by_kind(first).items(), ("all", first)):
-        theirs = others.get(kind, second)
-        lines.append(f"{kind:{width}}  {_passed(own):>6}  {_passed(theirs):>6}  {len(own)}")
-    lines += [f"{reader}: {_total(results)}" for reader, results in zip(readers, found, strict=True)]
-    one, other = (sum(a.outcome.passed and not b.outcome.passed for a, b in zip(x, y, strict=True))
-                  for x, y in ((first, second), (second, first)))  # fmt: skip
-    lines.append(f"only {readers[0]}: {one}, only {readers[1]}: {other}; McNemar's exact test: p = {p:.4g}")
-    return "\n".join(lines) + "\n"

@@ -16,7 +16,6 @@ from tmd.cli.options import (
     ReadingOptions,
     environment_domain_option,
     environment_option,
-    json_option,
     learned_option,
     overwrite_option,
     reading_options,
@@ -25,7 +24,7 @@ from tmd.cli.options import (
     text_options,
 )
 from tmd.cli.output import emit
-from tmd.diagnostics import ExitCode, TmdError
+from tmd.diagnostics import ExitCode
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
@@ -134,12 +133,6 @@ def run(
     from tmd.robot_trials.plan_runner import PlanRunner
 
     request = spoken.request() if spoken else None
-    path = roots.environment(environment, domain_name)
-    if path.suffix == ".xml":
-        raise TmdError(
-            f"{path}: the robot does not act in rooms of VEIL-500: their instructions have no skills",
-            hint="tmd scene shows the room",
-        )
     room, folder = roots.room(environment, domain_name)
     if log is not None:
         check_writable(log)
@@ -173,7 +166,7 @@ def run(
 
 
 @click.command("scene", short_help="Show an environment as the robot's room.")
-@environment_option("An environment (YAML), the name of a bundled one, or a room of VEIL-500 (XML).")
+@environment_option("An environment (YAML), or the name of a bundled one.")
 @environment_domain_option
 @click.option("--reach", is_flag=True, help="Print a base pose for grasping every object.")
 @seed_option("Seed for placement jitter; 0 disables it.")
@@ -182,7 +175,6 @@ def run(
 @click.option("--export", type=PATH, metavar="DIR", help="Write the room for other simulators.")
 @click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), mjcf.")
 @overwrite_option
-@json_option
 @click.pass_obj
 def scene(
     roots: Roots,
@@ -195,7 +187,6 @@ def scene(
     export: Path | None,
     formats: Sequence[str],
     overwrite: bool,
-    as_json: bool,
 ) -> None:
     """Build the room of an environment, put a PR2 into it, and say what stands where.
 
@@ -210,17 +201,12 @@ def scene(
     from tmd.robot.skills.reachability_report import survey_scene
 
     urdf = model["urdf"] if model["robot"] is None else packaged_robot(model["robot"])
-    room, folder, remarks = _read(roots, environment, domain_name)
-    for remark in remarks:
-        emit(f"note: {remark}\n", error=True)
+    room, folder = roots.room(environment, domain_name)
     found = survey_scene(room, folder, reach=reach, seed=seed, urdf=urdf, picture=picture)
     stances = found.stances if reach else None
     written = _exported(room, folder, export, formats, overwrite) if export is not None else []
-    if as_json:
-        emit({"environment": found.name, "objects": [_json(entry, stances) for entry in found.entries]})
-    else:
-        emit(_text(found.name, found.entries, stances))
-        emit("".join(f"{path}\n" for path in written))
+    emit(_text(found.name, found.entries, stances))
+    emit("".join(f"{path}\n" for path in written))
 
 
 def _exported(
@@ -237,16 +223,6 @@ def _exported(
     return [directory / path for path in files if "/" not in path]
 
 
-def _read(roots: Roots, name: str, domain: str | None) -> tuple[Environment, DomainFolder, tuple[str, ...]]:
-    path = roots.environment(name, domain)
-    if path.suffix == ".xml":
-        from tmd.datasets.veil500.scene import read_room, scene_of
-
-        veil = scene_of(read_room(path))
-        return veil.environment, veil.folder, veil.remarks
-    return *roots.room(name, domain), ()
-
-
 def _text(name: str, entries: Sequence[ReachabilityEntry], stances: Mapping[str, Stance | None] | None) -> str:
     items = sum(entry.item for entry in entries)
     lines = [f"{name}: {len(entries) - items} pieces of furniture, {items} things to carry"]
@@ -261,17 +237,3 @@ def _text(name: str, entries: Sequence[ReachabilityEntry], stances: Mapping[str,
             line += f"{', ' if place else ''}{found or 'out of reach as it stands now'}"
         lines.append(line.rstrip())
     return "\n".join(lines) + "\n"
-
-
-def _json(entry: ReachabilityEntry, stances: Mapping[str, Stance | None] | None) -> dict[str, object]:
-    found: dict[str, object] = {
-        "name": entry.name,
-        "kind": entry.kind,
-        "item": entry.item,
-        "position": [round(value, 3) for value in entry.position],
-        "at": {"thing": entry.place[0], "relation": entry.place[1]} if entry.place else None,
-    }
-    if stances is not None:
-        where = stances[entry.name]
-        found["stance"] = where and {"base": [round(value, 3) for value in where.base], "hand": where.side or None}
-    return found

@@ -1,4 +1,4 @@
-"""VEIL-500, the data set behind the paper's follow-up: reading, simulating, repairing and checking it.
+"""VEIL-500, the data set behind the paper's follow-up: reading, simulating and checking it.
 
 The data are not part of this project; give the directory of your copy to :func:`load`. Begin with
 :mod:`tmd.datasets.veil500.data`; all about the set is in ``docs/veil500.md``.
@@ -8,7 +8,6 @@ from tmd.datasets.veil500.compile import absent_types, compile_environment
 from tmd.datasets.veil500.data import Point, VeilData, VeilGroup, load
 from tmd.datasets.veil500.environment import VeilEnvironment, VeilObject
 from tmd.datasets.veil500.forms import from_veil, mentioned, to_veil, veil_domain
-from tmd.datasets.veil500.repair import Repairer, repaired
 from tmd.datasets.veil500.report import DataReport, check_veil500
 from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
 
@@ -16,7 +15,6 @@ __all__ = [
     "DataReport",
     "ForcedExecution",
     "Point",
-    "Repairer",
     "Rollout",
     "VeilData",
     "VeilEnvironment",
@@ -28,7 +26,6 @@ __all__ = [
     "from_veil",
     "load",
     "mentioned",
-    "repaired",
     "rollout",
     "to_veil",
     "veil_domain",

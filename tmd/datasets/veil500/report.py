@@ -1,18 +1,18 @@
-"""The report on a copy of VEIL-500: counts of what was found, repaired and dropped (``tmd data check``)."""
+"""The report on a copy of VEIL-500: counts of what was found and dropped (``tmd data check``)."""
 
 from __future__ import annotations
 
-import json
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from tmd.datasets.veil500.compile import compile_environment
 from tmd.datasets.veil500.data import Point, VeilData, load
 from tmd.datasets.veil500.forms import mentioned, veil_domain
 from tmd.datasets.veil500.relations import initial_relations, unsupported
-from tmd.datasets.veil500.repair import Repaired, Repairer
+from tmd.pddl.forced_execution import ForcedExecution
 
 _WORD = re.compile(r"[a-z0-9']+")
 
@@ -42,20 +42,14 @@ class DataReport:
             lines += ["", "remarks", *(f"  {remark}" for remark in self.remarks)]
         return "\n".join(lines) + "\n"
 
-    def json(self) -> str:
-        """Return the report for programs."""
-        return json.dumps(asdict(self), indent=2) + "\n"
-
 
 def check_veil500(directory: str | Path) -> DataReport:
-    """Read a copy of the data set and report everything found, repaired and dropped.
+    """Read a copy of the data set and report everything found and dropped.
 
     Raises:
         DataError: It cannot be read; see :func:`tmd.datasets.veil500.data.load`.
     """
     data = load(directory)
-    repairer = Repairer(data)
-    repairs = [repairer.repair(point) for point in data.points]
     counts = {
         "demonstrations": {"points": len(data.points), **_by(data, lambda p: p.world)},
         "by environment": _by(data, lambda p: f"{p.world} {p.environment}"),
@@ -63,8 +57,7 @@ def check_veil500(directory: str | Path) -> DataReport:
         "texts": _texts(data),
         "actions": _actions(data),
         "verbs": _verbs(data),
-        "execution under the literal rules": _execution(data, repairer, repairs),
-        "repair": _repairs(repairs),
+        "execution under the literal rules": _execution(data),
         "environments": _environments(data),
         "objects at the start": _placement(data),
     }
@@ -149,23 +142,17 @@ def _verbs(data: VeilData) -> dict[str, int]:
     return dict(sorted(verbs.items(), key=lambda item: (-item[1], item[0])))
 
 
-def _execution(data: VeilData, repairer: Repairer, repairs: Sequence[Repaired]) -> dict[str, int]:
-    found: dict[str, int] = {}
-    for title, points in (("as released", data.points), ("repaired", [r.point for r in repairs])):
-        for hands in (False, True):
-            result = repairer.executability(points, two_hands=hands)
-            label = f"{title}, two hands" if hands else title
-            found[f"points executable, {label}"] = result.executable
-            found[f"steps not executable, {label}"] = result.failing
-    return found
-
-
-def _repairs(repairs: Sequence[Repaired]) -> dict[str, int]:
-    verbs = Counter(repair.inserted.name for repair in repairs if repair.inserted)
-    return {
-        "points repaired": sum(verbs.values()),
-        **{f"{verb} put back": number for verb, number in sorted(verbs.items())},
-    }
+def _execution(data: VeilData) -> dict[str, int]:
+    """Execute the demonstrations by force, and count those that can be executed and the steps that cannot."""
+    executable = failing = 0
+    for key, environment in data.environments.items():
+        recorded = [point.instructions for point in data.points if point.key == key]
+        instructions = [instruction for sequence in recorded for instruction in sequence]
+        simulator = ForcedExecution(compile_environment(environment), instructions)
+        failures = [simulator.run(sequence).failures for sequence in recorded]
+        executable += sum(not failed for failed in failures)
+        failing += sum(map(len, failures))
+    return {"points executable": executable, "steps not executable": failing}
 
 
 def _environments(data: VeilData) -> dict[str, int]:

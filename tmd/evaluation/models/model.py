@@ -107,14 +107,6 @@ MODELS: Mapping[str, Callable[[], Model]] = {
     "ranked": Ranked,
 }
 """The rows by name, in the order of the table."""
-_RENAMED = {
-    "hand_set": "paper",
-    "extended": "paper_extended_learned",
-    "extended_hand_set": "paper_extended",
-    "generating": "policy",
-    "stating": "goals",
-    "stating_learned": "goals_learned",
-}
 
 
 def make_model(name: str) -> Model:
@@ -123,8 +115,6 @@ def make_model(name: str) -> Model:
     Raises:
         TmdError: There is none of that name.
     """
-    if name in _RENAMED:
-        raise TmdError(f"the model '{name}' is now called '{_RENAMED[name]}'")
     if name not in MODELS:
         raise TmdError(f"there is no model '{name}'", hint=nearest(name, list(MODELS), what="models"))
     return MODELS[name]()

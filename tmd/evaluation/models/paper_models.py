@@ -150,7 +150,7 @@ class Crf:
             strange = sorted(name for name, value in kept.weights.items() if value and name not in known)
             if strange:
                 raise TmdError(f"weights of another model: {', '.join(strange)}", hint=hint)
-            return Learned(Weights(kept.weights), tuple(point.given() for point in kept.points))
+            return Learned(Weights(kept.weights), tuple(point.given() for point in kept.curve))
 
         return self._with_weights(examples, data, saved_world)
 

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 import json
-import re
-from collections import Counter
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
-from zlib import crc32
 
 from tmd import __version__
-from tmd.evaluation.report.figures import LABELS, learning_curves, overall_bars, task_bars, tasks_of
-from tmd.evaluation.report.predictions import (
-    NO_CLAUSE,
-    NOTHING,
-    SHOWN,
-    SYMBOLS,
-    best_and_worst,
-    by_instruction,
-    by_verb,
+from tmd.evaluation.report.predictions import NOTHING, SHOWN, SYMBOLS, best_and_worst, by_instruction
+from tmd.evaluation.report.rows import (
+    ALPHA,
+    LABELS,
+    METRICS,
+    TABLE_2,
+    TASKS,
+    differing,
+    in_order,
+    reference,
+    tasks_of,
 )
-from tmd.evaluation.report.rows import ALPHA, METRICS, TABLE_2, TASKS, differing, in_order, in_words, reference
 from tmd.evaluation.report.rows import title as row_title
 from tmd.evaluation.runs.finished_run import Run, Trials, films
 from tmd.evaluation.summary import EMPTY, average
@@ -31,29 +28,10 @@ from tmd.records.metrics import SUCCESS, Means, Metrics, Pair
 from tmd.view.alignment import Mark
 from tmd.view.markup import data, templates
 
-FOLDER = "pages"
-
-
-def page_name(model: str, example: str | int) -> str:
-    """Return the file name of the page on a prediction; it is unique, and safe in an address."""
-    plain = f"{model}-{example}"
-    safe = re.sub(r"[^A-Za-z0-9_.-]", "_", plain)[:120]
-    return f"{safe}.html" if safe == plain else f"{safe}-{crc32(plain.encode('utf-8', 'replace')):08x}.html"
-
-
-def linked_pages(run: Path) -> frozenset[str]:
-    """Return the pages that are there, by file name."""
-    return frozenset(path.name for path in (run / FOLDER).glob("*.html"))
-
-
-# How many verbs the table of verbs shows.
-_VERBS = 30
 # How many weights the table of weights shows.
 _WEIGHTS = 40
 # Data whose texts may not be passed on.
 _VEIL500 = "veil500"
-# How many instructions are named in a cell.
-_MENTIONED = 3
 
 
 def differences(metrics: Metrics, row: str | None, order: Sequence[str]) -> list[Pair]:
@@ -79,9 +57,10 @@ def learned(fits: Sequence[Fit], model: str) -> dict[str, Any]:
     """Return the weights that one row learned, over its training sets.
 
     Returns:
-        ``{"model", "sets", "curve", "worlds", "weights", "smaller"}``: the row, the number of its training sets, its
-        learning curves as SVG (``None`` if none was kept), the kinds of world, the largest weights as name and (mean,
-        least, largest) over the training sets for each kind of world, and how many are left out.
+        ``{"model", "sets", "losses", "worlds", "weights", "smaller"}``: the row, the number of its training sets, the
+        mean loss of the first and of the last epoch (``None`` if no curve was kept), the kinds of world, the largest
+        weights as name and (mean, least, largest) over the training sets for each kind of world, and how many are left
+        out.
     """
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
@@ -97,9 +76,12 @@ def learned(fits: Sequence[Fit], model: str) -> dict[str, Any]:
         weights[name] = cells
     order = sorted(weights, key=lambda name: -max(abs(cell[0]) for cell in weights[name] if cell))[:_WEIGHTS]
     kept = [(name, cells) for name, cells in weights.items() if name in order]
-    smaller, curve = len(weights) - len(kept), learning_curves(own, model)
+    curves = [[p.loss for p in found.curve if p.loss is not None] for fit in own for found in fit.worlds.values()]
+    ends = [(curve[0], curve[-1]) for curve in curves if curve]
+    losses = [sum(part) / len(ends) for part in zip(*ends, strict=True)] if ends else None
+    smaller = len(weights) - len(kept)
     return {
-        "model": model, "sets": len(own), "curve": curve, "worlds": worlds, "weights": kept, "smaller": smaller
+        "model": model, "sets": len(own), "losses": losses, "worlds": worlds, "weights": kept, "smaller": smaller
     }  # fmt: skip
 
 
@@ -107,31 +89,22 @@ def errors(run: Run, model: str) -> dict[str, Any]:
     """Return the errors of one row.
 
     Returns:
-        ``{"model", "verbs", "rarer", "unparsed", "names", "cells"}``: the row, the errors of the most frequent verbs,
-        the number of clauses of all others, the errors where no clause was found, the names of instructions, and
-        (count, share of the line) by recorded and predicted instruction.
+        ``{"model", "names", "cells"}``: the row, the names of instructions, and (count, share of the line) by recorded
+        and predicted instruction.
     """
-    lines = run.of(model)
-    verbs = {verb.verb: verb for verb in by_verb(lines)}
-    unparsed = verbs.pop(NO_CLAUSE, None)
-    known = list(verbs.values())
-    counts = by_instruction(lines)
+    counts = by_instruction(run.of(model))
     names = [*sorted({name for pair in counts for name in pair} - {NOTHING}), NOTHING]
     totals = {gold: sum(counts[gold, mine] for mine in names) for gold in names}
     cells = {(gold, mine): (count, count / totals[gold]) for (gold, mine), count in counts.items()}
-    return {
-        "model": model, "verbs": known[:_VERBS], "rarer": sum(verb.clauses for verb in known[_VERBS:]),
-        "unparsed": unparsed, "names": names, "cells": cells,
-    }  # fmt: skip
+    return {"model": model, "names": names, "cells": cells}
 
 
-def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = frozenset()) -> str:
+def render(run: Run, trials: Trials | None = None) -> str:
     """Return the page.
 
     Args:
         run: The run.
         trials: The robot's trials of its predictions; ``None`` where there are none.
-        pages: The pages on single predictions that are there, by file name.
     """
     metrics, fits = run.metrics, list(run.fits.values())
     paper, others = in_order(metrics.models)
@@ -145,16 +118,12 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         style=data("report.css"),
         title_of=row_title,
         factor_title=title,
-        page_name=page_name,
-        page_folder=FOLDER,
         said=_said,
-        mentioned=_mentioned,
         metrics=metrics,
         paper=paper,
         others=others,
         order=order,
         reference=chief,
-        meaning=in_words(metrics),
         marked=differing(metrics.significance.pairs, chief) if chief else frozenset(),
         alpha=ALPHA,
         against=differences(metrics, chief, order),
@@ -165,8 +134,6 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         goals=_with_goal(metrics),
         tasks=tasks_of(metrics),
         table_2=table_2(metrics, paper),
-        overall=overall_bars(metrics, order, metrics.columns),
-        by_task=task_bars(metrics, order, [c for c in (SUCCESS, "IED", "EED", "END") if c in metrics.columns]),
         learned=[learned(fits, model) for model in order if any(fit.model == model for fit in fits)],
         errors=[errors(run, model) for model in shown],
         examples=[(model, *best_and_worst(run.of(model))) for model in shown],
@@ -178,7 +145,6 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         veil500=_VEIL500,
         trials=trials,
         films=films(trials),
-        pages=pages,
     )
 
 
@@ -191,13 +157,3 @@ def _with_goal(metrics: Metrics) -> int | None:
 def _said(value: object) -> str:
     """Return a value of the configuration."""
     return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
-
-
-def _mentioned(counts: Counter[str] | Counter[tuple[str, str]]) -> str:
-    """List the most frequent ones: ``moveto × 3, grasp × 2``, and of pairs ``moveto → grasp × 2``."""
-    most = sorted(((" → ".join((key,) if isinstance(key, str) else key), n) for key, n in counts.items()), key=_rank)
-    return ", ".join(f"{key} × {count}".replace(" ", "\N{NO-BREAK SPACE}") for key, count in most[:_MENTIONED])
-
-
-def _rank(item: tuple[str, int]) -> tuple[int, str]:
-    return -item[1], item[0]

@@ -26,10 +26,10 @@ def write_report(directory: Path) -> Path:
     Raises:
         TmdError: The directory holds no finished run, a file of it is damaged, or it cannot be written to.
     """
-    from tmd.evaluation.report.page import linked_pages, render
+    from tmd.evaluation.report.page import render
     from tmd.evaluation.runs.finished_run import read_run, read_trials
 
-    page = render(read_run(directory), read_trials(directory), linked_pages(directory))
+    page = render(read_run(directory), read_trials(directory))
     path = directory / REPORT
     write_text(path, page)
     return path

@@ -1,6 +1,6 @@
 """Units on a cluster: the workers of a ``dask.distributed`` scheduler, on any number of machines.
 
-What comes out of a unit is sent back and written by the process that asked, so workers share no file system with it.
+The outcome of a unit is sent back and written by the process that asked, so workers share no file system with it.
 They need the same version of tmd and the same data, and each unit checks that. A unit whose worker dies is done again
 by another; a unit that brings down one worker after the other ends the run.
 """
@@ -8,18 +8,15 @@ by another; a unit that brings down one worker after the other ends the run.
 from __future__ import annotations
 
 import gc
-import hashlib
 import logging
 import pickle
 import socket
 import threading
-import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from dataclasses import replace
-from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -27,19 +24,14 @@ from typing import Any
 from tmd import __version__
 from tmd.diagnostics import DataError, MissingToolError, TmdError, install_extra
 from tmd.evaluation.runs.config import ExperimentConfig
-from tmd.evaluation.runs.dataset import forget_datasets, open_dataset
+from tmd.evaluation.runs.dataset import open_dataset
 from tmd.evaluation.runs.jobs import GO_ON, EvaluationJob, JobOutcome, WorkerLostError, do
 
-PACKAGE = Path(__file__).resolve().parents[2]
+# Seconds a scheduler has to answer, and its first worker to be there.
 CONNECT = 20.0
-"""Seconds a scheduler has to answer, and its first worker to be there."""
-PATIENCE = 300.0
-"""Seconds a run waits when all workers are gone."""
-_LOOK = 2.0
-"""Seconds between two looks at whether there still are workers."""
 _NOISY = ("distributed", "distributed.client", "distributed.core", "distributed.comm", "tornado", "asyncio")
+# Worlds are cached and not made for threads, so a worker with several threads does one unit at a time.
 _ONE_AT_A_TIME = threading.Lock()
-"""Worlds are cached and not made for threads, so a worker with several threads does one unit at a time."""
 
 
 def on_cluster(config: ExperimentConfig, units: Sequence[EvaluationJob], fingerprint: str) -> Iterator[JobOutcome]:
@@ -54,20 +46,17 @@ def on_cluster(config: ExperimentConfig, units: Sequence[EvaluationJob], fingerp
     distributed = _distributed()
     address = config.scheduler or ""
     client = _connect(distributed, address)
-    sent = _sent(config)
+    # directories are those of the workers, whatever their working directory is
+    veil500, domains, problems = (p and p.resolve() for p in (config.veil500, config.domains, config.problems))
+    sent = replace(config, out=Path(), jobs=1, veil500=veil500, domains=domains, problems=problems)
     try:
         with _connected(address):
             call = _caller()
-            waiting = {
-                client.submit(call, pickle.dumps((sent, unit, build(), fingerprint)), pure=False) for unit in units
-            }
-        gone_since = None
-        while waiting:
-            with _connected(address):
-                ended, gone_since = _ended(distributed, client, waiting, address, gone_since)
-            waiting -= ended
-            for future in ended:
-                yield _outcome(distributed, future, address)
+            asked = [pickle.dumps((sent, unit, __version__, fingerprint)) for unit in units]
+            futures = [client.submit(call, one, pure=False) for one in asked]
+            ended = distributed.as_completed(futures, loop=client.loop)
+        for future in ended:
+            yield _outcome(distributed, future, address)
     finally:
         with suppress(Exception):
             client.close(timeout=1)
@@ -89,73 +78,39 @@ def _caller() -> Callable[[bytes], bytes]:
     return call
 
 
-def _sent(config: ExperimentConfig) -> ExperimentConfig:
-    """Return the configuration for workers, with absolute directories."""
-    veil500, domains, problems = (p and p.resolve() for p in (config.veil500, config.domains, config.problems))
-    return replace(config, out=Path(), jobs=1, shard=None, veil500=veil500, domains=domains, problems=problems)
-
-
-def remote(config: ExperimentConfig, unit: EvaluationJob, wanted: str, fingerprint: str) -> JobOutcome:
+def remote(config: ExperimentConfig, unit: EvaluationJob, version: str, fingerprint: str) -> JobOutcome:
     """Do a unit on a worker, if that has what the run has.
 
     Args:
         config: The run.
         unit: What to do.
-        wanted: The run's :func:`build`.
+        version: The run's version of tmd.
         fingerprint: Of the run's data.
 
     Raises:
         DataError: The worker has another version of tmd, or other data.
         TmdError: The unit cannot be done.
     """
+    here = f"the worker on {socket.gethostname()}"
     with _ONE_AT_A_TIME:
-        here = _here()
-        if build() != wanted:
+        if __version__ != version:
             raise DataError(
-                f"the worker on {here} has another tmd: {build()}, and the run has {wanted}",
+                f"{here} has tmd {__version__}, and the run has {version}",
                 hint="install the same version everywhere, and restart the workers",
             )
         try:
             found = open_dataset(config).fingerprint()
-            if found != fingerprint:
-                forget_datasets()
-                found = open_dataset(config).fingerprint()
         except TmdError as error:
             raise DataError(
-                f"the worker on {here} cannot read the data: {error.message}",
+                f"{here} cannot read the data: {error.message}",
                 hint="the data must lie in the same directory on every machine",
             ) from None
         if found != fingerprint:
             raise DataError(
-                f"the worker on {here} has other data: their fingerprint is {found}, and not {fingerprint}",
-                hint="put the same data in the same directory on every machine",
+                f"{here} has other data: their fingerprint is {found}, and not {fingerprint}",
+                hint="put the same data in the same directory on every machine, and restart the workers",
             )
         return do(config, unit, None)
-
-
-def build() -> str:
-    """Return the version of tmd and a digest of its code."""
-    return f"{__version__} (code {source_digest()})"
-
-
-@lru_cache(maxsize=1)
-def source_digest(package: Path = PACKAGE) -> str:
-    """Return a digest of the code below a directory, as it was when this process asked for the first time."""
-    digest = hashlib.sha256()
-    for path in sorted(package.rglob("*.py")):
-        content = path.read_bytes()
-        digest.update(f"{path.relative_to(package).as_posix()} {len(content)}\n".encode())
-        digest.update(content)
-    return digest.hexdigest()[:8]
-
-
-def _here() -> str:
-    """Return the worker's address, or the machine's name."""
-    with suppress(Exception):
-        from distributed import get_worker
-
-        return str(get_worker().address)
-    return socket.gethostname()
 
 
 def _distributed() -> ModuleType:
@@ -197,33 +152,6 @@ def _connect(distributed: ModuleType, address: str) -> Any:  # noqa: ANN401 - di
             f"the scheduler at {address} has no workers", hint=f"start some with `dask worker {address}`"
         ) from None
     return client
-
-
-def _ended(
-    distributed: ModuleType,
-    client: Any,  # noqa: ANN401
-    waiting: set[Any],
-    address: str,
-    gone_since: float | None,
-) -> tuple[set[Any], float | None]:
-    """Return the futures that have ended, and since when all workers are gone; ``None`` if they are not.
-
-    Raises:
-        MissingToolError: They are gone for too long.
-    """
-    try:
-        with client.as_current():
-            return set(distributed.wait(waiting, timeout=_LOOK, return_when="FIRST_COMPLETED").done), None
-    except TimeoutError:
-        if client.nthreads():
-            return set(), None
-    now = time.monotonic()
-    if gone_since is not None and now - gone_since > PATIENCE:
-        raise MissingToolError(
-            f"the workers of {address} are gone, for {PATIENCE:.0f} seconds",
-            hint=f"start some with `dask worker {address}`; {GO_ON}",
-        )
-    return set(), now if gone_since is None else gone_since
 
 
 def _outcome(distributed: ModuleType, future: Any, address: str) -> JobOutcome:  # noqa: ANN401

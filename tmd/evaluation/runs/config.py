@@ -25,23 +25,6 @@ _DECISIVE = (
 
 
 @dataclass(frozen=True, slots=True)
-class Shard:
-    """A share of the units of a run: those whose number leaves the same remainder as ``number`` when divided by ``of``.
-
-    Attributes:
-        number: From 1 to ``of``.
-        of: How many shares there are.
-    """
-
-    number: int
-    of: int
-
-    def has(self, index: int) -> bool:
-        """Return whether the unit of that number belongs to the share."""
-        return index % self.of == self.number % self.of
-
-
-@dataclass(frozen=True, slots=True)
 class ExperimentConfig:
     """The configuration of a run.
 
@@ -62,7 +45,6 @@ class ExperimentConfig:
         backend: ``joblib``, processes on this machine, or ``dask``, a cluster.
         scheduler: The address of the cluster's scheduler.
         jobs: How many processes on this machine.
-        shard: The share of the work to do; ``None`` is all of it.
     """
 
     task: str
@@ -81,7 +63,6 @@ class ExperimentConfig:
     backend: str = JOBLIB
     scheduler: str | None = None
     jobs: int = 1
-    shard: Shard | None = None
 
     def identity(self, fingerprint: str) -> dict[str, Any]:
         """Return the settings that decide the outcome, without directories and the distribution of the work.

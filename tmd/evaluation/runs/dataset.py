@@ -341,8 +341,3 @@ def open_dataset(config: ExperimentConfig) -> Dataset:
 @lru_cache(maxsize=4)
 def _read_once(kind: Callable[..., Dataset], *place: str | Path | None) -> Dataset:
     return kind(*place)
-
-
-def forget_datasets() -> None:
-    """Read data again when they are asked for next: a worker may live longer than the files it has read."""
-    _read_once.cache_clear()

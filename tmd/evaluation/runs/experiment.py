@@ -48,17 +48,6 @@ def run(config: ExperimentConfig, progress: Progress | None = None) -> Metrics:
         return _collect(plan)
 
 
-def work(config: ExperimentConfig, progress: Progress | None = None) -> int:
-    """Do the share of the run that ``config.shard`` says, and return how many parts it has; metrics are not computed.
-
-    Raises:
-        TmdError: As :func:`run`.
-    """
-    plan = _plan(config)
-    with plan.directory.entered(config.shard):
-        return _work(plan, progress)
-
-
 def collect(config: ExperimentConfig) -> Metrics:
     """Compute the metrics of a run from its parts, train nothing, and return them.
 
@@ -86,14 +75,13 @@ def _usual_models(config: ExperimentConfig) -> tuple[str, ...]:
     return tuple(model for model in DEFAULT_MODELS if written or model != "templates")
 
 
-def _work(plan: _Plan, progress: Progress | None) -> int:
-    """Do the units that are not done; return the number of parts, old and new."""
+def _work(plan: _Plan, progress: Progress | None) -> None:
+    """Do the units that are not done."""
     config, directory = plan.config, plan.directory
     folds = {fold.name: fold for fold in plan.folds}
     units = units_of(config.models, plan.folds)
-    mine = [unit for i, unit in enumerate(units, 1) if config.shard is None or config.shard.has(i)]
-    left = [unit for unit in (directory.left_of(unit, folds) for unit in mine) if unit is not None]
-    parts = sum(len(unit.folds) for unit in mine)
+    left = [unit for unit in (directory.left_of(unit, folds) for unit in units) if unit is not None]
+    parts = sum(len(unit.folds) for unit in units)
     done = parts - sum(len(unit.folds) for unit in left)
     directory.log.info("parts: %d, to do: %d", parts, parts - done)
     if progress:
@@ -105,7 +93,6 @@ def _work(plan: _Plan, progress: Progress | None) -> int:
                 done += len(outcome.parts)
                 if progress:
                     progress(done, parts)
-    return parts
 
 
 def _collect(plan: _Plan) -> Metrics:
@@ -115,7 +102,7 @@ def _collect(plan: _Plan) -> Metrics:
     if missing:
         raise TmdError(
             f"{config.out}: {missing} of {len(found)} parts are not done",
-            hint="give the same command without --step and --shard to do them",
+            hint="give the same command without --step to do them",
         )
     predictions = [line for lines in found for line in lines or ()]
     sizes = {f.name: FoldSizes(train=len(f.train), test=len(f.test), training_set=f.training_set) for f in folds}

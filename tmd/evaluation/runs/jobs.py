@@ -209,7 +209,7 @@ def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
     worlds = {
         world: WorldFit(
             weights={name: learned.weights[name] for name in learned.weights},
-            curve=tuple(p if isinstance(p, float | int) else CurvePoint.model_validate(p) for p in learned.curve),
+            curve=tuple(map(CurvePoint.model_validate, learned.curve)),
         )
         for world, learned in sorted(model.learned_.items())
     }

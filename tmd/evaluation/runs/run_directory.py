@@ -16,8 +16,6 @@ from pathlib import Path
 from typing import Any
 
 from tmd.diagnostics import OutputError, TmdError
-from tmd.evaluation.runs.config import Shard
-from tmd.evaluation.runs.dataset import Example
 from tmd.evaluation.runs.folds import Fold
 from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, journal_files
 from tmd.files import make_directory, write_text
@@ -58,7 +56,7 @@ class RunDirectory:
         return self.path / "fits"
 
     @contextmanager
-    def entered(self, shard: Shard | None = None) -> Iterator[None]:
+    def entered(self) -> Iterator[None]:
         """Make the directory, or go on in it, and keep a log meanwhile.
 
         Raises:
@@ -68,7 +66,7 @@ class RunDirectory:
         # First the parts, then the configuration: another process writes it before its first part.
         started = any((self.path / "parts").iterdir())
         self._claim(started)
-        handler = self._handler(shard)
+        handler = self._handler()
         self.log.setLevel(logging.INFO)
         logging.getLogger(LOG).propagate = False
         self.log.addHandler(handler)
@@ -98,8 +96,8 @@ class RunDirectory:
         elif found != text:
             raise OutputError(f"{self.path} holds another run{_difference(found, self.identity)}", hint=hint)
 
-    def _handler(self, shard: Shard | None) -> logging.Handler:
-        path = self.path / (f"log-{shard.number}-of-{shard.of}.txt" if shard else "log.txt")
+    def _handler(self) -> logging.Handler:
+        path = self.path / "log.txt"
         try:
             handler = _Log(path, encoding="utf-8")
         except OSError as error:
@@ -129,7 +127,7 @@ class RunDirectory:
             return None
         about = [(line.id, line.task, line.environment, line.model, line.fold) for line in lines]
         wanted = [(each.id, each.task, each.environment, model, fold.name) for each in fold.test]
-        if not lines or about != wanted or any(map(_lacks_success, lines, fold.test)):
+        if not lines or about != wanted:
             self.log.warning("damaged, so to be done again: %s: its lines are of other examples", path.name)
             return None
         return lines
@@ -178,11 +176,6 @@ class RunDirectory:
         write_text(self.path / PREDICTIONS, "".join(prediction.to_line() for prediction in predictions))
         write_text(self.path / METRICS_FILE, json.dumps(metrics.to_value(), indent=2) + "\n")
         self.log.info("finished")
-
-
-def _lacks_success(line: PredictionRecord, example: Example) -> bool:
-    """Return whether a line lacks ``success`` although its example has a goal, as in files of earlier versions."""
-    return (example.goal is None) != (line.success is None)
 
 
 def _difference(found: str, identity: dict[str, Any]) -> str:

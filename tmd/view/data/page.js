@@ -31,7 +31,7 @@
   document.addEventListener("keydown", (event) => {
     if (event.altKey || event.ctrlKey || event.metaKey || event.shiftKey) return;
     const by = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-    if (!by || event.target.closest(".tmd-scroll, .state")) return;
+    if (!by || event.target.closest(".tmd-scroll")) return;
     event.preventDefault();
     go(at + by);
   });
