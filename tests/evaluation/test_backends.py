@@ -21,25 +21,40 @@ from tests.cli.conftest import Ended, fork_server, heed_interrupts, run_tmd
 from tmd import __version__
 from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation.models import model
-from tmd.evaluation.runs import cluster
+from tmd.evaluation.runs import backends, cluster
 from tmd.evaluation.runs.config import ExperimentConfig, Shard
 from tmd.evaluation.runs.experiment import collect, run, work
-from tmd.evaluation.runs.jobs import EvaluationJob, WorkerLostError
+from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, WorkerLostError, do
 
 ROOT = Path(__file__).parents[2]
 FILES = ("config.json", "predictions.jsonl", "metrics.json")
+MODELS = ("empty", "chance", "nearest", "tree")
+PARTS = 12
 SAME_CODE = "import tmd.evaluation.runs.cluster\ntmd.evaluation.runs.cluster.source_digest = lambda: 'tests'\n"
-COMMAND = ("experiment", "--task", "ramen", "--train-tasks", "ramen", "--models", "empty,chance")
+# in this small domain a unit takes milliseconds: nobody could interrupt the run between two of them
+SLOWLY = """
+import time
+from tmd.evaluation.runs import backends, cluster, jobs
+def slowly(config, unit, fits):
+    time.sleep(0.3)
+    return jobs.do(config, unit, fits)
+backends.do = cluster.do = slowly
+"""
+COMMAND = (
+    *("experiment", "--domain", "02_table", "--task", "set_table", "--train-tasks", "set_table"),
+    *("--models", ",".join(MODELS)),
+)
 needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="the package distributed is not installed")
 needs_signals = pytest.mark.skipif(sys.platform == "win32", reason="no signals here")
 
 
 def config(out: Path, **changes: object) -> ExperimentConfig:
     base = ExperimentConfig(
-        "ramen",
+        "set_table",
         out,
-        train_tasks=("ramen",),
-        models=("empty", "chance"),
+        domain="02_table",
+        train_tasks=("set_table",),
+        models=MODELS,
         domains=ROOT / "domains",
         problems=ROOT / "problems",
     )
@@ -73,7 +88,15 @@ def once(action: Callable[[], None]) -> Callable[[int, int], None]:
 def begin(out: Path, *options: str) -> subprocess.Popen[bytes]:
     """Start ``tmd experiment`` in a process group of its own."""
     return subprocess.Popen(
-        [sys.executable, "-c", f"{SAME_CODE}from tmd.cli import main\nmain()", *COMMAND, "--out", str(out), *options],
+        [
+            sys.executable,
+            "-c",
+            f"{SAME_CODE}{SLOWLY}from tmd.cli import main\nmain()",
+            *COMMAND,
+            "--out",
+            str(out),
+            *options,
+        ],
         cwd=out.parent,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         stdout=subprocess.PIPE,
@@ -102,8 +125,8 @@ def test_shards_make_the_whole(tmp_path: Path, serial: dict[str, bytes]) -> None
     for number in (2, 1, 3):
         counts.append(work(config(tmp_path, shard=Shard(number, 3))))
         assert not (tmp_path / "metrics.json").exists()
-    assert sum(counts) == 20
-    assert len(list((tmp_path / "parts").iterdir())) == 20
+    assert sum(counts) == PARTS
+    assert len(list((tmp_path / "parts").iterdir())) == PARTS
     times = {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()}
     collect(config(tmp_path))
     assert outcome(tmp_path) == serial
@@ -133,9 +156,9 @@ def test_the_script_for_slurm(tmp_path: Path, serial: dict[str, bytes]) -> None:
     script = re.search(r"<!-- slurm -->\n```bash\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     assert script
     assert re.search(r"#SBATCH --array=1-(\d+)$", script[1], re.MULTILINE)[1] == "10"  # type: ignore[index]
-    text = script[1].replace("--task all", "--task ramen --train-tasks ramen").replace("empty,nearest", "empty,chance")
+    text = script[1].replace("--task all", " ".join(COMMAND[1:7])).replace("empty,nearest", COMMAND[-1])
     text = text.replace("shards=10", "shards=2")
-    assert text.count("--train-tasks") == text.count("chance") == text.count("shards=2") == 1
+    assert text.count("--train-tasks") == text.count("chance,") == text.count("shards=2") == 1
     (tmp_path / "all.sh").write_text(text)
     tmd = tmp_path / "bin" / "tmd"
     tmd.parent.mkdir()
@@ -156,7 +179,7 @@ def test_the_script_for_slurm(tmp_path: Path, serial: dict[str, bytes]) -> None:
     assert submit(number=2).returncode == ExitCode.OK
     early = submit("report")
     assert early.returncode == ExitCode.BAD_INPUT
-    assert b"10 of 20 parts are not done" in early.stderr
+    assert re.search(rf"error: .*: \d of {PARTS} parts are not done", early.stderr.decode())
     assert submit(number=1).returncode == ExitCode.OK
     assert submit("report").returncode == ExitCode.OK
     assert outcome(tmp_path / "runs" / "all") == serial
@@ -175,27 +198,26 @@ def test_an_interruption_is_one_line_and_loses_nothing(tmp_path: Path, serial: d
     assert error.decode().splitlines()[-1] == "error: interrupted"
     assert told == b""
     times = {p: p.stat().st_mtime_ns for p in (out / "parts").iterdir()}
-    assert 0 < len(times) < 20
+    assert 0 < len(times) < PARTS
     run(config(out))
     assert outcome(out) == serial
     assert {p: p.stat().st_mtime_ns for p in times} == times
 
 
-def blocked(number: int) -> tuple[int, bool]:
-    """Tell the process id and whether interruptions are blocked; wait, so that another process has a turn as well."""
-    time.sleep(0.2)
-    return os.getpid(), signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+BLOCKED = """
+import signal, time
+from tmd.evaluation.runs.backends import in_processes
+def blocked(number):
+    time.sleep(0.2)  # so that another process has a turn as well
+    return signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+print(list(in_processes(blocked, [(n,) for n in range(6)], 2)), blocked(0))
+"""
 
 
 @needs_signals
 def test_workers_never_hear_of_interruptions() -> None:
     """In a new process, where nothing has started yet that workers need."""
-    script = (
-        "from tests.evaluation.test_backends import blocked\n"
-        "from tmd.evaluation.runs.backends import in_processes\n"
-        "print(sorted(deaf for _, deaf in in_processes(blocked, [(n,) for n in range(6)], 2)), blocked(0)[1])\n"
-    )
-    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", BLOCKED], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stdout == f"{[True] * 6} False\n", done.stderr
 
 
@@ -216,11 +238,16 @@ def workers_of(pid: int) -> list[int]:
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are listed in another way here")
-def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes]) -> None:
+def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes], monkeypatch: pytest.MonkeyPatch) -> None:
+    def slowly(config: ExperimentConfig, unit: EvaluationJob, fits: Path) -> JobOutcome:
+        time.sleep(0.3)
+        return do(config, unit, fits)
+
     def kill() -> None:
         for pid in workers_of(os.getpid()):
             os.kill(pid, signal.SIGKILL)
 
+    monkeypatch.setattr(backends, "do", slowly)
     with pytest.raises(WorkerLostError, match="the same command goes on from there") as caught:
         run(config(tmp_path, jobs=2), once(kill))
     assert caught.value.exit_code == ExitCode.GAVE_UP
@@ -230,6 +257,8 @@ def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes]) -> N
 
 
 # A cluster
+
+NO_TMD = "import sys\nsys.modules['tmd'] = None\n"
 
 
 class Cluster:
@@ -257,7 +286,7 @@ class Cluster:
         """Start some workers."""
         if not options:
             preload = self.directory / "same_code.py"
-            preload.write_text(SAME_CODE)
+            preload.write_text(SAME_CODE + SLOWLY)
             options = ("--preload", str(preload))
         for _ in range(count):
             self.workers.append(self.start("worker", "--no-nanny", "--nthreads", "1", *options))
@@ -283,8 +312,11 @@ def same_code(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(scope="module")
 def scheduled(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
-    """A scheduler for all tests that leave it alive."""
-    started = Cluster(tmp_path_factory.mktemp("cluster"))
+    """A scheduler for all tests that leave it alive; it has no tmd, and needs none."""
+    directory = tmp_path_factory.mktemp("cluster")
+    preload = directory / "no_tmd.py"
+    preload.write_text(NO_TMD)
+    started = Cluster(directory, "--preload", str(preload))
     yield started
     started.stop()
 
@@ -340,7 +372,7 @@ def test_a_scheduler_that_dies_is_told(tmp_path: Path, serial: dict[str, bytes])
     assert lines[1].startswith("hint: restart it; what is done is kept")
     assert len(lines) == 2
     assert told == b""
-    assert 0 < len(list((out / "parts").iterdir())) < 20
+    assert 0 < len(list((out / "parts").iterdir())) < PARTS
     run(config(out))
     assert outcome(out) == serial
 
@@ -357,7 +389,7 @@ def test_an_interruption_leaves_the_cluster_ready(tmp_path: Path, cluster_: Clus
     assert process.returncode == ExitCode.INTERRUPTED, error
     assert said(error) == ["error: interrupted"]
     assert told == b""
-    assert 0 < len(list((out / "parts").iterdir())) < 20
+    assert 0 < len(list((out / "parts").iterdir())) < PARTS
     run(on(cluster_, out))
     assert outcome(out) == serial
 
@@ -388,7 +420,7 @@ def test_a_unit_that_kills_its_workers_is_told(
         "model.MODELS['killer'] = Killer\n"
     )
     monkeypatch.setattr(model, "MODELS", {**model.MODELS, "killer": model.Empty})
-    cluster_.work(3, "--preload", str(preload))
+    cluster_.work(2, "--preload", str(preload))
     with pytest.raises(WorkerLostError, match="brought down several workers"):
         run(on(cluster_, tmp_path / "out", models=("killer",), test_environments=(1,)))
 
@@ -404,36 +436,25 @@ def test_a_worker_with_other_code_or_data_is_told(
             run(on(cluster_, tmp_path / "out"))
     problems = tmp_path / "problems"
     problems.mkdir()
-    (problems / "kitchen").symlink_to(ROOT / "problems" / "kitchen")
-    (cluster_.directory / "problems" / "kitchen").mkdir(parents=True)
+    (problems / "02_table").symlink_to(ROOT / "problems" / "02_table")
+    (cluster_.directory / "problems" / "02_table").mkdir(parents=True)
     monkeypatch.chdir(tmp_path)
     with pytest.raises(DataError, match=r"the worker on tcp://.* (has other|cannot read the) data"):
         run(on(cluster_, tmp_path / "out", problems=None))
 
 
 @needs_dask
-def test_a_worker_without_tmd_is_told_and_a_scheduler_needs_none(tmp_path: Path, serial: dict[str, bytes]) -> None:
+def test_a_worker_without_tmd_is_told(tmp_path: Path, cluster_: Cluster) -> None:
     preload = tmp_path / "preload.py"
-    preload.write_text("import sys\nsys.modules['tmd'] = None\n")
-    directory = tmp_path / "cluster"
-    directory.mkdir()
-    started = Cluster(directory, "--preload", str(preload))
-    try:
-        started.work(1)
-        run(on(started, tmp_path / "out"))
-        assert outcome(tmp_path / "out") == serial
-        started.workers[0].terminate()
-        started.workers[0].wait()
-        started.work(1, "--preload", str(preload))
-        with pytest.raises(MissingToolError, match="a worker cannot run tmd"):
-            run(on(started, tmp_path / "other"))
-    finally:
-        started.stop()
+    preload.write_text(NO_TMD)
+    cluster_.work(1, "--preload", str(preload))
+    with pytest.raises(MissingToolError, match="a worker cannot run tmd"):
+        run(on(cluster_, tmp_path / "out"))
 
 
 def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
     here = config(tmp_path, test_environments=(1,))
-    unit = EvaluationJob("empty", "ramen_2-5", ("given",))
+    unit = EvaluationJob("empty", "set_table_2", ("given",))
     found = cluster.open_dataset(here).fingerprint()
     assert cluster.remote(here, unit, cluster.build(), found).parts.keys() == {"given"}
     with pytest.raises(DataError, match=r"other data: their fingerprint is \w+, and not 0123"):
@@ -444,12 +465,12 @@ def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
 
 def test_a_worker_reads_data_anew_when_they_have_changed(tmp_path: Path) -> None:
     """It may live longer than the files it has read."""
-    folder = tmp_path / "problems" / "kitchen"
-    (folder / "ramen").mkdir(parents=True)
-    (folder / "environments").symlink_to(ROOT / "problems" / "kitchen" / "environments")
-    file = folder / "ramen" / "demonstrations.jsonl"
-    lines = (ROOT / "problems" / "kitchen" / "ramen" / "demonstrations.jsonl").read_text().splitlines(keepends=True)
-    file.write_text("".join(lines[:20]))
+    bundled, folder = (root / "problems" / "02_table" for root in (ROOT, tmp_path))
+    (folder / "set_table").mkdir(parents=True)
+    (folder / "environments").symlink_to(bundled / "environments")
+    file = folder / "set_table" / "demonstrations.jsonl"
+    lines = (bundled / "set_table" / "demonstrations.jsonl").read_text().splitlines(keepends=True)
+    file.write_text("".join(lines[1:]))
     here = config(tmp_path, problems=tmp_path / "problems", test_environments=(1,))
     before = cluster.open_dataset(here).fingerprint()
     file.write_text("".join(lines))
@@ -457,11 +478,11 @@ def test_a_worker_reads_data_anew_when_they_have_changed(tmp_path: Path) -> None
     after = cluster.open_dataset(here).fingerprint()
     assert before != after
     cluster.forget_datasets()
-    file.write_text("".join(lines[:20]))
+    file.write_text("".join(lines[1:]))
     assert cluster.open_dataset(here).fingerprint() == before
     file.write_text("".join(lines))
-    unit = EvaluationJob("empty", "ramen_2-5", ("given",))
-    assert len(cluster.remote(here, unit, cluster.build(), after).parts["given"].splitlines()) == 10
+    unit = EvaluationJob("empty", "set_table_2", ("given",))
+    assert len(cluster.remote(here, unit, cluster.build(), after).parts["given"].splitlines()) == 2
 
 
 @needs_dask
