@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory, TemporaryFile
+from typing import Any
 
 import pytest
 
@@ -22,6 +23,8 @@ from tests.cli.fork_server import PATIENCE, ask
 
 ROOT = Path(__file__).resolve().parents[2]
 BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"
+UNTAUGHT = ("compile", "data", "experiment", "plan", "validate")
+"""Commands that use nothing that was learned of a domain: they need not wait until it is."""
 
 
 @dataclass(frozen=True)
@@ -104,9 +107,15 @@ def run_tmd(
 
 
 @pytest.fixture
-def tmd(tmp_path: Path, learned: Path) -> Tmd:
+def tmd(tmp_path: Path, request: pytest.FixtureRequest) -> Tmd:
     """``tmd("parse", "--text", "…")`` in an empty directory, with this checkout's domains and problems."""
-    return lambda *arguments, **options: run_tmd(arguments, tmp_path, **options)
+
+    def run(*arguments: str | Path, **options: Any) -> Ended:  # noqa: ANN401 - those of run_tmd
+        if not arguments or arguments[0] not in UNTAUGHT:
+            request.getfixturevalue("learned")
+        return run_tmd(arguments, tmp_path, **options)
+
+    return run
 
 
 @pytest.fixture

@@ -20,33 +20,33 @@ from tmd.world.folder import DomainFolder
 SAID = (
     "ground",
     "--environment",
-    "lab2",
+    "corner2",
     "--text",
-    "Put the sample tube in the centrifuge and close the lid.",
+    "Put the cup on the first table.",
     "--json",
 )
 
 
 @pytest.fixture
-def lab(tmp_path: Path) -> Corpus:
-    """A copy of the laboratory that may be changed."""
+def table(tmp_path: Path) -> Corpus:
+    """A copy of a small domain that may be changed."""
     for kind in ("domains", "problems"):
         shutil.copytree(
-            ROOT / kind / "lab_bench", tmp_path / kind / "lab_bench", ignore=shutil.ignore_patterns("learned")
+            ROOT / kind / "02_table", tmp_path / kind / "02_table", ignore=shutil.ignore_patterns("learned")
         )
-    return Corpus(DomainFolder(tmp_path / "domains" / "lab_bench"), tmp_path / "problems" / "lab_bench")
+    return Corpus(DomainFolder(tmp_path / "domains" / "02_table"), tmp_path / "problems" / "02_table")
 
 
 @pytest.fixture(scope="module")
 def knowledge() -> Knowledge:
-    """What the laboratory teaches, wherever its files lie."""
-    return study(Corpus(DomainFolder(ROOT / "domains" / "lab_bench"), ROOT / "problems" / "lab_bench"))
+    """What the domain teaches, wherever its files lie."""
+    return study(Corpus(DomainFolder(ROOT / "domains" / "02_table"), ROOT / "problems" / "02_table"))
 
 
-def test_what_was_kept_is_what_was_learned(lab: Corpus, knowledge: Knowledge) -> None:
-    directory = place(lab)
-    save(knowledge, lab, directory)
-    again = recall(lab, directory)
+def test_what_was_kept_is_what_was_learned(table: Corpus, knowledge: Knowledge) -> None:
+    directory = place(table)
+    save(knowledge, table, directory)
+    again = recall(table, directory)
     assert again is not None
     assert again.library.verbs() == knowledge.library.verbs()
     for verb in knowledge.library.verbs():
@@ -63,9 +63,9 @@ def test_what_was_kept_is_what_was_learned(lab: Corpus, knowledge: Knowledge) ->
     assert again.reward.features.properties == knowledge.reward.features.properties
 
 
-def test_the_same_demonstrations_leave_the_same_bytes(lab: Corpus, tmp_path: Path) -> None:
+def test_the_same_demonstrations_leave_the_same_bytes(table: Corpus, tmp_path: Path) -> None:
     for name in ("one", "two"):
-        save(study(lab), lab, tmp_path / name)
+        save(study(table), table, tmp_path / name)
     for path in (tmp_path / "one").iterdir():
         assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes()
 
@@ -73,40 +73,40 @@ def test_the_same_demonstrations_leave_the_same_bytes(lab: Corpus, tmp_path: Pat
 @pytest.mark.parametrize(
     "changed",
     [
-        "problems/lab_bench/bench_work/demonstrations.jsonl",
-        "problems/lab_bench/environments/lab1.yaml",
-        "domains/lab_bench/lexicon.yaml",
-        "domains/lab_bench/domain.pddl",
+        "problems/02_table/set_table/demonstrations.jsonl",
+        "problems/02_table/environments/corner1.yaml",
+        "domains/02_table/lexicon.yaml",
+        "domains/02_table/domain.pddl",
     ],
 )
 def test_what_was_made_from_something_else_is_not_used(
-    changed: str, lab: Corpus, knowledge: Knowledge, tmp_path: Path
+    changed: str, table: Corpus, knowledge: Knowledge, tmp_path: Path
 ) -> None:
-    save(knowledge, lab, place(lab))
-    assert recall(lab, place(lab)) is not None
+    save(knowledge, table, place(table))
+    assert recall(table, place(table)) is not None
     path = tmp_path / changed
     path.write_text(path.read_text() + "\n")
-    assert recall(lab, place(lab)) is None
+    assert recall(table, place(table)) is None
 
 
 @pytest.mark.parametrize("file", ["library.json", "policy.json", "policy.bin", MANIFEST])
-def test_what_is_damaged_is_not_used(file: str, lab: Corpus, knowledge: Knowledge) -> None:
-    save(knowledge, lab, place(lab))
-    path = place(lab) / file
+def test_what_is_damaged_is_not_used(file: str, table: Corpus, knowledge: Knowledge) -> None:
+    save(knowledge, table, place(table))
+    path = place(table) / file
     whole = path.read_bytes()
     for damaged in (whole[: len(whole) // 2], b"", b"\x00" + whole, b"[]"):
         path.write_bytes(damaged)
-        assert recall(lab, place(lab)) is None
+        assert recall(table, place(table)) is None
     path.unlink()
-    assert recall(lab, place(lab)) is None
+    assert recall(table, place(table)) is None
 
 
-def test_ground_says_the_same_with_and_without_it(lab: Corpus, tmd: Tmd) -> None:
+def test_ground_says_the_same_with_and_without_it(table: Corpus, tmd: Tmd) -> None:
     before = tmd(*SAID)
-    done = tmd("learn", "lab_bench", "--out", "kept", "--no-weights")
+    done = tmd("learn", "02_table", "--out", "kept", "--no-weights")
     assert done.code == ExitCode.OK
-    assert done.out.startswith("lab_bench: 10 demonstrations in lab1, lab2\n21 templates\n")
-    assert done.out.endswith("saved in kept/lab_bench\n")
+    assert done.out.startswith("02_table: 3 demonstrations in corner1, corner2\n4 templates\n")
+    assert done.out.endswith("saved in kept/02_table\n")
     after = tmd(*SAID, "--learned", "kept")
     assert before.code == ExitCode.OK
     assert (after.code, after.out) == (before.code, before.out)
@@ -124,11 +124,11 @@ def test_weights_are_learned_and_used_when_asked_for(tmd: Tmd, tmp_path: Path) -
     assert tmd(*said, "--learned", "kept").code == ExitCode.OK
 
 
-def test_a_domain_without_demonstrations_gets_one_line(lab: Corpus, tmd: Tmd) -> None:
-    (lab.directory / "bench_work" / "demonstrations.jsonl").unlink()
-    done = tmd("learn", "lab_bench")
+def test_a_domain_without_demonstrations_gets_one_line(table: Corpus, tmd: Tmd) -> None:
+    (table.directory / "set_table" / "demonstrations.jsonl").unlink()
+    done = tmd("learn", "02_table")
     assert done.code == ExitCode.BAD_INPUT
-    assert "there are no demonstrations of 'lab_bench'" in done.err
+    assert "there are no demonstrations of '02_table'" in done.err
 
 
 def test_where_nothing_can_be_written_one_line_says_so(tmd: Tmd, tmp_path: Path) -> None:
@@ -138,17 +138,17 @@ def test_where_nothing_can_be_written_one_line_says_so(tmd: Tmd, tmp_path: Path)
     assert len(done.err.splitlines()) <= 2
 
 
-def test_a_goal_that_is_not_reached_teaches_nothing(lab: Corpus, tmd: Tmd) -> None:
-    (file,) = lab.directory.glob("*/demonstrations.jsonl")
+def test_a_goal_that_is_not_reached_teaches_nothing(table: Corpus, tmd: Tmd) -> None:
+    (file,) = table.directory.glob("*/demonstrations.jsonl")
     lines = [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()]
 
     def learn(goal: str | None) -> Ended:
         said = [{**line, "goal": goal if number == 1 else "(and)"} for number, line in enumerate(lines)]
         file.write_text("".join(json.dumps(line) + "\n" for line in said), encoding="utf-8")
-        return tmd("learn", "lab_bench", "--no-weights")
+        return tmd("learn", "02_table", "--no-weights")
 
     assert learn(None).code == ExitCode.OK
-    for wrong, why in (("(not (and))", "is not reached"), ("(and (", "never closed"), ("(shiny tube1)", "shiny")):
+    for wrong, why in (("(not (and))", "is not reached"), ("(and (", "never closed"), ("(shiny cup1)", "shiny")):
         done = learn(wrong)
         assert done.code == ExitCode.BAD_INPUT
         assert re.search(rf"demonstrations\.jsonl:2:\d+: .*the goal of '{lines[1]['id']}'", done.err)

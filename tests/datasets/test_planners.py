@@ -116,6 +116,7 @@ def test_fast_downward_solves_it_optimally_as_we_do(case: tuple[Path, Problem]) 
     assert not set(goals) <= done.decoded()[0]
 
 
+@pytest.mark.parametrize("case", [("kitchen", "literal"), ("living_room", "sane")], indirect=True, ids="-".join)
 def test_unified_planning_reads_and_executes_it(case: tuple[Path, Problem]) -> None:
     """Its reader, and its simulator along a plan of Fast Downward."""
     pytest.importorskip("unified_planning")

@@ -173,7 +173,7 @@ def test_predictions_are_shown_step_by_step(page: str) -> None:
 
 
 def test_a_page_with_texts_of_others_says_so(tmp_path: Path) -> None:
-    metrics = json.loads((finished(tmp_path, ("full",)) / "metrics.json").read_text())
+    metrics = json.loads((finished(tmp_path, ("full",), ("ramen",)) / "metrics.json").read_text())
     warning = "do not pass it on"
     assert warning not in write_report(tmp_path).read_text(encoding="utf-8")
     metrics["config"]["data"] = "veil500"
@@ -210,7 +210,7 @@ def test_a_run_of_few_rows_has_a_page(tmp_path: Path, models: tuple[str, ...]) -
 
 
 def test_films_stay_files_beside_the_page(tmp_path: Path) -> None:
-    run = finished(tmp_path)
+    run = finished(tmp_path, ("full",), ("ramen",))
     (run / "robot").mkdir()
     asked = TrialRequest(
         environment="kitchen1",

@@ -15,6 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tests import bundled
 from tmd.evaluation.models.instruction_tree import InstructionTree
 from tmd.evaluation.runs.dataset import BundledData, Example
 from tmd.inference.policy.features import FIRST, Features, KnownObjects, bag, learn_syntax, mentioned
@@ -263,10 +264,10 @@ import hashlib, sys
 import numpy as np
 from tmd.evaluation.runs.dataset import BundledData
 from tmd.evaluation.models.instruction_tree import InstructionTree
-data = BundledData("ramen")
+data = BundledData("bench_work", "lab_bench")
 model = InstructionTree(rounds=1).fit(data.examples[:6], data, np.random.default_rng(0))
-said = [str(model.predict(e, data, np.random.default_rng(0))) for e in data.examples[12:15]]
-print(hashlib.sha256(model.rewards_["kitchen"].theta.tobytes() + "".join(said).encode()).hexdigest())
+said = [str(model.predict(e, data, np.random.default_rng(0))) for e in data.examples[6:9]]
+print(hashlib.sha256(model.rewards_["lab_bench"].theta.tobytes() + "".join(said).encode()).hexdigest())
 """
 
 
@@ -286,7 +287,7 @@ def test_the_order_of_hashes_decides_nothing() -> None:
 
 
 def test_actions_that_training_never_had_surprise_and_break_nothing() -> None:
-    data = BundledData("boiling_water")
+    data = bundled.data("boiling_water")
     examples = [e for e in data.examples if e.environment == "kitchen1"]
     tree = InstructionTree(grounded=True, rounds=1).fit(examples, data, np.random.default_rng(0))
     policy = tree.policy("kitchen2", examples[0].world, data)

@@ -1,4 +1,4 @@
-"""Planned problems: the small cases with their plans, and a demonstration of each bundled task."""
+"""Planned problems: the small cases with their plans, and a demonstration in each bundled domain."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from tmd.world.demonstration import read_demonstrations
 ROOT = Path(__file__).resolve().parents[2]
 CASES = ROOT / "tests" / "pddl" / "cases"
 SMALL = sorted(CASES.glob("*/plans/valid-*.plan"))
-TASKS = sorted((ROOT / "problems").glob("*/*/demonstrations.jsonl"))
+TASKS = {p.parents[1].name: p for p in sorted((ROOT / "problems").glob("*/*/demonstrations.jsonl"))}.values()
 NAMES = [path.parents[1].name for path in SMALL] + [f"{p.parents[1].name}/{p.parent.name}" for p in TASKS]
 
 

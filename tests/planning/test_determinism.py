@@ -50,7 +50,7 @@ def run(seed: str) -> str:
     return done.stdout
 
 
-@pytest.mark.parametrize("seed", ["1", "2", "31337"])
+@pytest.mark.parametrize("seed", ["1", "31337"])
 def test_hash_seeds_do_not_matter(seed: str, expected: str) -> None:
     assert expected.count("Filled") > 10
     assert run(seed) == expected

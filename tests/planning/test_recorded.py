@@ -53,8 +53,8 @@ def test_hardly_any_search_ends_at_its_cap(queries_of: Queries) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_cost_and_solvability_are_those_of_fast_downward(name: str, queries_of: Queries) -> None:
-    """Of one query in three; one in nine is replayed under the lifted domain as well, which is slow."""
-    queries = queries_of(name)[NAMES.index(name) % 3 :: 3]
+    """Of one query in five; one in fifteen is replayed under the lifted domain as well, which is slow."""
+    queries = queries_of(name)[NAMES.index(name) :: 5]
     filler = GapFiller(queries[0].task, cap=5_000)
     for number, query in enumerate(queries):
         answer = filler.fill(query.state, (query.goal,))
@@ -90,10 +90,6 @@ def test_a_sample_is_asked_of_fast_downward_again(queries_of: Queries) -> None:
     queries = [query for query in queries_of(NAMES[0]) if query.verdict != "gave up"]
     chosen = queries[len(queries) // 2 :][:1]
     reference = fast_downward_for_gaps(queries[0].task)
-    task = queries[0].task
-    known = next(i for i, atom in enumerate(task.atoms) if atom.predicate == "found")
-    forget = Cube(0, 1 << known)
-    assert isinstance(reference.fill(task.init | 1 << known, (forget,)), Unreachable)
     for query in chosen:
         answer = reference.fill(query.state, (query.goal,))
         if query.verdict == "solved":

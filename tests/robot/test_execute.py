@@ -53,15 +53,15 @@ class Truth:
         return sorted(a.args[1] for a in self.state if a.predicate == "holding")
 
     def support(self, item: str) -> tuple[str, str] | None:
-        return next(
-            ((a.args[1], a.args[2]) for a in sorted(self.state) if a.predicate == "at" and a.args[0] == item), None
+        return min(
+            ((a.args[1], a.args[2]) for a in self.state if a.predicate == "at" and a.args[0] == item), default=None
         )
 
     def is_open(self, name: str) -> bool | None:
         return GroundAtom("opened", (name,)) in self.state
 
     def setting(self, name: str) -> str | None:
-        return next((a.args[1] for a in sorted(self.state) if a.predicate == "set_to" and a.args[0] == name), None)
+        return min((a.args[1] for a in self.state if a.predicate == "set_to" and a.args[0] == name), default=None)
 
     def has_joint(self, name: str) -> bool:
         return any(GroundAtom(p, (name,)) in self.state for p in ("opened",)) or self.setting(name) is not None
@@ -156,7 +156,7 @@ def carry_off(truth: Truth, instruction: Instruction) -> bool:
     return True
 
 
-@pytest.mark.parametrize("number", range(0, 200, 29))
+@pytest.mark.parametrize("number", range(0, 200, 50))
 def test_a_plan_without_trouble_is_done(corpus: Corpus, demonstrations: list[Demonstration], number: int) -> None:
     done, truth, told = run(corpus, demonstrations[number])
     assert (done.status, done.repairs, done.reason) == (SkillStatus.DONE, 0, "")
@@ -177,7 +177,7 @@ def test_plans_of_the_living_room_are_done_as_well() -> None:
 
 
 @pytest.mark.parametrize("fault", [lose, break_off, carry_off])
-@pytest.mark.parametrize("number", range(7, 200, 64))
+@pytest.mark.parametrize("number", range(7, 200, 96))
 def test_trouble_is_seen_and_replanned(
     corpus: Corpus, demonstrations: list[Demonstration], number: int, fault: Callable[[Truth, Instruction], bool]
 ) -> None:
@@ -283,7 +283,7 @@ def test_a_thing_that_is_gone_for_good_ends_the_plan(corpus: Corpus, demonstrati
 def test_random_trouble_is_never_claimed_as_success(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
     random = np.random.default_rng(4)
     ended = []
-    for number in range(3, 200, 60):
+    for number in range(3, 200, 90):
 
         def sometimes(truth: Truth, instruction: Instruction) -> bool:
             if random.random() < 0.15:
@@ -369,7 +369,7 @@ def test_a_hand_is_freed_where_nothing_else_helps(corpus: Corpus, demonstrations
 def test_another_way_to_the_same_facts_is_planned(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
     """One instruction never works; what the plan is for is brought about by others, or the robot stops and says so."""
     ended = []
-    for number in range(0, len(demonstrations), 70):
+    for number in range(0, len(demonstrations), 100):
         chosen = demonstrations[number]
         broken = next((i for i in chosen.instructions if i.name == "keep"), None)
         if broken is None:

@@ -18,7 +18,6 @@ pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("PIL", reason="needs the extra robot")
 pytest.importorskip("imageio_ffmpeg", reason="needs the extra robot")
 
-from tests.bundled import corpus
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.files import draft_of
 from tmd.pddl.model import GroundAtom, Instruction
@@ -30,13 +29,14 @@ from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 from tmd.robot.video.captions import Caption, caption_height, filmstrip, under
 from tmd.robot.video.film import Film, open_movie
 from tmd.robot.video.movie_file import MovieFile
-from tmd.world.environment import load_environment
+from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.pddl.model import State
 
 SIZE, FPS = (160, 120), 2
-PLAN = ("find(mug1)", "moveto(mug1)", "grasp(mug1)")
+PLAN = ("find(cup1)", "moveto(cup1)", "grasp(cup1)")
+CORNER = str(Path(__file__).parents[1] / "cli" / "corner.yaml")
 Pixels = NDArray[np.uint8]
 
 
@@ -59,14 +59,13 @@ def frames(path: Path) -> list[Pixels]:
 
 
 def stage(*, pictures: bool = True) -> SimulationSession:
-    kitchen = corpus("kitchen")
-    environment = load_environment(kitchen.file("kitchen1"))
-    problem = kitchen.world("kitchen1").task.problem
-    return SimulationSession(environment, kitchen.folder, problem, kinematic=True, pictures=pictures)
+    _, world = Roots().world(CORNER)
+    environment, folder = Roots().room(CORNER)
+    return SimulationSession(environment, folder, world.task.problem, kinematic=True, pictures=pictures)
 
 
 def orders() -> list[Order]:
-    return [Order(parse_instruction(text), 0, index == 0, "Take the mug") for index, text in enumerate(PLAN)]
+    return [Order(parse_instruction(text), 0, index == 0, "Take the cup") for index, text in enumerate(PLAN)]
 
 
 @pytest.fixture(scope="module")
@@ -75,7 +74,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Run:
     path, strip = folder / "run.mp4", folder / "run.png"
     with stage() as ready, open_movie(path, SIZE, FPS) as movie:
         film = Film(ready.cell, ready.skills, movie=movie, strip=True)
-        film.open("3 instructions", "Take the mug")
+        film.open("3 instructions", "Take the cup")
         execution = ready.execute(orders(), [film])
         film.close(execution)
         film.write_strip(strip)
@@ -121,16 +120,16 @@ def test_a_film_does_not_change_the_run(run: Run) -> None:
     assert poses == run.poses
 
 
-def test_the_mug_is_seen_from_the_best_angle() -> None:
+def test_the_cup_is_seen_from_the_best_angle() -> None:
     """The thing that the camera looks at stands in the middle of the picture: repainted, it changes there."""
     with stage() as ready:
         from tmd.robot.video.camera import FOV, Camera
 
         camera = Camera(ready.cell)
-        camera.follow(["mug1"], wide=False)
+        camera.follow(["cup1"], wide=False)
         view = camera.best()
         before = ready.sim.picture(view.eye, view.target, *SIZE, fov=FOV, shadow=False).astype(int)
-        ready.sim.colour(ready.cell.scene.bodies["mug1"], -1, (0.0, 1.0, 0.0, 1.0))
+        ready.sim.colour(ready.cell.scene.bodies["cup1"], -1, (0.0, 1.0, 0.0, 1.0))
         after = ready.sim.picture(view.eye, view.target, *SIZE, fov=FOV, shadow=False).astype(int)
     changed = np.argwhere(np.abs(after - before).sum(axis=2) > 60)
     assert len(changed) > 10
@@ -319,15 +318,15 @@ def test_a_strip_of_nothing_is_not_written(ready: SimulationSession, tmp_path: P
 
 def test_a_caption_counts_tries_and_what_was_done(ready: SimulationSession, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of two instructions the first is done at its second try, and then the run stops."""
-    mug = parse_instruction("find(mug1)")
+    cup = parse_instruction("find(cup1)")
     nothing: State = frozenset()
     told: list[Caption] = []
     film = Film(ready.cell, ready.skills)
     monkeypatch.setattr(film, "_hold", lambda seconds: told.append(film._caption))
     for failure in ("it broke", ""):
-        title = Title(mug, 1, 2, False, None)
+        title = Title(cup, 1, 2, False, None)
         film.begin(title, [])
-        film.end(title, ExecutedStep(mug, False, failure, "", (), (), 0, 0, nothing))
+        film.end(title, ExecutedStep(cup, False, failure, "", (), (), 0, 0, nothing))
     film.close(Execution(SkillStatus.STOPPED, "that was all", (), 1, nothing))
     assert [caption.number for caption in told] == ["1/2", "1/2, try 2", ""]
     assert told[-1].said == "1 of 2 instructions went as predicted; repairs of the plan: 1"

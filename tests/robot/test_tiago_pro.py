@@ -8,21 +8,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.bundled import kit
 from tmd.diagnostics import MissingToolError, TmdError
-from tmd.domain_kit import DomainKit
 from tmd.pddl.model import Instruction
 from tmd.records.trajectory import SampleLine
 from tmd.robot.pr2 import tiago_pro
 from tmd.robot.pr2.kinematics import Tree
 from tmd.robot.pr2.urdf import packaged_robot, prepare
-from tmd.world.folder import DomainFolder
-from tmd.world.roots import Roots
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 from tmd.robot.pr2.pr2 import Pr2
 from tmd.robot.sim.simulator import Simulator
 
-ROOT = Path(__file__).parents[2]
+CORNER = Path(__file__).parents[1] / "cli" / "corner.yaml"
 
 
 @pytest.fixture(scope="module")
@@ -91,10 +89,9 @@ def test_poses_are_solved_by_damped_least_squares(source: Path) -> None:
 
 
 def test_it_takes_a_cup(tmp_path: Path) -> None:
-    kit = DomainKit(Roots(ROOT / "domains", ROOT / "problems").corpus(DomainFolder(ROOT / "domains" / "kitchen")))
     plan = [Instruction(name, ("cup1",)) for name in ("find", "moveto", "grasp")]
     file = tmp_path / "run.jsonl"
-    run = kit.run_plan(plan, "kitchen1", kinematic=True, robot="tiago_pro", trajectory=file)
+    run = kit("kitchen").run_plan(plan, CORNER, kinematic=True, robot="tiago_pro", trajectory=file)
     assert run.execution.status == "done", run.execution.reason
     assert "(holding pr2 cup1)" in map(str, run.execution.steps[-1].state)
     sample = SampleLine.from_text(file.read_text().splitlines()[1], "run")
