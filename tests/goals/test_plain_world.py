@@ -102,4 +102,4 @@ def test_a_place_that_is_no_thing_is_a_predicate(tmp_path: Path, name: str) -> N
     assert f"({name} red_block)" in end(lifted)
     told = domain.ground("Put the block that is on the table on the red one.", tmp_path / "problem.pddl")
     assert end(told) & {"(on blue_block red_block)", "(on green_block red_block)"}
-    assert not goals(domain.ground("Put the red block on the floor.", tmp_path / "problem.pddl"))
+    assert not domain.ground("Put the red block on the floor.", tmp_path / "problem.pddl").plans

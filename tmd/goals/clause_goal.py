@@ -141,7 +141,8 @@ class RowUse:
 
 def lost_amount(clause: Clause) -> str | None:
     """Return a word for an amount that stands in a clause and in no part of it: *half of the milk*."""
-    kept = " ".join((*clause.objects, *clause.quantities.values(), clause.duration or "", clause.setting or ""))
+    setting = "" if clause.setting in words_of("amounts") else clause.setting or ""
+    kept = " ".join((*clause.objects, *clause.quantities.values(), clause.duration or "", setting))
     lost = [word for word in _WORD.findall(clause.text.lower()) if word in words_of("amounts")]
     return next((word for word in lost if word not in _WORD.findall(kept)), None)
 

@@ -6,7 +6,7 @@ its parts control, then the whole and its other parts. *Open the fridge* opens i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -147,15 +147,17 @@ class Grounder:
     def _find_relatives(self, name: str) -> tuple[tuple[str, ...], ...]:
         profiles = self.world.profiles
         parts = tuple(part for _, part in profiles.parts.get(name, ()))
-        own = {name, *parts}
-        edges = self.links
-        linked = dict.fromkeys(head for tail, head in edges if tail in own and head not in own)
-        linked = linked or dict.fromkeys(tail for tail, head in edges if head in own and tail not in own)
+        linked = self._linked({name, *parts})
         whole = profiles.wholes.get(name)
-        if whole is None:  # a knob stands in for its burner, but no pod for its machine, and no hat for its owner
-            linked = {other: None for other in linked if other in profiles.wholes}
         siblings = tuple(p for _, p in profiles.parts.get(whole, ()) if p != name) if whole else ()
-        return parts, tuple(linked), (whole,) if whole else (), siblings
+        if whole is None:  # a knob stands in for its burner, but no pod for its machine, and no hat for its owner
+            linked = tuple(other for other in linked if other in profiles.wholes)
+        return parts, linked, (whole,) if whole else (), siblings
+
+    def _linked(self, own: Collection[str]) -> tuple[str, ...]:
+        """Return what a thing or its parts are linked to, or else what is linked to them."""
+        heads = dict.fromkeys(head for tail, head in self.links if tail in own and head not in own)
+        return tuple(heads or dict.fromkeys(t for t, h in self.links if h in own and t not in own))
 
     @cached_property
     def links(self) -> tuple[tuple[str, str], ...]:

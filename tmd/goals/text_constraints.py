@@ -79,12 +79,9 @@ class ConstraintReader:
         """Return what a prohibition asks for; a note where it is about persons only: "don't leave me in the dark"."""
         if clause.direct and PERSONS.issuperset(clause.direct):
             return TextConstraints(notes=(f"'{text_of(clause)}' is not checked: it is about persons",))
-        unwanted = [c for noun in clause.direct for c in self.reader.nouns.substances(noun)] if clause.implied else []
-        if unwanted and is_verb(clause.verb, "having"):  # "no sugar, please"
-            about = (atom for constant in unwanted for atom in self.reader.nouns.facts_about(constant))
-            index = self.task.index
-            fresh = (atom for atom in about if atom in index and not state >> index[atom] & 1)
-            return TextConstraints(never=tuple(map(_literal, fresh)))
+        unwanted = self._unwanted(clause, state)
+        if unwanted:
+            return TextConstraints(never=unwanted)
         if is_verb(clause.verb, "handling") and not self.leaves_a_trace(clause.verb):
             names = self._kept_things(clause, state)
             if not names:
@@ -103,6 +100,14 @@ class ConstraintReader:
         if clause.implied or clause.result:
             return TextConstraints(kept=tuple(self._not_left_so(goal, state)))
         return TextConstraints(never=tuple(self._not_made_so(goal, state)))
+
+    def _unwanted(self, clause: Clause, state: Bits) -> tuple[Formula, ...]:
+        """Return that nothing gets a substance that is not wanted: "no sugar, please"."""
+        if not (clause.implied and is_verb(clause.verb, "having")):
+            return ()
+        nouns, index = self.reader.nouns, self.task.index
+        about = (atom for noun in clause.direct for c in nouns.substances(noun) for atom in nouns.facts_about(c))
+        return tuple(_literal(atom) for atom in about if atom in index and not state >> index[atom] & 1)
 
     def _not_left_so(self, goal: ClauseGoal, state: Bits) -> Iterator[Formula]:
         """Yield the contrary of each literal of a goal, to hold in the end."""

@@ -8,14 +8,14 @@ length of the text.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from functools import cache
 
 from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span, hull
 from tmd.language.lexicon.lexicon import Lexicon, builtin, pairs, section, sections, sections_of
 from tmd.language.syntax.antecedents import resolve
-from tmd.language.syntax.brackets import Bracketer
+from tmd.language.syntax.brackets import STATEMENT, Bracketer
 from tmd.language.syntax.frames import Frames
 from tmd.language.syntax.grammar import Linker, parse_tokens
 from tmd.language.syntax.joins import join
@@ -137,9 +137,7 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         if _is_idle(token, inside=token.span.start in covered):
             continue
         reason = token.note or NO_VERB
-        between = range(pieces[-1][0].end, token.span.start) if pieces else range(0)
-        apart = any(place in covered for place in between)
-        if pieces and pieces[-1][1] == reason and not apart and _adjacent(text, pieces[-1][0], token.span, reason):
+        if pieces and pieces[-1][1] == reason and _continues(text, pieces[-1][0], token.span, reason, covered):
             pieces[-1] = (hull([pieces[-1][0], token.span]), reason)
         else:
             pieces.append((token.span, reason))
@@ -155,6 +153,12 @@ def _is_idle(token: Token, *, inside: bool) -> bool:
 
 
 _SIGNS = frozenset({Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC, Kind.LINK, Kind.END})
+
+
+def _continues(text: str, before: Span, after: Span, reason: str, covered: Container[int]) -> bool:
+    """Return whether a piece goes on where another one ends: two statements do not, with a clause between them."""
+    apart = reason == STATEMENT and any(place in covered for place in range(before.end, after.start))
+    return not apart and _adjacent(text, before, after, reason)
 
 
 def _adjacent(text: str, before: Span, after: Span, reason: str) -> bool:

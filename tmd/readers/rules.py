@@ -158,23 +158,22 @@ class RuleDialogue(Dialogue):
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return StepGoals((), progress, note)
         clause = step.clause
-        staying = (
-            clause.mood is Mood.KEEP
-            and not clause.result
-            and self._goals.goes_elsewhere(clause, state, progress.memory)
-        )
-        if clause.mood is Mood.KEEP and not staying:
-            preserved = self._constraints.preserved(step.clause, state, progress.memory)
-            if isinstance(preserved, Refusal):
-                return StepGoals((), progress, preserved.message) if self._is_aside(step, preserved) else preserved
-            return StepGoals((), progress, "it stays as it is", tuple(preserved))
-        if staying:  # "it shall remain on the table", wherever it is by now
-            clause = replace(clause, verb=PUT, mood=Mood.DO)
+        if clause.mood is Mood.KEEP:
+            if clause.result or not self._goals.goes_elsewhere(clause, state, progress.memory):
+                return self._kept(step, state, progress)
+            clause = replace(clause, verb=PUT, mood=Mood.DO)  # "it shall remain on the table", wherever it is by now
         found = self._goals.candidates(clause, state, progress.memory, awaited=step.awaited)
         if isinstance(found, Refusal):
             idle = (step.optional and _means_nothing(step, found)) or self._is_aside(step, found)
             return StepGoals((), progress, found.message) if idle else found
         return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
+
+    def _kept(self, step: RuleStep, state: Bits, progress: _Progress) -> StepGoals | Refusal:
+        """Return what a step keeps as it is."""
+        preserved = self._constraints.preserved(step.clause, state, progress.memory)
+        if isinstance(preserved, Refusal):
+            return StepGoals((), progress, preserved.message) if self._is_aside(step, preserved) else preserved
+        return StepGoals((), progress, "it stays as it is", tuple(preserved))
 
     def _is_aside(self, step: RuleStep, refusal: Refusal) -> bool:
         """Return whether a step that is refused may be left out, since another one asks for something.

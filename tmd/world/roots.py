@@ -149,11 +149,14 @@ class Roots:
         if found:
             domains = ", ".join(file.parent.parent.name for file in found)
             raise TmdError(f"several domains have an environment '{name}'", hint=f"give --domain: {domains}")
+        if domain and not files:
+            folders = sorted({d.name for root in find_roots("problems", self.problems) for d in root.iterdir()})
+            raise TmdError(
+                f"there is no environment '{name}' of '{domain}'", hint=nearest(domain, folders, what="domains")
+            )
         known = sorted({file.stem for file in files})
-        raise TmdError(
-            f"there is no environment '{name}'",
-            hint=nearest(name, known, what="environments") or "give the file of one",
-        )
+        hint = nearest(name, known, what="environments")
+        raise TmdError(f"there is no environment '{name}'", hint=hint or f"give a file, or one of {', '.join(known)}")
 
     def world(self, environment: str, domain: str | None = None) -> tuple[Corpus, World]:
         """Return an environment, ready for grounding, and the corpus of its domain.

@@ -17,7 +17,7 @@ from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
 from tmd.goals.sources.table import ACTIONS, GoalTable
 from tmd.goals.words import BE, PREPOSITIONS, family, is_relation, is_verb, ranked, relations_said, the_word, words_of
-from tmd.language.clause import BRING, TO, Clause
+from tmd.language.clause import BRING, TO, Clause, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.lexicon.nouns import split_name
 from tmd.pddl.ground_formula import TRUE
@@ -130,29 +130,34 @@ class GoalReader:
 
         Where things shall be is the result of the clause; any other place tells which things are meant.
         """
-        goes = clause.verb == BE or is_verb(clause.verb, "leaving") or clause.verb in section("placing")
         for relation in dict.fromkeys((*clause.relations, *clause.stated)) if self._place_states else ():
-            origin = is_relation(relation.relation, "origin")
-            arrives = relation.relation in section("arrivals")
-            said = [
-                state
-                for (preposition, noun), state in self._place_states.items()
-                if noun == relation.target and (origin or relations_said(relation.relation, (preposition,)))
-            ]
-            if not said or relation.source not in clause.objects or self.knows_of(relation.target):
-                continue
-            stated = relation in clause.stated
-            relations = tuple(r for r in clause.relations if r != relation)
-            objects = tuple(o for o in clause.objects if o != relation.target or any(o in r for r in relations))
-            others = tuple(r for r in clause.stated if r != relation)
-            clause = replace(clause, relations=relations, stated=others, objects=objects)
-            if (goes or arrives) and relation.source in clause.direct and not (origin or stated or clause.result):
-                clause = replace(clause, result=said[0])
-            else:
-                phrase = clause.phrase(relation.source)
-                told = replace(phrase, attributes=(*phrase.attributes, said[0]))
-                clause = replace(clause, phrases={**clause.phrases, relation.source: told})
+            state = self._place_state(relation)
+            if state and relation.source in clause.objects and not self.knows_of(relation.target):
+                clause = self._with_state(clause, relation, state)
         return clause
+
+    def _place_state(self, relation: Relation) -> str | None:
+        """Return the state that a place is, of what leaves it or gets there."""
+        origin = is_relation(relation.relation, "origin")
+        said = (
+            state
+            for (preposition, noun), state in self._place_states.items()
+            if noun == relation.target and (origin or relations_said(relation.relation, (preposition,)))
+        )
+        return next(said, None)
+
+    @staticmethod
+    def _with_state(clause: Clause, relation: Relation, state: str) -> Clause:
+        """Return the clause with a state in the place of a relation: as its result, or as an adjective of the thing."""
+        goes = _goes(clause, relation)
+        relations, stated = (tuple(r for r in rs if r != relation) for rs in (clause.relations, clause.stated))
+        objects = tuple(o for o in clause.objects if o != relation.target or any(o in r for r in relations))
+        clause = replace(clause, relations=relations, stated=stated, objects=objects)
+        if goes and not clause.result:
+            return replace(clause, result=state)
+        phrase = clause.phrase(relation.source or "")
+        described = replace(phrase, attributes=(*phrase.attributes, state))
+        return replace(clause, phrases={**clause.phrases, phrase.name: described})
 
     def _is_state(self, clause: Clause) -> bool:
         """Return whether a clause says what is to be so, and no row says what that means."""
@@ -314,6 +319,14 @@ class GoalReader:
         near = ", ".join(map(words, nearest_verbs(clause.verb, known)))
         hint = f"the nearest known verbs are {near}" if near else "say what shall be different afterwards"
         return Refusal(RefusalKind.UNKNOWN_VERB, f"unknown verb '{words(clause.verb)}'", hint)
+
+
+def _goes(clause: Clause, relation: Relation) -> bool:
+    """Return whether a place is where the things that a clause acts on shall be."""
+    placing = clause.verb == BE or is_verb(clause.verb, "leaving") or clause.verb in section("placing")
+    goes = placing or relation.relation in section("arrivals")
+    told = relation in clause.stated or is_relation(relation.relation, "origin")
+    return goes and relation.source in clause.direct and not told
 
 
 def _is_unclear(refusal: Refusal) -> bool:

@@ -392,8 +392,7 @@ class RowReader:
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
             if not isinstance(found, Refusal):
-                alike = [r for r in fitting[place + 1 :] if len(r.slots) == len(row.slots)]
-                row, found = self._still_to_do(alike, row, found, unit, reading)
+                row, found = self._still_to_do(fitting[place + 1 :], row, found, unit, reading)
                 shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
                 return self._with_fewer(shorter, row, found, unit, reading) or (found, row)
             failure = failure or found
@@ -407,13 +406,13 @@ class RowReader:
         return replace(failure, rows=tuple(tried))
 
     def _still_to_do(
-        self, alike: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
+        self, others: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
     ) -> tuple[GoalRow, Formula]:
         """Return another row where one asks only to be rid of what is nowhere: "throw the egg away" means the egg."""
         if not (only_negative(found) and self.grounder.truth(found, reading.state)):
             return row, found
         before = dict(reading.meant), list(reading.approach), list(reading.notes)
-        for other in alike:
+        for other in (each for each in others if len(each.slots) == len(row.slots)):
             tried = self._by_row(other, unit, reading)
             if not isinstance(tried, Refusal) and not self.grounder.truth(tried, reading.state):
                 return other, tried

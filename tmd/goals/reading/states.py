@@ -132,18 +132,18 @@ class States:
     ) -> Formula | Refusal:
         """Return that a substance is where it is contained, and as that is: *the beer on the shelf*."""
         result = reading.clause.result
-        adjectives = [*([result] if result else []), *reading.clause.phrase(noun).attributes]
+        adjectives = [*filter(None, [result]), *reading.clause.phrase(noun).attributes]
         targets = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
         bound = reading.memory.bound.get(noun, Bound(()))
         known = () if targets else bound.containers
-        exists = not (targets or adjectives)  # "if there is any sugar", in the bowl that always has some
-        contained = self._contained(constants, fixed=bool(targets) or exists)
+        # "if there is any sugar", in the bowl that always has some
+        contained = self._contained(constants, fixed=bool(targets) or not adjectives)
         ways = []
         for thing, held in contained:
             placed = [TRUE if thing in names else self._related(thing, r, names, reading) for r, names in targets]
             said = [self.nouns.attribute(word, thing, reading.moments) for word in adjectives]
             told = [f for f in said if f is not None]
-            if (not known or thing in known) and FALSE not in placed and len(told) == len(said):
+            if thing in (known or (thing,)) and FALSE not in placed and len(told) == len(said):
                 ways.append(conjunction((held, *placed, *told)))
         if not ways:
             message = f"'{text_of(reading.clause)}' says nothing that could be checked here"

@@ -587,7 +587,7 @@ class Bracketer(ClauseEnds):
 
     def _reasoned(self) -> None:
         """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""
-        if self._verb is not None and (self._told or self._verb.stem in section("wishing")):
+        if self._verb is not None and (self._told or self._verb.told or self._verb.stem in section("wishing")):
             self._take_back(self._subject, REASON)
         if self._verb is not None:
             return

@@ -21,15 +21,20 @@ class ClauseEnds(Words):
             deed = self.kind(end) is K.V and self.kind(end - 1) not in (K.TO, K.AUX, K.NEG)
             # "such a draught that I'll catch a cold", "they are getting warm"
             deed = deed and not (self.among(end - 1, "self_forms") or self.stem_among(end - 1, "becoming"))
-            joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
-            also = self.kind(end) is K.COMMA and self._statement_follows(end)
-            also = also or (self.kind(end) in LINKS and self._is_reason(end + 1))
-            also = also or (self.kind(end) in LINKS and self._too(end + 1 + (self.kind(end + 1) is K.CC)))
-            then = self.among(end, "then_words") and self.kind(end) in LINKS
-            if deed or joint or also or then or self.follows(end, "SUB|ENSURE|PURP"):
+            if deed or self._goes_on_behind(end) or self.follows(end, "SUB|ENSURE|PURP"):
                 break
             end += 1
         return end
+
+    def _goes_on_behind(self, at: int) -> bool:
+        """Return whether something else than a statement goes on behind a comma or a conjunction."""
+        if self.follows(at, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX"):
+            return True
+        if self.kind(at) not in LINKS:
+            return False
+        said = self.kind(at) is K.COMMA and self._statement_follows(at)
+        also = self._too(at + 1 + (self.kind(at + 1) is K.CC))
+        return said or also or self._is_reason(at + 1) or self.among(at, "then_words")
 
     def _statement_follows(self, at: int) -> bool:
         """Return whether a subject with its finite verb stands behind a comma or a conjunction."""

@@ -128,9 +128,7 @@ class TextReading:
         """Read verbs that mean less, or more, than themselves: wishes, "swap", "do the same", "use neither"."""
         if first.verb.stem in section("wishing"):
             first.verb.stem, first.verb.form = HAVE, IMPLIED
-            # "I need it later" is no request
-            vague = bool(last.direct) and not (last.landmarks or last.result) and all(p.pronoun for p in last.direct)
-            first.verb.told = first.verb.told or vague
+            first.verb.told = first.verb.told or _is_vague(last)
         if self.forbidden and not (last.direct or last.landmarks) and trees(arguments, "denial"):
             self.drafts.remove(last)  # "use neither the saw nor the drill"
             self.forbidden[-1][1].spans.extend(last.spans)
@@ -326,13 +324,18 @@ class TextReading:
             drafts = saying.clauses(self._attach)
             allowed = any(t.text in section("modals") for t in saying.helpers)
             asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
-            if not asked:
+            if asked:
+                self._demand(node, drafts, conditions)
+            else:
                 self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
-            for draft in drafts if asked else ():
-                demand(draft, denied=opener.negated)
-                draft.verb.otherwise = any(t.otherwise for t in leaves(node))
-                draft.spans += spans([node])
-                self._demanded(draft, conditions)
+
+    def _demand(self, node: Tree[Leaf], drafts: Sequence[ClauseDraft], conditions: Sequence[Node]) -> None:
+        """Ask for the states that a statement demands."""
+        for draft in drafts:
+            demand(draft, denied=next(leaves(node)).negated)
+            draft.verb.otherwise = any(t.otherwise for t in leaves(node))
+            draft.spans += spans([node])
+            self._demanded(draft, conditions)
 
     def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft], before: int, note: str) -> None:
         """Set a statement aside; pronouns may mean what it mentions."""
@@ -463,6 +466,12 @@ def _supplied(unit: Tree[Leaf], front: list[Node], topic: Sequence[Tree[Leaf]]) 
 def _bare_place(nodes: Sequence[Node]) -> Tree[Leaf] | None:
     """Return the first place that is only a preposition."""
     return next((place for place in trees(nodes, "place") if not trees(place.children, "group")), None)
+
+
+def _is_vague(draft: ClauseDraft) -> bool:
+    """Return whether a wish names nothing: "I need it later" is no request."""
+    said = draft.landmarks or draft.result
+    return bool(draft.direct) and not said and all(p.pronoun for p in draft.direct)
 
 
 def _is_counted(nodes: Sequence[Node]) -> bool:

@@ -58,27 +58,34 @@ class Saying:
         words = [*self.verbs, *self.helpers]
         modal = any(t.text in section("modals") for t in words)
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
-        # "Grandma wants the lamp on"
-        wished = wished or any(t.kind is Kind.FINITE and t.stem in section("ordering") for t in self.verbs[-1:])
         settled = section("belonging") | section("staying")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
         subject = {t.text.partition("'")[0] for node in self.subject for t in leaves(node)}
         somebody = bool(subject) and subject <= section("tellers")  # "we have guests"
-        return wished or placed or (any(t.text in section("duties") for t in words) and not somebody)
+        duty = any(t.text in section("duties") for t in words) and not somebody
+        return wished or placed or duty or self._wants()
+
+    def _wants(self) -> bool:
+        """Return whether somebody wants something: "Grandma wants the lamp on"."""
+        wishing = section("wishing") - section("liking")
+        return bool(self.verbs) and self.verbs[-1].kind is Kind.FINITE and self.verbs[-1].stem in wishing
 
     def clauses(self, attach: Attach) -> list[ClauseDraft]:
         """Return what it says."""
         if self._only_states():
             return [self._state(attach)]
-        loose = any(v.text in section("loosely") for v in self.verbs)
-        left = loose and bool(trees(self.rest, "state", "place"))  # "left lying on the table"
-        verbs = [] if left else self.verbs
+        verbs = [] if self._is_left() else self.verbs
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and self._passive():
             return [self._done(verb, attach) for verb in verbs if verb.kind is Kind.PARTICIPLE]
         owned = self._owns(verbs)
         if verbs and not owned:
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
         return [self._owned(attach) if owned else self._state(attach)]
+
+    def _is_left(self) -> bool:
+        """Return whether it says only where or how something is: "left lying on the table"."""
+        loose = any(v.text in section("loosely") for v in self.verbs)
+        return loose and bool(trees(self.rest, "state", "place"))
 
     def _owns(self, verbs: Sequence[Token]) -> bool:
         """Return whether a thing has, or should have, something: "the cup gets some milk"."""
