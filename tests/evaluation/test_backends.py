@@ -20,24 +20,39 @@ from tests.cli.conftest import Ended, heed_interrupts, run_tmd
 from tmd import __version__
 from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation.models import model
-from tmd.evaluation.runs import cluster
+from tmd.evaluation.runs import backends, cluster
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.experiment import run
-from tmd.evaluation.runs.jobs import EvaluationJob, WorkerLostError
+from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, WorkerLostError, do
 
 ROOT = Path(__file__).parents[2]
 FILES = ("config.json", "predictions.jsonl", "metrics.json")
-COMMAND = ("experiment", "--task", "ramen", "--train-tasks", "ramen", "--models", "empty,chance")
+MODELS = ("empty", "chance", "nearest", "tree")
+PARTS = 12
+# in this small domain a unit takes milliseconds: nobody could interrupt the run between two of them
+SLOWLY = """
+import time
+from tmd.evaluation.runs import backends, cluster, jobs
+def slowly(config, unit, fits):
+    time.sleep(0.3)
+    return jobs.do(config, unit, fits)
+backends.do = cluster.do = slowly
+"""
+COMMAND = (
+    *("experiment", "--domain", "02_table", "--task", "set_table", "--train-tasks", "set_table"),
+    *("--models", ",".join(MODELS)),
+)
 needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="the package distributed is not installed")
 needs_signals = pytest.mark.skipif(sys.platform == "win32", reason="no signals here")
 
 
 def config(out: Path, **changes: object) -> ExperimentConfig:
     base = ExperimentConfig(
-        "ramen",
+        "set_table",
         out,
-        train_tasks=("ramen",),
-        models=("empty", "chance"),
+        domain="02_table",
+        train_tasks=("set_table",),
+        models=MODELS,
         domains=ROOT / "domains",
         problems=ROOT / "problems",
     )
@@ -53,6 +68,7 @@ def serial(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
     """The files that one process writes."""
     out = tmp_path_factory.mktemp("serial") / "out"
     run(config(out))
+    assert len(list((out / "parts").iterdir())) == PARTS
     return outcome(out)
 
 
@@ -71,7 +87,7 @@ def once(action: Callable[[], None]) -> Callable[[int, int], None]:
 def begin(out: Path, *options: str) -> subprocess.Popen[bytes]:
     """Start ``tmd experiment`` in a process group of its own."""
     return subprocess.Popen(
-        [sys.executable, "-c", "from tmd.cli import main\nmain()", *COMMAND, "--out", str(out), *options],
+        [sys.executable, "-c", f"{SLOWLY}from tmd.cli import main\nmain()", *COMMAND, "--out", str(out), *options],
         cwd=out.parent,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         stdout=subprocess.PIPE,
@@ -118,27 +134,26 @@ def test_an_interruption_is_one_line_and_loses_nothing(tmp_path: Path, serial: d
     assert error.decode().splitlines()[-1] == "error: interrupted"
     assert told == b""
     times = {p: p.stat().st_mtime_ns for p in (out / "parts").iterdir()}
-    assert 0 < len(times) < 20
+    assert 0 < len(times) < PARTS
     run(config(out))
     assert outcome(out) == serial
     assert {p: p.stat().st_mtime_ns for p in times} == times
 
 
-def blocked(number: int) -> tuple[int, bool]:
-    """Tell the process id and whether interruptions are blocked; wait, so that another process has a turn as well."""
-    time.sleep(0.2)
-    return os.getpid(), signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+BLOCKED = """
+import signal, time
+from tmd.evaluation.runs.backends import in_processes
+def blocked(number):
+    time.sleep(0.2)  # so that another process has a turn as well
+    return signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+print(list(in_processes(blocked, [(n,) for n in range(6)], 2)), blocked(0))
+"""
 
 
 @needs_signals
 def test_workers_never_hear_of_interruptions() -> None:
     """In a new process, where nothing has started yet that workers need."""
-    script = (
-        "from tests.evaluation.test_backends import blocked\n"
-        "from tmd.evaluation.runs.backends import in_processes\n"
-        "print(sorted(deaf for _, deaf in in_processes(blocked, [(n,) for n in range(6)], 2)), blocked(0)[1])\n"
-    )
-    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", BLOCKED], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stdout == f"{[True] * 6} False\n", done.stderr
 
 
@@ -159,11 +174,16 @@ def workers_of(pid: int) -> list[int]:
 
 
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are listed in another way here")
-def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes]) -> None:
+def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes], monkeypatch: pytest.MonkeyPatch) -> None:
+    def slowly(config: ExperimentConfig, unit: EvaluationJob, fits: Path) -> JobOutcome:
+        time.sleep(0.3)
+        return do(config, unit, fits)
+
     def kill() -> None:
         for pid in workers_of(os.getpid()):
             os.kill(pid, signal.SIGKILL)
 
+    monkeypatch.setattr(backends, "do", slowly)
     with pytest.raises(WorkerLostError, match="the same command goes on from there") as caught:
         run(config(tmp_path, jobs=2), once(kill))
     assert caught.value.exit_code == ExitCode.GAVE_UP
@@ -173,6 +193,8 @@ def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes]) -> N
 
 
 # A cluster
+
+NO_TMD = "import sys\nsys.modules['tmd'] = None\n"
 
 
 class Cluster:
@@ -197,7 +219,11 @@ class Cluster:
             return subprocess.Popen(command, cwd=self.directory, env={**os.environ, **settings}, stdout=log, stderr=log)
 
     def work(self, count: int, *options: str) -> None:
-        """Start some workers."""
+        """Start some workers; they are slow unless there are options."""
+        if not options:
+            preload = self.directory / "slowly.py"
+            preload.write_text(SLOWLY)
+            options = ("--preload", str(preload))
         for _ in range(count):
             self.workers.append(self.start("worker", "--no-nanny", "--nthreads", "1", *options))
 
@@ -216,8 +242,11 @@ class Cluster:
 
 @pytest.fixture(scope="module")
 def scheduled(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
-    """A scheduler for all tests that leave it alive."""
-    started = Cluster(tmp_path_factory.mktemp("cluster"))
+    """A scheduler for all tests that leave it alive; it has no tmd, and needs none."""
+    directory = tmp_path_factory.mktemp("cluster")
+    preload = directory / "no_tmd.py"
+    preload.write_text(NO_TMD)
+    started = Cluster(directory, "--preload", str(preload))
     yield started
     started.stop()
 
@@ -273,7 +302,7 @@ def test_a_scheduler_that_dies_is_told(tmp_path: Path, serial: dict[str, bytes])
     assert lines[1].startswith("hint: restart it; what is done is kept")
     assert len(lines) == 2
     assert told == b""
-    assert 0 < len(list((out / "parts").iterdir())) < 20
+    assert 0 < len(list((out / "parts").iterdir())) < PARTS
     run(config(out))
     assert outcome(out) == serial
 
@@ -290,7 +319,7 @@ def test_an_interruption_leaves_the_cluster_ready(tmp_path: Path, cluster_: Clus
     assert process.returncode == ExitCode.INTERRUPTED, error
     assert said(error) == ["error: interrupted"]
     assert told == b""
-    assert 0 < len(list((out / "parts").iterdir())) < 20
+    assert 0 < len(list((out / "parts").iterdir())) < PARTS
     run(on(cluster_, out))
     assert outcome(out) == serial
 
@@ -310,7 +339,7 @@ def test_a_unit_that_kills_its_workers_is_told(
         "model.MODELS['killer'] = Killer\n"
     )
     monkeypatch.setattr(model, "MODELS", {**model.MODELS, "killer": model.Empty})
-    cluster_.work(3, "--preload", str(preload))
+    cluster_.work(2, "--preload", str(preload))
     with pytest.raises(WorkerLostError, match="brought down several workers"):
         run(on(cluster_, tmp_path / "out", models=("killer",), test_environments=(1,)))
 
@@ -326,36 +355,25 @@ def test_a_worker_with_another_version_or_data_is_told(
             run(on(cluster_, tmp_path / "out"))
     problems = tmp_path / "problems"
     problems.mkdir()
-    (problems / "kitchen").symlink_to(ROOT / "problems" / "kitchen")
-    (cluster_.directory / "problems" / "kitchen").mkdir(parents=True)
+    (problems / "02_table").symlink_to(ROOT / "problems" / "02_table")
+    (cluster_.directory / "problems" / "02_table").mkdir(parents=True)
     monkeypatch.chdir(tmp_path)
     with pytest.raises(DataError, match=r"the worker on .* (has other|cannot read the) data"):
         run(on(cluster_, tmp_path / "out", problems=None))
 
 
 @needs_dask
-def test_a_worker_without_tmd_is_told_and_a_scheduler_needs_none(tmp_path: Path, serial: dict[str, bytes]) -> None:
+def test_a_worker_without_tmd_is_told(tmp_path: Path, cluster_: Cluster) -> None:
     preload = tmp_path / "preload.py"
-    preload.write_text("import sys\nsys.modules['tmd'] = None\n")
-    directory = tmp_path / "cluster"
-    directory.mkdir()
-    started = Cluster(directory, "--preload", str(preload))
-    try:
-        started.work(1)
-        run(on(started, tmp_path / "out"))
-        assert outcome(tmp_path / "out") == serial
-        started.workers[0].terminate()
-        started.workers[0].wait()
-        started.work(1, "--preload", str(preload))
-        with pytest.raises(MissingToolError, match="a worker cannot run tmd"):
-            run(on(started, tmp_path / "other"))
-    finally:
-        started.stop()
+    preload.write_text(NO_TMD)
+    cluster_.work(1, "--preload", str(preload))
+    with pytest.raises(MissingToolError, match="a worker cannot run tmd"):
+        run(on(cluster_, tmp_path / "out"))
 
 
 def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
     here = config(tmp_path, test_environments=(1,))
-    unit = EvaluationJob("empty", "ramen_2-5", ("given",))
+    unit = EvaluationJob("empty", "set_table_2", ("given",))
     found = cluster.open_dataset(here).fingerprint()
     assert cluster.remote(here, unit, __version__, found).parts.keys() == {"given"}
     with pytest.raises(DataError, match=r"other data: their fingerprint is \w+, and not 0123"):
