@@ -98,10 +98,7 @@ CONTENTS = {
     ("arguments", "told"),
     [
         (("test", "--cases", "bad.sentences.jsonl"), r"bad\.sentences\.jsonl:1:10: this is not valid JSON"),
-        (
-            ("view", "demonstrations.jsonl"),
-            r"demonstrations\.jsonl:1:8: this is not a demonstration: id: should be text",
-        ),
+        (("view", "demonstrations.jsonl"), r"demonstrations\.jsonl is JSON of no kind that can be shown"),
         (("validate", "04_tea", PROBLEM, "bad.plan"), r'bad\.plan:1:8: "cup\?" is not a name'),
         (("view", "bad.plan"), r"for the plan bad\.plan give one of --problem and --environment"),
         (("ground", "--environment", "room.xml", "--text", "x"), r"not grounded in single rooms of VEIL-500"),
