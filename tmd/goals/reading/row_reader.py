@@ -312,7 +312,8 @@ class RowReader:
 
     def _reversed(self, nouns: Sequence[_Option], reading: ClauseReading) -> _Option | None:
         """Return an option that undoes what was done meanwhile, or that would have prevented it if it comes first."""
-        undone = [option for option in nouns if self._undoes(option.goal[0], reading)]
+        # one closes again, or turns off: "turn off the lamp, put the film in, start it" is not about the lamp
+        undone = [o for o in nouns if only_negative(o.goal[0]) and self._undoes(o.goal[0], reading)]
         ahead = nouns[: nouns.index(undone[0])] if undone else nouns
         locking = (option for option in ahead if len(nouns) > 1 and self._locks(option.goal[0], reading))
         return next(locking, None) or self._outermost(undone, reading)
