@@ -3,7 +3,7 @@
 "use strict";
 (() => {
   const KEY = "tmd-page", EVENT = "tmdevent", PLAN = "tmd-plan", LOOK = 1500, LATE = 350, PATIENCE = 12000;
-  const SENT = 55, REST = 100, SOON = 15, NEAR = 6; // milliseconds; pixels
+  const SENT = 55, BUSY = 3000, REST = 100, SOON = 15, NEAR = 6; // milliseconds; pixels
   const getItem = Storage.prototype.getItem, setItem = Storage.prototype.setItem;
   const mine = (key) => String(key).endsWith(KEY);
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -27,12 +27,23 @@
 
   // Of what happens in the panel viser sends something every 50 ms at most, and of what happens meanwhile the last thing
   // only. So a click waits until what was typed before it is sent, and what this script has to tell waits as well.
-  let holding = 0, last = null, unsent = null;
+  let holding = 0, since = 0, last = null, unsent = null;
   const later = [], again = new Set();
 
   function hold() { // two timers, each a little longer than viser's: it may send once more after 50 ms
+    since = performance.now();
+    wait(2);
+  }
+
+  function wait(times) {
     clearTimeout(holding);
-    holding = setTimeout(() => { holding = setTimeout(go, SENT); }, SENT);
+    const due = performance.now() + SENT;
+    holding = setTimeout(() => {
+      const now = performance.now();
+      // where this timer is late the page is busy, and viser's are late as well
+      const left = now - due > SENT / 2 && now - since < BUSY ? 2 : times - 1;
+      if (left) wait(left); else go();
+    }, SENT);
   }
 
   function go() {
@@ -68,8 +79,14 @@
     if (!event.isTrusted || !holding) return last = null, hold();
     event.preventDefault();
     event.stopImmediatePropagation();
-    later.push(() => found.click());
+    later.push(() => anew(found).click());
   }, true);
+
+  function anew(button) { // the panel may have been drawn again meanwhile
+    if (button.isConnected) return button;
+    const alike = [...document.querySelectorAll(button.tagName)];
+    return alike.find((each) => each.textContent === button.textContent) || button;
+  }
 
   for (const kind of ["keydown", "pointermove", "pointerup"]) { // sliders
     addEventListener(kind, (event) => {
