@@ -24,7 +24,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
@@ -69,8 +69,7 @@ class EnvironmentFile(BaseModel):
 class Environment:
     """An environment as it was read; :func:`tmd.world.compile.compile_problem` gives it its meaning.
 
-    ``called`` has the PDDL names of parts that are not named after their whole, each with its name here; ``room`` has
-    the corners of the walls, in order.
+    ``room`` has the corners of the walls, in order.
     """
 
     name: str
@@ -79,7 +78,6 @@ class Environment:
     objects: Mapping[str, ObjectEntry]
     facts: tuple[str, ...]
     source: YamlSource
-    called: Mapping[str, str] = field(default_factory=dict)
     room: tuple[Corner, ...] = ()
 
 

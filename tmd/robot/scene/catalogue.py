@@ -38,20 +38,16 @@ class Catalogue:
     def __init__(self, environment: Environment, blueprints: dict[str, Blueprint], parts: dict[str, list[str]]) -> None:
         self.environment = environment
         self.blueprints = blueprints
-        self._spelled = {meant: said for said, meant in environment.called.items()}
         self._places: dict[str, tuple[str, str]] = {FLOOR: (FLOOR, ROOT)}
         for name in blueprints:
             self._places[name] = (name, ROOT)
             for part in parts[name]:
                 self._places[self.named(name, part)] = (name, part)
-        for said, meant in environment.called.items():
-            if said not in self._places:
-                self._places[said] = self.where(meant)
 
-    def named(self, whole: str, part: str) -> str:
+    @staticmethod
+    def named(whole: str, part: str) -> str:
         """Return the name of a part of an object; of the object itself if no part is given."""
-        usual = f"{whole}_{part}"
-        return self._spelled.get(usual, usual) if part else whole
+        return f"{whole}_{part}" if part else whole
 
     def whole(self, name: str) -> str:
         """Return the object that an object or part belongs to."""

@@ -117,7 +117,7 @@ def _write(whole: Image, top: int, caption: Caption) -> None:
     draw = ImageDraw.Draw(whole)
     unit = whole.width / _USUAL
     left, right = 14 * unit, whole.width - 14 * unit
-    bold, plain, small = _font(round(20 * unit), True), _font(round(15 * unit), False), _font(round(14 * unit), False)
+    bold, plain, small = _font(round(20 * unit)), _font(round(15 * unit)), _font(round(14 * unit))
 
     def at(row: float) -> float:
         return top + row * unit
@@ -214,14 +214,8 @@ def _wrapped(draw: ImageDraw, text: str, font: Font, width: float, most: int) ->
 
 
 @cache
-def _font(size: int, bold: bool) -> Font:
-    """Return the font that comes with matplotlib, or else Pillow's own."""
+def _font(size: int) -> Font:
+    """Return Pillow's own font."""
     from PIL import ImageFont
 
-    found = importlib.util.find_spec("matplotlib")
-    if found is not None and found.origin is not None:
-        name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
-        path = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / name
-        if path.is_file():
-            return ImageFont.truetype(str(path), size)
     return ImageFont.load_default(size)
