@@ -223,7 +223,7 @@ class Nouns(Facts):
         if noun in self.lexicon.nouns:
             return self._aliased(noun, names)
         alike = {word for modifier in modifiers for word in state_words(modifier)}  # the upper drawer is the top one
-        called = [n for n in names if any(alike & set(split_name(kind)) for kind in self._kinds(n))]
+        called = [n for n in names if any(alike & _words_of_name(kind) for kind in self._kinds(n))]
         return called or self._described(modifiers, names, Moments(state, state))
 
     def _aliased(self, noun: str, names: list[str]) -> list[str]:
@@ -273,8 +273,7 @@ class Nouns(Facts):
         """Return the words in the names of a thing, of its class, of its whole, and of all that it may hold."""
         held = (a for fact in self.facts_about(name) for a in fact.args if self.is_constant(a))
         kinds = (*self._kinds(name), *self.world.profiles.unit(name), *held)
-        words = {word for kind in kinds for word in split_name(kind)}
-        return words | set(map(singular, words))
+        return {word for kind in kinds for word in _words_of_name(kind)}
 
     def _belongs(self, modifier: str, name: str, moments: Moments) -> bool:
         """Return whether a thing holds, may hold or is related to what a modifier names; a substance: comes from it."""
@@ -391,6 +390,12 @@ class Nouns(Facts):
     def _modified(self, name: str) -> bool:
         """Return whether the name of an object says which one of its kind it is: ``red_block``."""
         return len([word for word in split_name(name) if not word.isdigit()]) > 1
+
+
+def _words_of_name(name: str) -> set[str]:
+    """Return the words of a name, and the singulars of those that are plurals: a ``chips_packet`` is a chip packet."""
+    words = split_name(name)
+    return {*words, *map(singular, words)}
 
 
 def _tells_of(noun: str, fact: GroundAtom) -> bool:
