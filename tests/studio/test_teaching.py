@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -144,12 +145,14 @@ def test_what_is_learned_in_the_background_is_what_tmd_ground_has(table: Corpus)
 def test_what_is_saved_while_it_is_learned_is_learned_once_more(table: Corpus) -> None:
     teacher = Teacher(table)
     first = teacher.retrain()
+    while not first.share:  # it has read the files
+        time.sleep(0.001)
     teacher.learn_one(show(table, "corner1", "Hide the cup on the shelf.", TABLE))
     assert teacher.retrain() is first or first.trained
-    assert first.wait(120)
     assert "hide" in teacher.knowledge.library.verbs()
-    while teacher.learning and teacher.training is not None:
-        assert teacher.training.wait(120)
+    while teacher.learning:  # until all is learned
+        time.sleep(0.001)
+    assert teacher.training is not None and teacher.training.wait(120)
     assert same(teacher.knowledge, study(Corpus(table.folder, table.directory)))
 
 

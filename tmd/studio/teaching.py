@@ -202,9 +202,13 @@ class Teacher:
         """
         with self._guard:
             if self.training is None or not self.learning:
-                self.learning = True
-                self.training = Training(self.corpus, self._root, self._become)
+                return self._train()
             return self.training
+
+    def _train(self) -> Training:
+        self.learning = True
+        self.training = Training(self.corpus, self._root, self._become)
+        return self.training
 
     def model_reader(self, model: str, url: str, *, verify: bool) -> Reader:
         """Return the reader that asks a language model; the same one for the same settings.
@@ -269,10 +273,10 @@ class Teacher:
     def _become(self, trained: Trained | None) -> None:
         """Use what was learned; the library may know more by now, and then it is learned once more."""
         with self._guard:
+            if trained is not None:
+                self.learn_one()
+                self.knowledge = Knowledge(self.knowledge.library, trained.reward, goals=trained.goals)
+                if trained.made_from != self._digest:
+                    self._train()  # nobody may see meanwhile that nothing is being learned
+                    return
             self.learning = False
-            if trained is None:
-                return
-            self.learn_one()
-            self.knowledge = Knowledge(self.knowledge.library, trained.reward, goals=trained.goals)
-            if trained.made_from != self._digest:
-                self.retrain()

@@ -170,6 +170,11 @@ class Bracketer(ClauseEnds):
     def _last(self) -> Kind:
         return self.out[-1].kind if self.out else K.SEP
 
+    def _cut(self, start: int) -> None:
+        """Remove what has been emitted from a place on."""
+        del self.out[start:]
+        self._subject = min(self._subject, start)
+
     def _named(self) -> bool:
         """Return whether something has been named that may be a subject."""
         return any(t.kind in HEADS for t in self.out[self._subject :])
@@ -237,7 +242,7 @@ class Bracketer(ClauseEnds):
         if back < 0 or self.out[back].kind is not K.V or self.out[back].stem not in section("lead_verbs"):
             return False
         self._told = self._somebody and self.out[back].stem in section("wishing")  # "I want to watch it"
-        del self.out[back:]
+        self._cut(back)
         self._verb = None
         return True
 
@@ -465,7 +470,7 @@ class Bracketer(ClauseEnds):
     def _take_back(self, start: int, note: str) -> None:
         """Set aside what has been emitted from a place on."""
         self.dropped += noted(self.out[start:], note)
-        del self.out[start:]
+        self._cut(start)
         if self._verb is not None and self._verb.note:
             self._begin()
 
