@@ -20,7 +20,7 @@ from tmd.goals.reading.referents import ANY_TYPE, is_none
 from tmd.goals.sources.table import GoalTable
 from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
-from tmd.goals.words import BE, is_condition, is_relation, is_verb, words_of
+from tmd.goals.words import BE, is_condition, is_noun, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, PUT, Clause, Condition, Mood, Parsed, Quantifier, Skipped
 from tmd.language.lexicon.lexicon import Lexicon, singular
 from tmd.language.parser import NO_VERB, parse
@@ -165,7 +165,7 @@ class RuleDialogue(Dialogue):
         found = self._goals.candidates(clause, state, progress.memory, awaited=step.awaited)
         if isinstance(found, Refusal):
             idle = (step.optional and _means_nothing(step, found)) or self._is_aside(step, found)
-            return StepGoals((), progress, found.message) if idle else found
+            return StepGoals((), progress, "" if _is_order(clause) else found.message) if idle else found
         return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
 
     def _kept(self, step: RuleStep, state: Bits, progress: _Progress) -> StepGoals | Refusal:
@@ -312,6 +312,12 @@ def _means_nothing(step: RuleStep, refusal: Refusal) -> bool:
     if step.clause.result in words_of("outcomes", "complete"):
         unread.add(RefusalKind.IMPOSSIBLE)  # "when they are done"
     return refusal.kind in unread
+
+
+def _is_order(clause: Clause) -> bool:
+    """Return whether a condition says no more than that earlier steps come first: "when that is done"."""
+    unnamed = all(is_pronoun(noun) or is_noun(noun, "everything") for noun in clause.direct)
+    return clause.verb == BE and unnamed and clause.result in words_of("outcomes", "complete")
 
 
 def bindings_of(meant: Mapping[str, tuple[str, ...]], cube: Cube, reader: GoalReader, memory: Memory) -> Memory:

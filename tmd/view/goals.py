@@ -47,7 +47,9 @@ class ShownGoal:
         goal = self.goal
         if self.asked:
             return self.words
-        return goal.note if goal.formula is not None or goal.note.startswith(GUESS) else f"nothing is done: {goal.note}"
+        if goal.formula is not None or goal.note.startswith(GUESS):
+            return goal.note
+        return f"nothing is done: {goal.note or 'it only says what comes first'}"
 
     @property
     def standing(self) -> str:

@@ -76,11 +76,15 @@ class _Words:
         self.actors |= self._movers()
 
     def _movers(self) -> frozenset[str]:
-        """Return the type of the first parameter of most actions, if one of them moves such a thing."""
+        """Return the type of the first parameter of most actions, if one of them moves such a thing.
+
+        What most actions have no other parameter beside is acted on: animals that are weighed, bandaged and woken.
+        """
         firsts = Counter(kind for a in self.domain.actions for p in a.parameters[:1] for kind in p.types)
         kind, count = firsts.most_common(1)[0] if firsts else ("", 0)
         twice = any(sum(kind in p.types for p in a.parameters) > 1 for a in self.domain.actions)
-        if twice or 4 * count < 3 * len(self.domain.actions):
+        alone = sum(len(a.parameters) == 1 for a in self.domain.actions)
+        if twice or 4 * count < 3 * len(self.domain.actions) or 2 * alone >= len(self.domain.actions):
             return frozenset()
         moves = any(
             a.parameters[0].name in made.terms and kind in a.parameters[0].types
