@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, replace
 from enum import StrEnum
 from typing import Any, NamedTuple
 
@@ -215,6 +215,33 @@ class Clause:
         """Return the likeliest meaning of a language-object: itself unless it is a pronoun (``""``: the elided one)."""
         likeliest = tuple(self.antecedents.get(name, ()))[: self.together.get(name, 1)]
         return likeliest or (name,)
+
+
+    def renamed(self, old: str, new: str) -> Clause:
+        """Return the clause with another name for a language-object; ``self`` where that name is taken."""
+        if new in self.objects or new in self.phrases:
+            return self
+        names = {old: new}
+
+        def moved(value: tuple[str, ...]) -> tuple[str, ...]:
+            return tuple(names.get(name, name) for name in value)
+
+        def related(relations: tuple[Relation, ...]) -> tuple[Relation, ...]:
+            return tuple(
+                Relation(r.relation, names.get(r.source or "", r.source), names.get(r.target, r.target))
+                for r in relations
+            )
+
+        return replace(
+            self,
+            objects=moved(self.objects),
+            direct=moved(self.direct),
+            relations=related(self.relations),
+            stated=related(self.stated),
+            antecedents={names.get(name, name): meant for name, meant in self.antecedents.items()},
+            together={names.get(name, name): count for name, count in self.together.items()},
+            phrases={names.get(n, n): replace(p, name=names.get(n, n)) for n, p in self.phrases.items()},
+        )
 
 
 class Skipped(NamedTuple):

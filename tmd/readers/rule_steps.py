@@ -2,12 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.goals.text_constraints import is_of_the_end
-from tmd.goals.words import BE, NEGATED, is_condition, is_pronoun, is_relation, is_verb, the_word, words_of
-from tmd.language.clause import Clause, Condition, Mood, Parsed, Relation
+from tmd.goals.words import (
+    BE,
+    IT,
+    NEGATED,
+    is_condition,
+    is_noun,
+    is_pronoun,
+    is_relation,
+    is_verb,
+    the_word,
+    words_of,
+)
+from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Relation
 from tmd.readers.interface import Step
 
 USE: str = the_word("verbs", "using")
@@ -35,6 +46,24 @@ class RuleStep(Step):
     optional: bool = False
     awaited: bool = False
     loose: bool = False
+
+
+def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
+    """Return a clause with words for persons that mean things here: "take her to the ward" is of the cat.
+
+    Args:
+        clause: The clause.
+        known: Whether a noun means something here.
+    """
+    inner = tuple(replace(c, clauses=tuple(about_things(said, known) for said in c.clauses)) for c in clause.conditions)
+    clause = replace(clause, conditions=inner)
+    acted_on = clause.direct or tuple(r.target for r in clause.relations if r.source is None)  # "operate on him"
+    for noun in acted_on:
+        if noun in PERSONS and any(map(known, clause.antecedents.get(noun, ())[:1])):
+            clause = clause.renamed(noun, IT)
+        elif is_noun(noun, "everybody") and not known(noun):
+            clause = clause.renamed(noun, the_word("nouns", "whole"))
+    return clause
 
 
 def steps_of(parsed: Parsed, *, use: bool) -> tuple[RuleStep, ...]:

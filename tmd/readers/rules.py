@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseGoal
@@ -36,7 +36,7 @@ from tmd.readers.interface import (
     Step,
     StepGoals,
 )
-from tmd.readers.rule_steps import USE, RuleStep, steps_of
+from tmd.readers.rule_steps import USE, RuleStep, about_things, steps_of
 from tmd.world.world import World
 
 
@@ -116,7 +116,9 @@ class RuleDialogue(Dialogue):
         super().__init__(parsed)
         self._goals = goals
         self._constraints = ConstraintReader(goals)
-        self.refusal = self._begin(parsed, state)
+        read = partial(about_things, known=goals.knows_of)
+        clauses, constraints = (tuple(map(read, said)) for said in (parsed.clauses, parsed.constraints))
+        self.refusal = self._begin(replace(parsed, clauses=clauses, constraints=constraints), state)
 
     def _begin(self, parsed: Parsed, state: Bits) -> Refusal | None:
         """Read the constraints, and order the steps."""

@@ -106,7 +106,14 @@ class Facts:
                 found = self._named_state(word.removeprefix(CONTRARY), candidate)
                 if found is not None:
                     return negation(found) if word.startswith(CONTRARY) else found
-        return None
+        never = next((word for word in listed if self._is_never(word.removeprefix(CONTRARY), name)), None)
+        return None if never is None else TRUE if never.startswith(CONTRARY) else FALSE
+
+    def _is_never(self, word: str, name: str) -> bool:
+        """Return whether a predicate is for such things, is named so, and holds of this one in no state."""
+        kinds = {OBJECT, *self.world.mentions.types.get(name, ())}
+        unary = (p for p in self.world.task.problem.domain.predicates if len(p.parameters) == 1)
+        return any(words_in_name(p.name) == {word} and not kinds.isdisjoint(p.parameters[0].types) for p in unary)
 
     def _with_near(self, name: str) -> Iterator[str]:
         """Yield a thing and, where they are asked for, its nearest relatives."""

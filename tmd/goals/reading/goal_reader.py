@@ -101,7 +101,7 @@ class GoalReader:
             found = self.read(self._settled(clause), state, memory, decisions=decisions)
             if not isinstance(found, Refusal):
                 return found  # "mug on the table" says where it shall be
-        treated = self._treated(clause)
+        treated = self._treated(clause) or self._phrasal(clause)
         if treated is not None:
             return self.read(treated, state, memory, decisions=decisions)
         if self._is_state(clause):
@@ -185,6 +185,22 @@ class GoalReader:
         if not gives or self.knows_of(deed):
             return None
         return replace(clause, verb=deed, direct=receivers, objects=receivers, relations=())
+
+    def _phrasal(self, clause: Clause) -> Clause | None:
+        """Return a clause whose verb and preposition are one verb here: "operate on the cat", "let it out of the cage".
+
+        The preposition of a clause without an object leads to what is acted on; behind an object it stays.
+        """
+        for relation in clause.relations:
+            verb = f"{clause.verb}_{relation.relation.partition('_')[0]}"
+            if not any(table.of(verb) for table in self.tables):
+                continue
+            if relation.source is None and not clause.direct:
+                others = tuple(r for r in clause.relations if r != relation)
+                return replace(clause, verb=verb, direct=(relation.target,), relations=others)
+            if relation.source in clause.direct and not any(table.of(clause.verb) for table in self.tables):
+                return replace(clause, verb=verb)
+        return None
 
     def _settled(self, clause: Clause) -> Clause:
         """Return a clause without a verb as one that puts: "mug on the table", and "water for the kettle" in it."""

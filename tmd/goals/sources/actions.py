@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
-from itertools import permutations, product
+from itertools import chain, permutations, product
 
 from tmd.goals.sources.table import ACTIONS, FIRST, MARK, GoalRow, GoalTable, Slot
 from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, words_of
@@ -114,7 +114,15 @@ class _Words:
 
     def valued(self, parameter: TypedName) -> bool:
         """Return whether a parameter is a value (an amount, a setting, a substance): its type has constants."""
-        return bool(self.fixed(parameter)) and not self.actor(parameter) and not _placelike(parameter)
+        fixed = bool(self.fixed(parameter)) and not self.actor(parameter)
+        return fixed and not _placelike(parameter) and self._sites.isdisjoint(parameter.types)
+
+    @cached_property
+    def _sites(self) -> frozenset[str]:
+        """The types of the places where things are: of the last of two parameters of ``at`` or ``located-in``."""
+        words = {*chain.from_iterable(PREPOSITIONS.values()), *words_of("located")}
+        located = (p for p in self.domain.predicates if len(p.parameters) == 2 and words_in_name(p.name) <= words)
+        return frozenset(chain.from_iterable(p.parameters[-1].types for p in located))
 
     # ------------------------------------------------------------------ states
 
