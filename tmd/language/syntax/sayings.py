@@ -73,14 +73,14 @@ class Saying:
     def clauses(self, attach: Attach) -> list[ClauseDraft]:
         """Return what it says."""
         if self._only_states():
-            return [self._state(attach)]
+            return self._states(attach)
         verbs = [] if self._is_left() else self.verbs
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and self._passive():
             return [self._done(verb, attach) for verb in verbs if verb.kind is Kind.PARTICIPLE]
         owned = self._owns(verbs)
         if verbs and not owned:
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
-        return [self._owned(attach) if owned else self._state(attach)]
+        return [self._owned(attach)] if owned else self._states(attach)
 
     def _is_left(self) -> bool:
         """Return whether it says only where or how something is: "left lying on the table"."""
@@ -107,6 +107,21 @@ class Saying:
     def _passive(self) -> bool:
         """Return whether a participle says in what state its subject is, not what it has done."""
         return self._helped("be") or (not self._helped("having") and about_things(self.subject))
+
+    def _states(self, attach: Attach) -> list[ClauseDraft]:
+        """Return a clause for each state: "should be shut, locked and dry"; but one for "open or shut"."""
+        rest = self.rest
+        listed = next((n for n in rest if is_a(n, "state")), None)
+        words = [n for n in trees([listed], "state")[0].children if isinstance(n, Leaf)] if listed is not None else []
+        either = any(word.source.text in section("choices") for word in words)
+        states = [word for word in words if word.source.kind is Kind.STATE]
+        if either or len(states) < 2:
+            return [self._state(attach)]
+        found = []
+        for state in states:
+            self.rest = [Tree("state", [state]) if node is listed else node for node in rest]
+            found.append(self._state(attach))
+        return found
 
     def _state(self, attach: Attach) -> ClauseDraft:
         draft = empty_draft(BE, [self.part])
