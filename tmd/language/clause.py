@@ -216,7 +216,6 @@ class Clause:
         likeliest = tuple(self.antecedents.get(name, ()))[: self.together.get(name, 1)]
         return likeliest or (name,)
 
-
     def renamed(self, old: str, new: str) -> Clause:
         """Return the clause with another name for a language-object; ``self`` where that name is taken."""
         if new in self.objects or new in self.phrases:

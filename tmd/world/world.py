@@ -9,6 +9,7 @@ robot's own.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -16,7 +17,7 @@ from functools import cached_property
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground_task import ground
-from tmd.pddl.model import TRUE, GroundAtom, Instruction, Problem, Universe, hierarchy, universe
+from tmd.pddl.model import OBJECT, TRUE, GroundAtom, Instruction, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
 from tmd.world.compile import PART_OF as PART_OF  # goals and studio need it as well
 from tmd.world.verb_clause import VerbClause
@@ -79,9 +80,13 @@ class Mentions:
         self.lexicon = lexicon
         problem = profiles.task.problem
         types = hierarchy(problem.domain)
+        told = _told_types(profiles.task)
         # the classes that the domain knows, with objects here or without
-        self.classes = frozenset(t.name for t in problem.domain.types)
-        self.types: Mapping[str, tuple[str, ...]] = {o.name: types.ancestors(o.types[0]) for o in problem.all_objects()}
+        self.classes = frozenset(t.name for t in problem.domain.types).union(*told.values())
+        self.types: Mapping[str, tuple[str, ...]] = {
+            o.name: (*(told.get(o.name, ()) if o.types == (OBJECT,) else ()), *types.ancestors(o.types[0]))
+            for o in problem.all_objects()
+        }
         own = {name: types[0] for name, types in self.types.items()}
         self.kinds: Mapping[str, str] = own | {name: kind for name, kind in (kinds or {}).items() if name in own}
         self._candidates = tuple(self._candidate(name) for name in self.types)
@@ -135,6 +140,16 @@ class Mentions:
     def _edges(self, name: str, used: Collection[str]) -> int:
         links = self.profiles.links
         return sum(len(links.get((name, u), ())) + len(links.get((u, name), ())) for u in used)
+
+
+def _told_types(task: Task) -> dict[str, list[str]]:
+    """Return for objects the predicates that always hold of them, the rarest first: types, where a domain has none."""
+    always = sorted(atom for atom in task.static if len(atom.args) == 1)
+    count = Counter(atom.predicate for atom in always)
+    found: dict[str, list[str]] = {}
+    for atom in sorted(always, key=lambda atom: count[atom.predicate]):
+        found.setdefault(atom.args[0], []).append(atom.predicate)
+    return found
 
 
 def _words(name: str, whole: str | None) -> tuple[str, ...]:
