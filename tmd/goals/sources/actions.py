@@ -16,7 +16,7 @@ from dataclasses import replace
 from functools import cached_property
 from itertools import chain, permutations, product
 
-from tmd.goals.sources.table import ACTIONS, FIRST, MARK, GoalRow, GoalTable, Slot
+from tmd.goals.sources.table import ACTIONS, FIRST, MARK, WAS, GoalRow, GoalTable, Slot
 from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, words_of
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.nouns import split_name, words_in_name
@@ -140,8 +140,17 @@ class _Words:
                         yield self._row((verb,), (Slot("?x"),), found, f"{verb} X", f"'{wanted}' in {predicate.name}")
 
     def parts(self) -> Iterator[GoalRow]:
-        """Yield ``put the lid on X`` for a predicate such as ``lid_on``."""
+        """Yield ``put the lid on X`` for a predicate such as ``lid_on``, and ``put soap in X`` for ``has_soap``."""
         for predicate in self.domain.predicates:
+            first, *words = split_name(predicate.name)
+            if words and first in words_of("rows", "having") and len(self.things(predicate)) == 1:
+                noun, there = "_".join(words), self._atom(predicate, {self.things(predicate)[0].name: "?y"})
+                if predicate.name in self.fluent:
+                    why = f"'{noun}' in its name"
+                    into = Slot("?y", _ROWS["vessel"])
+                    row = self._row((*_ROWS["lay"], *_ROWS["pour"]), (into,), there, f"put {noun} in Y", why)
+                    yield replace(row, noun=noun)
+                continue
             noun, _, preposition = "_".join(split_name(predicate.name)).rpartition("_")
             if predicate.name not in self.fluent or len(self.things(predicate)) != 1 or not noun:
                 continue
@@ -208,18 +217,27 @@ class _Words:
             yield from self._of_all_places()
 
     def _of_all_places(self) -> Iterator[GoalRow]:
-        """Yield ``clear Y``: nothing is there; and ``put back X``: it is where it was before the text."""
+        """Yield ``clear Y``: nothing is there; ``put back X``: it is where it was before the text; ``swap X with Z``."""
         made = (self.fluent & self.made) - set(self.passing)
         nothing: dict[Formula, None] = {}
         back: dict[Formula, None] = {}
+        swapped: dict[Formula, None] = {}
         for predicate in self.domain.predicates:
             for _, atom in self._places(predicate) if predicate.name in made else ():
                 thing, place = (p.types for p in self.things(predicate))
                 nothing[Not(Exists((TypedName("?x", thing),), atom))] = None
-                back[Forall((TypedName("?y", place),), Imply(_at_first(atom), atom))] = None
+                where = (TypedName("?y", place),)
+                back[Forall(where, Imply(_before(atom, FIRST), atom))] = None
+                if swapped and predicate.name not in self._exchanged:
+                    continue  # a plant goes to the other's bench, and keeps its pot
+                other = _of_other(atom)
+                for now, then in ((atom, other), (other, atom)):
+                    swapped[Forall(where, Imply(_before(then, WAS), now))] = None
         why = "predicates of place"
         yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)
         yield self._row(_ROWS["back"], (Slot("?x"),), conjunction(list(back)), "put_back X", why)
+        both = (Slot("?x"), Slot("?z", _ROWS["with"]))
+        yield self._row(_ROWS["swap"], both, conjunction(list(swapped)), "swap X with Z", why)
 
     def _all_places(self) -> dict[str, list[Formula]]:
         """Return for each preposition the conditions of place that it says."""
@@ -462,11 +480,20 @@ def _journeys(action: ActionSchema) -> Iterator[tuple[Atom, tuple[str]]]:
                 yield made, (differing[0],)
 
 
-def _at_first(formula: Formula) -> Formula:
-    """Return an atom, or one with some arguments left open, as that which was so before the text."""
+def _before(formula: Formula, when: str) -> Formula:
+    """Return an atom, or one with some arguments left open, as that which was so before the clause or the text."""
     if isinstance(formula, Exists):
-        return replace(formula, part=_at_first(formula.part))
-    return replace(formula, predicate=f"{formula.predicate}{MARK}{FIRST}") if isinstance(formula, Atom) else formula
+        return replace(formula, part=_before(formula.part, when))
+    return replace(formula, predicate=f"{formula.predicate}{MARK}{when}") if isinstance(formula, Atom) else formula
+
+
+def _of_other(formula: Formula) -> Formula:
+    """Return an atom of ``?x``, or one with some arguments left open, as one of ``?z``."""
+    if isinstance(formula, Exists):
+        return replace(formula, part=_of_other(formula.part))
+    if not isinstance(formula, Atom):
+        return formula
+    return replace(formula, terms=tuple("?z" if term == "?x" else term for term in formula.terms))
 
 
 def _verbs_of(name: str) -> Iterator[str]:

@@ -102,8 +102,10 @@ def rank(
     aliases = (lexicon or builtin()).nouns
     named = _by_name(parsed, candidates)
     if max((match.score for match in named), default=0.0) < 1.0:
-        # an alias of the whole noun says more than a name that shares its head only
+        # an alias or a synonym of the whole noun says more than a name that shares its head only
         spelled = {form: aliases[form] for form in _spellings(noun, parsed)[:-1] if form in aliases}
+        synonyms = {match.name for match in _by_synonym(parsed, candidates)} if parsed.modifiers else set()
+        named = [match for match in named if match.name in synonyms] or named
         named = _by_alias(noun, parsed, candidates, spelled) or named
     found = (
         named

@@ -535,6 +535,8 @@ class Bracketer(ClauseEnds):
             return also
         if self.among(at, "dashes") and self._verb is None and self._named():
             return self._stop(at)  # "the radio - off"
+        if self._verb is None and self._named() and self._is_returned(at + 1):
+            return self._stop(at)
         listed = any(t.kind is K.COMMA for t in self.out[self._subject :])
         apart = self.follows(at, "COMMA CC") and self._named() and not listed
         return self._stop(at) if (self._verb is not None or apart) and self._statement_follows(at) else self._keep(at)
@@ -585,10 +587,21 @@ class Bracketer(ClauseEnds):
     def _adverb(self, at: int) -> int:
         if self._is_reason(at) and self.kind(at - 1) in LINKS and not self._open:
             self._reasoned()
+        if self.among(at, "back_words") and not self._open and self._verb is None and self._last() in HEADS:
+            verb = self.tokens[at]  # "the mug back where it was"
+            verb.kind, verb.stem, verb.form = K.V, first_of("returning"), "base"
+            return self._deed(at)
         if not (self.among(at, "end_states") and self._is_state(at)):
             return at + 1
         self.tokens[at].kind = K.STATE
         return self._keep(at)
+
+    def _is_returned(self, at: int) -> bool:
+        """Return whether something is named from a place on, and "back" behind it: "then the mug back"."""
+        end = at
+        while self.kind(end) in NP | {K.CC}:
+            end += 1
+        return end > at and self.kind(end - 1) in HEADS and self.among(end, "back_words")
 
     def _reasoned(self) -> None:
         """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""

@@ -286,7 +286,7 @@ class Attachment:
         self._instrument = self._instrument or name in section("with_words")
         if self._tells_one() and placing:
             self.host = []  # "except the one on the chair | on the shelf"
-        elif (name not in section("never_hosts") or _tells(targets)) and targets[0].name not in PERSONS:
+        elif targets and (name not in section("never_hosts") or _tells(targets)) and targets[0].name not in PERSONS:
             self.host = targets
         self._behind = name
 

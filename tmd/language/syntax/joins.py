@@ -68,6 +68,8 @@ def _finite(words: Words) -> None:
 def _placing(words: Words, at: int) -> str:
     """Return the stem of a verb that says where its subject is or should be; empty for other words."""
     place = words.follows(at + 1, "P|TO|STATE") or words.among(at + 1, "back_words", "where_words")
+    if words.among(at, "belonging") and words.among(at + 1, "back_words"):
+        return first_of("returning")
     if words.among(at, "belonging") and place:
         return first_of("belonging")
     stays = words.follows(at + 1, "BREAK") or words.among(at + 1, "there_words", "end_states")
@@ -237,7 +239,7 @@ class _Particles(Words):
     def _particle(self, at: int) -> bool:
         verb, behind = self.tokens[at], False
         keeps = self.stem_among(at, "leaving", "keeping")
-        for place in range(at + 1, min(at + _AHEAD, self.first(at + 1, "V|LET|NEG|ENSURE|STOP|SUB|REL|EXC"))):
+        for place in range(at + 1, min(at + _AHEAD, self.first(at + 1, "V|FINITE|LET|NEG|ENSURE|STOP|SUB|REL|EXC"))):
             token = self.tokens[place]
             if token.kind not in (K.P, K.ADV):
                 continue
