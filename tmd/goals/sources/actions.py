@@ -217,7 +217,7 @@ class _Words:
             yield from self._of_all_places()
 
     def _of_all_places(self) -> Iterator[GoalRow]:
-        """Yield ``clear Y``: nothing is there; ``put back X``: it is where it was before the text; ``swap X with Z``."""
+        """Yield ``clear Y``: nothing is there; ``put back X``, and ``swap X with Z``: they are where they were."""
         made = (self.fluent & self.made) - set(self.passing)
         nothing: dict[Formula, None] = {}
         back: dict[Formula, None] = {}

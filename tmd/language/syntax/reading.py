@@ -15,7 +15,7 @@ from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
-from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, name_verb
+from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, give_back, name_verb
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 
 _ASIDES = ("demand", "statement")
@@ -140,6 +140,7 @@ class TextReading:
             _repeat(last, before)
         if last.verb.stem in section("light_verbs"):
             _treat(last)
+        give_back(last)
 
     def _attach(
         self,

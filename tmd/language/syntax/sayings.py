@@ -58,7 +58,7 @@ class Saying:
         words = [*self.verbs, *self.helpers]
         modal = any(t.text in section("modals") for t in words)
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
-        settled = section("belonging") | section("staying")
+        settled = section("belonging") | section("staying") | section("returning")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
         subject = {t.text.partition("'")[0] for node in self.subject for t in leaves(node)}
         somebody = bool(subject) and subject <= section("tellers")  # "we have guests"
@@ -195,6 +195,7 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
     verb, result = draft.verb, draft.result or ""
     if verb.participle:
         verb.stem, draft.result = verb.participle, None  # "should be washed"
+        give_back(draft)
         draft.mood = Mood.AVOID if denied or none else Mood.KEEP if verb.stem in section("leaving") else None
     elif denied and not none:
         for phrase in draft.direct:
@@ -214,6 +215,23 @@ def _demand_plainly(draft: ClauseDraft, result: str) -> None:
         verb.stem, draft.result = SET, None
     elif not result and WITH not in said and not said.isdisjoint(section("static") | section("arrivals")):
         verb.stem = PUT
+
+
+def give_back(draft: ClauseDraft) -> None:
+    """Read "put it in its usual place" and "return it" as "put it back"."""
+    stem = draft.verb.stem
+    own = {p.name for p in draft.landmarks if p.name.rpartition("_")[2] in section("own_places") and _is_own(p)}
+    returned = stem in section("returning") and not draft.relations
+    moved = not section("moving").isdisjoint((stem, stem.partition("_")[0])) or stem in section("returning")
+    if draft.direct and (returned or (own and moved and not draft.conditions)):
+        draft.verb.stem = first_of("returning")
+        draft.landmarks = [p for p in draft.landmarks if p.name not in own]
+        draft.relations = [r for r in draft.relations if r.target not in own]
+
+
+def _is_own(phrase: Phrase) -> bool:
+    """Return whether a place is the one where a thing was: "its place", "the original position"."""
+    return not section("own_words").isdisjoint((*phrase.lead, *phrase.name.split("_")[:-1]))
 
 
 def name_verb(draft: ClauseDraft) -> None:
