@@ -152,7 +152,7 @@ def _is_idle(token: Token, *, inside: bool) -> bool:
     return inside or token.span.start == token.span.end or token.kind in _SIGNS or filler
 
 
-_SIGNS = frozenset({Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC, Kind.LINK, Kind.END})
+_SIGNS = frozenset({Kind.STOP, Kind.SEP, Kind.COMMA, Kind.FILLER, Kind.CONJ, Kind.VCC, Kind.LINK, Kind.END})
 
 
 def _continues(text: str, before: Span, after: Span, reason: str, covered: Container[int]) -> bool:

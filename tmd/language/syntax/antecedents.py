@@ -166,7 +166,13 @@ def _own(pronoun: str, clause: Clause, draft: ClauseDraft, before: Collection[st
     alike = {r.target for r in clause.relations if r.relation in before}
     own = [p for p in draft.mentions() if p.place < _place(pronoun, draft) and not p.pronoun]
     own = [p for p in own if not apart or p.name in alike or _told(p)]
-    return [p.name for p in sorted(own, key=lambda p: (p.name not in alike, not (p.plural or _told(p))))]
+    acted_on = {p.name for p in draft.direct} if pronoun in clause.direct else set()  # "and another on the chair"
+
+    def rank(phrase: Phrase) -> tuple[bool, bool, bool]:
+        beside = phrase.name not in acted_on and bool(acted_on)
+        return phrase.name not in alike, beside, not (phrase.plural or _told(phrase))
+
+    return [phrase.name for phrase in sorted(own, key=rank)]
 
 
 def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:

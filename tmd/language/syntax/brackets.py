@@ -535,16 +535,18 @@ class Bracketer(ClauseEnds):
             return also
         if self.among(at, "dashes") and self._verb is None and self._named():
             return self._stop(at)  # "the radio - off"
-        if self._verb is None and self._named() and self._is_returned(at + 1):
+        named = self._verb is None and self._named()
+        if (named or self.among(self.past(at + 1, "CC*"), "back_words")) and self._is_returned(at + 1):
             return self._stop(at)
         listed = any(t.kind is K.COMMA for t in self.out[self._subject :])
         apart = self.follows(at, "COMMA CC") and self._named() and not listed
         return self._stop(at) if (self._verb is not None or apart) and self._statement_follows(at) else self._keep(at)
 
     def _also(self, at: int) -> int:
-        """Mark "and so does the mug", "and the mug too"; return where reading goes on, 0 for any other joint."""
+        """Mark "and so does the mug", "as does the mug", "and the mug too"; return where reading goes on, or 0."""
         begin = at + 1 + (self.kind(at + 1) is K.CC)
         does = self.follows(begin, "(ADV|PURP) AUX NP")
+        does = does or (self.among(begin, "as_words") and self.follows(begin + 1, "AUX NP"))
         if not (does or self._too(begin)):
             return 0
         self.tokens[at].form = ALSO
@@ -587,7 +589,7 @@ class Bracketer(ClauseEnds):
     def _adverb(self, at: int) -> int:
         if self._is_reason(at) and self.kind(at - 1) in LINKS and not self._open:
             self._reasoned()
-        if self.among(at, "back_words") and not self._open and self._verb is None and self._last() in HEADS:
+        if self.among(at, "back_words") and not self._open and self._verb is None and self._is_first_back(at):
             verb = self.tokens[at]  # "the mug back where it was"
             verb.kind, verb.stem, verb.form = K.V, first_of("returning"), "base"
             return self._deed(at)
@@ -596,12 +598,19 @@ class Bracketer(ClauseEnds):
         self.tokens[at].kind = K.STATE
         return self._keep(at)
 
+    def _is_first_back(self, at: int) -> bool:
+        """Return whether "back" says where something named before goes, or with its place, what was mentioned."""
+        return self._last() in HEADS or (self._last() is K.SEP and self.follows(at + 1, "P|TO|REL"))
+
     def _is_returned(self, at: int) -> bool:
-        """Return whether something is named from a place on, and "back" behind it: "then the mug back"."""
-        end = at
-        while self.kind(end) in NP | {K.CC}:
+        """Return whether something named goes "back" from a place on: "then the mug back", "then back on the table"."""
+        end = self.past(at, "CC*")
+        begin = end
+        while self.kind(end) in NP:
             end += 1
-        return end > at and self.kind(end - 1) in HEADS and self.among(end, "back_words")
+        if not self.among(end, "back_words"):
+            return False
+        return self.kind(end - 1) in HEADS if end > begin else self.follows(end + 1, "P|TO|REL")
 
     def _reasoned(self) -> None:
         """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""

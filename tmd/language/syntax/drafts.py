@@ -199,6 +199,15 @@ class Attachment:
             if not self._gapped(node, rest):
                 self._argument(node, sum(is_a(n, "place") for n in rest))
 
+    def add_front(self, nodes: Sequence[Node]) -> None:
+        """Attach what stands before the verb: to what the verb acts on, but a place behind an exception to that."""
+        before: Node | None = None
+        for node in nodes:
+            excepted = trees(before.children, "group") if isinstance(before, Tree) and is_a(before, "exception") else []
+            self.host = [p for group in excepted for p in phrases_of(group)] if is_a(node, "place") else []
+            self.add([node])
+            before = node
+
     def _argument(self, node: Node, later: int) -> None:
         if not isinstance(node, Tree):
             return

@@ -156,9 +156,9 @@ class TextReading:
         if predicate and draft.result is not None and state.host:
             state.host[-1].attributes.append(draft.result)  # "nothing wet may stay there"
             draft.result = None
-        for nodes in (predicate, *([node] for node in front)):
-            state.host = []  # they belong to what the verb acts on
-            state.add(nodes)
+        state.host = []  # what is said of it belongs to what the verb acts on
+        state.add(predicate)
+        state.add_front(front)
         state.flush(draft.direct)
         self._modify(draft, [*arguments, *predicate])
 
