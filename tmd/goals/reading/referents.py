@@ -616,7 +616,9 @@ class Referents:
         for target in (target for relation, target in relations if is_relation(relation, "excepting")):
             names = self._where_it_was_said(target, self.targets(target, reading), reading)
             phrase = reading.clause.phrase(target)
-            one = is_one(target) or (phrase.definite and not phrase.plural and self._is_kind(target, names))
+            placed = any(is_relation(relation, "place") for relation, _ in self.relations_of(target, reading.clause))
+            one = is_one(target) or (placed and bool(names))  # "the bottle on the shelf"
+            one = one or (phrase.definite and not phrase.plural and self._is_kind(target, names))
             wide = self.every_kind_of(target, reading.clause, reading.state)
             found.update(dict.fromkeys((*names, *(() if one else wide))))
         parts = (part for name in found for part in self.grounder.relatives(name, 0))

@@ -247,9 +247,14 @@ class Attachment:
     def _exception(self, phrases: list[Phrase]) -> None:
         """Take an exception out of a whole."""
         wholes = [p for p in self.draft.direct if p.said().quantifier is Quantifier.ALL]
+        acted_on = {p.name for p in self.draft.direct}
+        phrases = [as_one(p) if p.name in acted_on else p for p in phrases]  # "all the cups except the cup here"
         self._earlier = self.host, self._behind
         self._relate(EXCEPT, wholes or self.host or self.draft.direct, phrases)
-        self.host, self._behind = phrases if _tells(phrases) else [], EXCEPT
+        named = {p.name for p in self.draft.direct} - {p.name for p in phrases}
+        goes = any(r.source in named and r.relation in section("arrivals") for r in self.draft.relations)
+        # "all cups in the sink except the cup on the shelf": where the others go was said before
+        self.host, self._behind = phrases if goes or _tells(phrases) else [], EXCEPT
 
     def _place(self, preposition: Token, group: Tree[Leaf], later: int) -> None:
         """Add a prepositional phrase; ``later`` counts those still to come."""
@@ -302,9 +307,7 @@ class Attachment:
     def _told_apart(self, phrase: Phrase) -> Phrase:
         """Name "the other table" *one* where this clause has mentioned a table."""
         again = any(p.name == phrase.name for p in self.draft.mentions())
-        if again and not section("other_words").isdisjoint(phrase.lead):
-            return replace(phrase, name=first_of("one_words"), pronoun=True)
-        return phrase
+        return as_one(phrase) if again and not section("other_words").isdisjoint(phrase.lead) else phrase
 
     def _relate(self, name: str, sources: Sequence[Phrase], targets: list[Phrase]) -> None:
         """Relate targets to their sources; without sources, to what the verb will turn out to act on."""
@@ -382,6 +385,11 @@ class Attachment:
         for name, targets in self._pending:
             self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)
         self._pending.clear()
+
+
+def as_one(phrase: Phrase) -> Phrase:
+    """Return a phrase as *one* of what was mentioned."""
+    return replace(phrase, name=first_of("one_words"), pronoun=True)
 
 
 def _tells(phrases: list[Phrase]) -> bool:

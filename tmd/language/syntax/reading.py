@@ -12,7 +12,7 @@ from lark import Tree
 from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mood, Quantifier, Relation, Span, hull
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
-from tmd.language.syntax.drafts import Attachment, ClauseDraft
+from tmd.language.syntax.drafts import Attachment, ClauseDraft, as_one
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
 from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, give_back, name_verb
@@ -259,10 +259,12 @@ class TextReading:
                 self.forbidden.append((before, item))
 
     def _excepted(self, draft: ClauseDraft, part: Tree[Leaf]) -> bool:
-        """Read "the cups, but not the one on the shelf" as an exception."""
+        """Read "the cups, but not the one on the shelf" as an exception, and "the red cups, but not the cup there"."""
         several = [p for p in draft.direct if p.plural or p.said().quantifier is Quantifier.ALL]
-        denied = named_in(part.children)
-        if not (several and denied and section("one_words").issuperset(p.name for p in denied)):
+        whole = {p.name for p in several}
+        denied = [as_one(p) if p.name in whole else p for p in named_in(part.children)]
+        alike = section("one_words") | {p.name.rpartition("_")[2] for p in several}
+        if not (several and denied and alike.issuperset(p.name for p in denied)):
             return False
         draft.relations += [Relation(EXCEPT, host.name, p.name) for host in several for p in denied]
         draft.landmarks += denied
