@@ -302,11 +302,11 @@ class Bracketer(ClauseEnds):
             opener.negated = True
             return self._bracket(opener, K.ENSURE, wish + 1, self._statement_end(wish + 1))
         own = self._of_oneself(at, verb)
-        self._somebody = True
         if own and self.stem_among(verb, "ordering") and self.tokens[verb].form != "ing":
-            self._told = self.stem_among(verb, "liking")
+            self._told, self._somebody = self.stem_among(verb, "liking"), True
             return at + 1  # "I'll have a tea"
         tells = self._begin_telling(at, own=own)
+        self._somebody = True
         noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
         if self._verb is not None or not (own or noticed) or leads:

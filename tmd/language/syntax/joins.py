@@ -82,6 +82,9 @@ def _partitives(words: Words) -> None:
         token = words.tokens[at]
         if of.kind is not K.P or of.text not in section("of_words"):
             continue
+        if words.kind(at - 1) is K.NUM and words.among(at, "counters"):
+            of.kind = token.kind = K.FILLER  # "two pieces of cutlery" are two
+            continue
         listed = words.among(at, "partitives") and token.kind in (K.N, K.PRON, K.DET, K.ADJ)
         if listed or (token.kind is K.NUM and words.kind(at - 1) is not K.N):
             of.kind, token.kind = K.FILLER, K.DET

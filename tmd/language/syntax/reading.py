@@ -261,10 +261,8 @@ class TextReading:
     def _excepted(self, draft: ClauseDraft, part: Tree[Leaf]) -> bool:
         """Read "the cups, but not the one on the shelf" as an exception, and "the red cups, but not the cup there"."""
         several = [p for p in draft.direct if p.plural or p.said().quantifier is Quantifier.ALL]
-        whole = {p.name for p in several}
-        denied = [as_one(p) if p.name in whole else p for p in named_in(part.children)]
-        alike = section("one_words") | {p.name.rpartition("_")[2] for p in several}
-        if not (several and denied and alike.issuperset(p.name for p in denied)):
+        denied = _alike(several, named_in(part.children))
+        if not (several and denied):
             return False
         draft.relations += [Relation(EXCEPT, host.name, p.name) for host in several for p in denied]
         draft.landmarks += denied
@@ -475,6 +473,14 @@ def _is_vague(draft: ClauseDraft) -> bool:
     """Return whether a wish names nothing: "I need it later" is no request."""
     said = draft.landmarks or draft.result
     return bool(draft.direct) and not said and all(p.pronoun for p in draft.direct)
+
+
+def _alike(wholes: Sequence[Phrase], others: Sequence[Phrase]) -> list[Phrase]:
+    """Return phrases as some of the wholes; none where one of them is of another kind."""
+    names = {phrase.name for phrase in wholes}
+    found = [as_one(phrase) if phrase.name in names else phrase for phrase in others]
+    kinds = section("one_words") | {name.rpartition("_")[2] for name in names}
+    return found if kinds.issuperset(phrase.name for phrase in found) else []
 
 
 def _is_counted(nodes: Sequence[Node]) -> bool:
