@@ -110,7 +110,7 @@ class Menu:
         self._operators = [self._task.by_instruction.get(choice) for choice in self.choices]
         self._reached: dict[tuple[Instruction, ...], Bits] = {(): self._task.init}
         self._seen: dict[Bits, Seen] = {}
-        if features.facts:
+        if features.grounded:
             self._prepare_states()
 
     def _prepare_states(self) -> None:
@@ -121,8 +121,9 @@ class Menu:
         self._negative = self._rows(operator.precondition.negative for operator in operators)
         self._adds = self._rows(operator.add for operator in operators)
         self._deletes = self._rows(operator.delete & ~operator.add for operator in operators)
-        self._special = [i for i, operator in enumerate(operators) if operator.forbidden or operator.conditional]
-        self._special_operators = [operators[i] for i in self._special]
+        self._special = [
+            (i, operator) for i, operator in enumerate(operators) if operator.forbidden or operator.conditional
+        ]
         masks: Counter[tuple[int, int]] = Counter()
         for bit, atom in enumerate(self._task.atoms):
             for place, name in enumerate(atom.args[:FACT_PLACES]):
@@ -145,7 +146,7 @@ class Menu:
             (row,) = self._rows([state])
             applies = ~((self._positive & ~row) | (self._negative & row)).any(axis=1)
             changes = ((self._adds & ~row) | (self._deletes & row)).any(axis=1)
-            for i, operator in zip(self._special, self._special_operators, strict=True):
+            for i, operator in self._special:
                 applies[i] = applies[i] and operator.applicable(state)
                 changes[i] = applies[i] and operator.apply(state) != state
             effects: Ints = np.full(len(self.choices), UNKNOWN, np.int64)
@@ -234,7 +235,7 @@ def _look(menu: Menu, context: ClauseContext, node: Node) -> tuple[Ints, Ints, F
         last_column,
     ]
     facts = _NO_FACTS
-    if features.facts:
+    if features.grounded:
         seen = menu.seen_after(node.earlier + node.own)
         facts = seen.facts
         times: Ints = np.zeros(len(menu.choices), np.int64)
