@@ -9,6 +9,7 @@ import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from weakref import WeakKeyDictionary
@@ -359,7 +360,7 @@ class Energy:
         self.statistics = statistics
         self.world = world
         self.akin = akin
-        self._surprises: dict[Instruction, tuple[float, float]] = {}
+        self._surprise = cache(self._surprise_here)
 
     def of_template(self, instantiation: Instantiation, clause: VerbClause) -> Factors:
         """Return the factors of ψ_i that do not depend on how much of the template is kept."""
@@ -426,11 +427,8 @@ class Energy:
         count = len(found)
         return math.fsum(own for own, _ in found) / count, math.fsum(args for _, args in found) / count
 
-    def _surprise(self, instruction: Instruction) -> tuple[float, float]:
-        if instruction not in self._surprises:
-            kinds = [kind_of(argument, self.world) for argument in instruction.args]
-            self._surprises[instruction] = self.statistics.surprise(instruction, kinds)
-        return self._surprises[instruction]
+    def _surprise_here(self, instruction: Instruction) -> tuple[float, float]:
+        return self.statistics.surprise(instruction, [kind_of(argument, self.world) for argument in instruction.args])
 
     def _inconsistency(self, table: EndStates, names: Sequence[str], end: Bits) -> float:
         """Return Δ_cons: one minus the mean probability of the objects' states; 0 for no object."""
