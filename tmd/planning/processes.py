@@ -15,7 +15,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from pathlib import Path
 from pkgutil import resolve_name
@@ -327,7 +327,7 @@ def answer_call() -> None:
     answers.close()
 
 
-class Prover:
+class Prover(ExitStack):
     """The process that looks for a proof that a problem has no plan, from when it is first needed.
 
     No search finds out that a mug cannot be in two places; it runs to its limit. The proofs that do
@@ -345,16 +345,10 @@ class Prover:
     EXPLAINING = 20.0
 
     def __init__(self, problem: Problem, deadline: Deadline) -> None:
+        super().__init__()
         self._problem = problem
         self._deadline = deadline
         self._process: PlannerProcess | None = None
-
-    def __enter__(self) -> Prover:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        if self._process is not None:
-            self._process.kill()
 
     def explain(self) -> str | None:
         """Return why the problem, which is known to have no plan, has none; ``None`` where that takes too long."""
@@ -379,6 +373,7 @@ class Prover:
 
     def _started(self) -> PlannerProcess:
         if self._process is None:
-            proof = "tmd.planning.unsolvable:proof"
-            self._process = call_in_process("the search for a proof", proof, [self._problem], self._deadline)
+            function, arguments = "tmd.planning.unsolvable:proof", [self._problem]
+            started = call_in_process("the search for a proof", function, arguments, self._deadline)
+            self._process = self.enter_context(started)
         return self._process
