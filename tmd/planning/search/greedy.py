@@ -26,7 +26,7 @@ from tmd.planning.search.heuristics import (
     successor,
     zeros,
 )
-from tmd.planning.search.kernel import CAPPED, DEAD_END, FOUND, Table, entered, new_table
+from tmd.planning.search.kernel import CAPPED, DEAD_END, FOUND, Table, enlarged, find, insert, new_table
 
 BOOST = 1_000
 """For how many turns the preferred operators go first after progress."""
@@ -154,14 +154,20 @@ def look(t: Tables, g: Goal, usable: Ints, start: Ints, rule: Round, counter: In
     parent, via, spent = zeros(64), zeros(64), zeros(64)
     every, preferred = Line(zeros(64 * ENTRY), zeros(2)), Line(zeros(64 * ENTRY), zeros(2))
     lead, best, cost = 0, FAR, 0
-    before, operator = -1, -1
+    node, before, operator = -1, -1, -1
     while True:
-        table, node, fresh = entered(table, words, child)
+        at = find(table, words, child)
+        fresh = table.slot[at] == 0
         if fresh:
-            room = len(table.bound)
-            if room > len(parent):
+            if table.size[0] == len(table.bound):
+                table = enlarged(table, words)
+                room = len(table.bound)
                 parent, via, spent = grown(parent, room), grown(via, room), grown(spent, room)
+                at = find(table, words, child)
+            node = insert(table, words, at, child)
             table.first[node] = landmark_cut(t, g.tight, s, child, 0)
+        else:
+            node = table.slot[at] - 1
         again = rule.weight > 0 and cost < spent[node]
         if (fresh or again) and cost + table.first[node] < rule.below:
             parent[node], via[node], spent[node] = before, operator, cost

@@ -115,17 +115,6 @@ def enlarged(table: Table, words: int) -> Table:
     return wide
 
 
-def entered(table: Table, words: int, state: Ints) -> tuple[Table, int, bool]:
-    """Return the table with a state in it, the number of the state, and whether it is new."""
-    at = find(table, words, state)
-    if table.slot[at] != 0:
-        return table, table.slot[at] - 1, False
-    if table.size[0] == len(table.bound):
-        table = enlarged(table, words)
-        at = find(table, words, state)
-    return table, insert(table, words, at, state), True
-
-
 class SearchQuery(NamedTuple):
     """One bound of one search. ``usable`` lists the operators worth trying, ``near`` what each may change."""
 
@@ -159,7 +148,7 @@ def descend(q: SearchQuery, start: Ints, bound: int, cap: int, counter: Ints) ->
     room = 16
     node, turn, budget, excess = zeros(room), zeros(room), zeros(room), zeros(room)
     cuts = zeros(room * width)
-    table, _, _ = entered(table, words, start)
+    insert(table, words, find(table, words, start), start)
     table.first[0] = landmark_cut(t, q.r, q.s, start, 0)
     if table.first[0] > bound:
         return DEAD_END, table.first[0], zeros(0)
@@ -206,8 +195,13 @@ def descend(q: SearchQuery, start: Ints, bound: int, cap: int, counter: Ints) ->
             for step in range(depth + 1):
                 plan[step] = q.usable[turn[step] - 1]
             return FOUND, depth + 1, plan
-        table, known, fresh = entered(table, words, child)
-        if fresh:
+        at = find(table, words, child)
+        known = table.slot[at] - 1
+        if known < 0:
+            if table.size[0] == len(table.bound):
+                table = enlarged(table, words)
+                at = find(table, words, child)
+            known = insert(table, words, at, child)
             table.first[known] = landmark_cut(t, q.r, q.s, child, 0)
             table.bound[known] = table.first[known]
         elif table.bound[known] <= rest:
