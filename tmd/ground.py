@@ -22,8 +22,8 @@ from tmd.grounded import Grounded
 from tmd.inference.bayes_risk import PLANS, decided
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, Weights, count, named_weights
-from tmd.inference.engine import Inference
 from tmd.inference.forward_pass import Restoration
+from tmd.inference.goal_pass import Inference
 from tmd.inference.policy.model import Policy, Reward
 from tmd.inference.proposers import proposers_of
 from tmd.inference.ranking import Inferred

@@ -100,10 +100,10 @@ def said(tree: InstructionTree, data: Kitchens, text: str, environment: str = "k
 
 def prepared(data: Kitchens, examples: Sequence[Example]) -> tuple[Features, list[Made]]:
     found = study((e.demonstration for e in examples), data.world)
-    syntax = learn_syntax([(x.things, [made for _, made in x.clauses]) for x in found], certain=0.95, cover=0.99)
+    syntax = learn_syntax([(x.things, [made for _, made in x.clauses]) for x in found])
     features = number_features(found, syntax, grounded=True)
     menus = {x.things: Menu(features, x.things, syntax.menu(x.things)) for x in found}
-    return features, [made for x in found for made in steps_made(x, menus[x.things], grounded=True)]
+    return features, [made for x in found for made in steps_made(x, menus[x.things])]
 
 
 @pytest.mark.parametrize("x", THINGS)

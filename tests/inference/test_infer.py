@@ -12,7 +12,7 @@ import pytest
 
 from tmd.inference.config import PAPER_EXTENDED
 from tmd.inference.energy import NAMES, Energy, Weights, count, named_weights
-from tmd.inference.engine import Inference
+from tmd.inference.goal_pass import Inference
 from tmd.inference.proposers import proposers_of
 from tmd.language import parse
 from tmd.language.clause import Clause

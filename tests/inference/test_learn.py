@@ -17,10 +17,7 @@ def plan(**raw: float) -> RankedPlan:
 
 
 def pool(*plans: tuple[RankedPlan, float]) -> Pool:
-    found = Pool()
-    for one, loss in plans:
-        found.add(vector_of(one), loss)
-    return found
+    return {(*vector_of(one).tolist(), loss): None for one, loss in plans}
 
 
 def energy(weights: Weights, one: RankedPlan) -> float:

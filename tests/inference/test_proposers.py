@@ -12,7 +12,7 @@ import pytest
 
 from tmd.inference.config import PAPER, POLICY
 from tmd.inference.energy import Energy, Factors, count, named_weights
-from tmd.inference.engine import Inference
+from tmd.inference.goal_pass import Inference
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation, proposers_of
 from tmd.inference.ranking import Inferred, RankedPlan
 from tmd.language import parse

@@ -14,7 +14,7 @@ from tmd.diagnostics import Refusal, RefusalKind
 from tmd.inference.commitments import constrained, violated
 from tmd.inference.config import GOALS
 from tmd.inference.energy import Energy, count, named_weights
-from tmd.inference.engine import Inference
+from tmd.inference.goal_pass import Inference
 from tmd.inference.proposers import proposers_of
 from tmd.inference.ranking import Inferred, RankedPlan
 from tmd.language.clause import Clause, Parsed

@@ -15,9 +15,7 @@ ONES = Weights(dict.fromkeys(NAMES, 1.0))
 
 
 def test_surprise_is_the_smoothed_negative_logarithm() -> None:
-    table = Frequencies()
-    for name in ("grasp", "grasp", "grasp", "keep"):
-        table.add(name)
+    table = Frequencies(("grasp", "grasp", "grasp", "keep"))
     assert table.surprise("grasp") == pytest.approx(-math.log(4 / 7))
     assert table.surprise("keep") == pytest.approx(-math.log(2 / 7))
     assert table.surprise("fly") == pytest.approx(-math.log(1 / 7))

@@ -27,8 +27,8 @@ for operator in pantry.operators:
 print(filler.fill(state, pantry.goal))
 derived = Impossible(pantry)
 derived.reason(state, pantry.goal)
-print([str(law) for law in derived._general.counts.laws])
-print(filler.counters)
+print([str(law) for law in derived.general.laws])
+print(filler._search.generated)
 """
 
 

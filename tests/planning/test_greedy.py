@@ -13,7 +13,7 @@ from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, EachAlone, InTurn, last_resort, make
 from tmd.planning.gap_filler import eliminate
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
-from tmd.planning.search.greedy import ENTRY, put, take
+from tmd.planning.search.greedy import ENTRY, Line, put, take
 from tmd.planning.search.in_process import FirstSearch, OptimalSearch
 
 from .test_search import canonical, random_tasks
@@ -62,11 +62,11 @@ def test_its_plans_of_what_the_optimal_search_can_do_are_little_dearer(any_kitch
 
 def test_a_line_gives_the_least_first_and_equals_in_order_of_arrival() -> None:
     values = [5, 3, 8, 3, 1, 5, 9, 1, 1, 0, 7, 3]
-    line, count = [0] * ENTRY, [0, 0]
+    line = Line([0] * ENTRY, [0, 0])
     for number, value in enumerate(values):
-        line = put(line, count, value, number, -number)
-    left = [take(line, count) for _ in values]
-    assert count[0] == 0 and all(operator == -node for node, operator in left)
+        line = put(line, value, number, -number)
+    left = [take(line) for _ in values]
+    assert line.number[0] == 0 and all(operator == -node for node, operator in left)
     assert all((values[a], a) < (values[b], b) for (a, _), (b, _) in pairwise(left))
 
 

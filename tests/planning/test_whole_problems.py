@@ -350,8 +350,7 @@ def test_what_an_engine_started_in_a_session_of_its_own_ends_with_it(
 def test_no_engine_outlives_the_program(alike: Problem, tmp_path: Path, number: signal.Signals) -> None:
     """Neither its directory nor what it has started in a session of its own."""
     engine = (
-        "import os, subprocess, threading, time; from tmd.planning.up_planners import _end_with_parent as end\n"
-        "threading.Thread(target=end, args=(os.getppid(),), daemon=True).start()\n"
+        "import subprocess, time\n"
         f"subprocess.Popen(['sleep', '60'], start_new_session=True, cwd={str(tmp_path)!r}); time.sleep(60)"
     )
     program = (

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -147,7 +148,7 @@ class SequenceCompleter:
         self.world = world
         self.planner = planner
         self.constraints = Constraints(world.task)
-        self._needed: dict[tuple[Bits, Instruction], tuple[Instruction, ...] | None] = {}
+        self._needed = cache(self._missing)
 
     def plan(self, sequence: Drawn) -> RankedPlan:
         """Return the sequence as a plan, with a choice for each clause."""
@@ -166,7 +167,7 @@ class SequenceCompleter:
         operator = operators.get(instruction)
         if operator is None:
             return [], state
-        needed = self._before(instruction, state)
+        needed = self._needed(instruction, state)
         if needed is None:
             return [], state
         for each in needed:
@@ -176,12 +177,9 @@ class SequenceCompleter:
             return list(needed), state
         return [*needed, instruction], after
 
-    def _before(self, instruction: Instruction, state: Bits) -> tuple[Instruction, ...] | None:
+    def _missing(self, instruction: Instruction, state: Bits) -> tuple[Instruction, ...] | None:
+        """Return what must be done before an instruction; ``None`` for more than a few instructions."""
         if self.world.task.by_instruction[instruction].applicable(state):
             return ()
-        key = state, instruction
-        if key not in self._needed:
-            answer = self.planner.fill(state, self.constraints.of((instruction,)))
-            short = isinstance(answer, Filled) and len(answer.plan) <= _FILLED
-            self._needed[key] = answer.plan if isinstance(answer, Filled) and short else None
-        return self._needed[key]
+        answer = self.planner.fill(state, self.constraints.of((instruction,)))
+        return answer.plan if isinstance(answer, Filled) and len(answer.plan) <= _FILLED else None

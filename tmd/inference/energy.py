@@ -6,8 +6,10 @@ Summed over the choices it is the paper's Γ.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from importlib import resources
 from pathlib import Path
 from weakref import WeakKeyDictionary
@@ -28,40 +30,26 @@ SMOOTHING = 1.0
 StateName = tuple[str, ...]
 
 
-@dataclass(slots=True)
-class Frequencies:
+class Frequencies(Counter[str]):
     """Counts of things of one kind, with smoothed probabilities."""
-
-    counts: dict[str, int] = field(default_factory=dict)
-    total: int = 0
-
-    def add(self, name: str) -> None:
-        """Count one occurrence."""
-        self.counts[name] = self.counts.get(name, 0) + 1
-        self.total += 1
 
     def surprise(self, name: str) -> float:
         """Return -log P(name); all unseen names share one smoothed count."""
-        kinds = len(self.counts) + 1
-        return -math.log((self.counts.get(name, 0) + SMOOTHING) / (self.total + SMOOTHING * kinds))
+        kinds = len(self) + 1
+        return -math.log((self[name] + SMOOTHING) / (self.total() + SMOOTHING * kinds))
 
 
-@dataclass(slots=True)
-class EndStates:
+class EndStates(Counter[tuple[str, StateName, bool]]):
     """P(obj, s, v): how often an object of a class was in a state when a clause that speaks of it had been done."""
-
-    counts: dict[tuple[str, StateName, bool], int] = field(default_factory=dict)
 
     def add(self, kind: str, profile: Profile) -> None:
         """Count the states of one object."""
-        for state, value in profile.items():
-            key = kind, state, value
-            self.counts[key] = self.counts.get(key, 0) + 1
+        self.update((kind, state, value) for state, value in profile.items())
 
     def probability(self, kind: str, state: StateName, value: bool) -> float:
         """Return the smoothed probability of ``value``; a half where nothing is known."""
-        own = self.counts.get((kind, state, value), 0) + SMOOTHING
-        other = self.counts.get((kind, state, not value), 0) + SMOOTHING
+        own = self.get((kind, state, value), 0) + SMOOTHING
+        other = self.get((kind, state, not value), 0) + SMOOTHING
         return own / (own + other)
 
     def mean(self, objects: Iterable[tuple[str, Profile]]) -> float | None:
@@ -115,10 +103,10 @@ def count(library: Library) -> Statistics:
 
 def _count_template(verb: str, template: Template, found: Statistics) -> None:
     for instruction in template.instructions:
-        found.instructions.add(instruction.name)
+        found.instructions[instruction.name] += 1
         for position, argument in enumerate(instruction.args):
             table = found.parameters.setdefault((instruction.name, position), Frequencies())
-            table.add(template.classes.get(argument, argument))
+            table[template.classes.get(argument, argument)] += 1
     ends = found.ends.setdefault(verb, EndStates())
     for kind, profile in template.subjects:
         ends.add(kind, profile)
@@ -372,7 +360,7 @@ class Energy:
         self.statistics = statistics
         self.world = world
         self.akin = akin
-        self._surprises: dict[Instruction, tuple[float, float]] = {}
+        self._surprise = cache(self._surprise_here)
 
     def of_template(self, instantiation: Instantiation, clause: VerbClause) -> Factors:
         """Return the factors of ψ_i that do not depend on how much of the template is kept."""
@@ -439,11 +427,8 @@ class Energy:
         count = len(found)
         return math.fsum(own for own, _ in found) / count, math.fsum(args for _, args in found) / count
 
-    def _surprise(self, instruction: Instruction) -> tuple[float, float]:
-        if instruction not in self._surprises:
-            kinds = [kind_of(argument, self.world) for argument in instruction.args]
-            self._surprises[instruction] = self.statistics.surprise(instruction, kinds)
-        return self._surprises[instruction]
+    def _surprise_here(self, instruction: Instruction) -> tuple[float, float]:
+        return self.statistics.surprise(instruction, [kind_of(argument, self.world) for argument in instruction.args])
 
     def _inconsistency(self, table: EndStates, names: Sequence[str], end: Bits) -> float:
         """Return Δ_cons: one minus the mean probability of the objects' states; 0 for no object."""

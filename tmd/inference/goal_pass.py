@@ -35,6 +35,7 @@ from tmd.pddl.task import Bits, Cube
 from tmd.planning.gap_filler import eliminate, untouched
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
+from tmd.world.verb_clause import VerbClause
 
 # Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it.
 _MOST_FURTHER_STEPS = 8
@@ -175,15 +176,23 @@ class GoalPass(ForwardPass):
         target = self._target(step, way, goal)
         if isinstance(target, Refusal):
             return target
-        if not target.already:
-            return self._towards(way, target)
-        kept = way.kept
-        memory = way.memory
-        if goal.formula != TRUE:
-            kept = self._kept_after(target, way, way.state)
+        found = [(NOTHING, way.state)] if target.already else self._reaching(way, target)
+        if not isinstance(found, Refusal):
+            return [self._reached(way, target, choice, end) for choice, end in found]
+        if self._reached_bit_by_bit(target, way.state):
+            note = "postponed: will be achieved together with the next clause"
+            postponed = replace(_step_goal(target), formula=None, note=note)
             memory = self.dialogue.reached(goal, way.state, way.memory)
-        choice = self._with_prior(NOTHING, goal)
-        return [_taken(replace(way, memory=memory, kept=kept), choice, way.state, _step_goal(target))]
+            return [_taken(replace(way, memory=memory), NOTHING, way.state, postponed)]
+        return self._without_goal(step, way, found)
+
+    def _reached(self, way: Way, target: Target, choice: Choice, end: Bits) -> Way:
+        """Return a way with the choice by which it reached a goal."""
+        goal = target.goal
+        if goal.formula != TRUE:
+            memory = self.dialogue.reached(goal, end, way.memory)
+            way = replace(way, memory=memory, kept=self._kept_after(target, way, end))
+        return _taken(way, self._with_prior(choice, goal), end, _step_goal(target))
 
     def _question(self, ways: Sequence[Way]) -> Question | None:
         """Return a question about the first step in which readings of nearly equal energy have different goals."""
@@ -285,25 +294,6 @@ class GoalPass(ForwardPass):
 
     # ------------------------------------------------------------------ planning
 
-    def _towards(self, way: Way, target: Target) -> list[Way] | Refusal:
-        """Return every way of reaching a goal that was proposed or planned."""
-        found = self._reaching(way, target)
-        state = way.state
-        if isinstance(found, Refusal) and self._reached_bit_by_bit(target, state):
-            note = "postponed: will be achieved together with the next clause"
-            goal = replace(_step_goal(target), formula=None, note=note)
-            memory = self.dialogue.reached(target.goal, state, way.memory)
-            return [_taken(replace(way, memory=memory), NOTHING, state, goal)]
-        if isinstance(found, Refusal):
-            return self._without_goal(target.step, way, found)
-        ways = []
-        for choice, end in found:
-            kept = self._kept_after(target, way, end)
-            memory = self.dialogue.reached(target.goal, end, way.memory)
-            own = self._with_prior(choice, target.goal)
-            ways.append(_taken(replace(way, memory=memory, kept=kept), own, end, _step_goal(target)))
-        return ways
-
     def _reached_bit_by_bit(self, target: Target, state: Bits) -> bool:
         """Return whether each part of a goal can be reached, but not all at once, and the next clause goes on with it.
 
@@ -331,9 +321,12 @@ class GoalPass(ForwardPass):
             answer = self._far_if_needed(quick, state, aim, target) if not found else quick
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
-            elif isinstance(answer, Filled) and self._takes(target, way, (*begun, *answer.plan)):
-                own = self._restored(way, (*begun, *answer.plan), target)
-                found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"policy_proposal": 1.0}, aim))
+            elif isinstance(answer, Filled):
+                plan = (*begun, *answer.plan)
+                if self.config.guess or self._passes(target, way.state, plan):
+                    own = self._restored(way, plan, target)
+                    raw = {"policy_proposal": 1.0}
+                    found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, raw, aim))
             if found:
                 return self._undisturbing(found, state)
         if reason:
@@ -350,10 +343,6 @@ class GoalPass(ForwardPass):
         """Return the objects that are somewhere else, or have other contents, in ``end`` than in ``state``."""
         changed = self.task.names((state ^ end) & self.lasting)
         return frozenset(atom.args[0] for atom in changed if len(atom.args) > 1)
-
-    def _takes(self, target: Target, way: Way, instructions: Instructions) -> bool:
-        """Return whether a plan may be taken: it meets the conditions on the way, or it is a guess."""
-        return self.config.guess or self._passes(target, way.state, instructions)
 
     def _on_the_way(self, target: Target, state: Bits) -> tuple[Instructions, Bits] | Refusal:
         """Return instructions through the conditions on the way to a goal, and the state they end in.
@@ -406,8 +395,7 @@ class GoalPass(ForwardPass):
                 yield aim, least
                 continue
             answer = self.planner.fill(state, aim)
-            both = isinstance(answer, Filled) and isinstance(least, Filled)
-            if not both or _steps(answer) <= _steps(least) + _MOST_FURTHER_STEPS:
+            if not (isinstance(answer, Filled) and isinstance(least, Filled)) or _little_longer(answer, least):
                 yield aim, answer
         yield last, least
 
@@ -415,7 +403,7 @@ class GoalPass(ForwardPass):
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
         quick = self.planner.fill(state, least)
         bare = quick if isinstance(quick, Filled) else self._far(state, least)
-        return not isinstance(bare, Filled) or len(answer.plan) <= len(bare.plan) + _MOST_FURTHER_STEPS
+        return not isinstance(bare, Filled) or _little_longer(answer, bare)
 
     def _far(self, state: Bits, aim: Sequence[Cube], *, brief: bool = False) -> Answer:
         """Return the answer of the planner that goes further than the quick one."""
@@ -545,6 +533,33 @@ class GoalPass(ForwardPass):
         )
 
 
+@dataclass(frozen=True)
+class Inference(InferenceSetup):
+    """Inference in one environment: one engine for all presets.
+
+    Nothing of a request is kept between calls, so threads may share it.
+    """
+
+    def infer(
+        self, dialogue: Dialogue, state: Bits, top: int = 1, chosen: Mapping[int, Formula] | None = None
+    ) -> Inferred:
+        """Return the ``top`` best distinct plans for a request.
+
+        Args:
+            dialogue: The request as it was read.
+            state: The state in which it was made.
+            top: The number of plans.
+            chosen: The answers to questions: for steps, the goal that is meant.
+        """
+        if self.config.goals:
+            return GoalPass(self, dialogue, top, chosen or {}).infer(state)
+        return self.infer_clauses(dialogue.clauses, state, top)
+
+    def infer_clauses(self, clauses: Sequence[VerbClause], state: Bits, top: int = 1) -> Inferred:
+        """Return the ``top`` best distinct plans for clauses without goals: Algorithm 1 of the paper."""
+        return ForwardPass(self, clauses, self.world.task, top).infer(state)
+
+
 def _taken(way: Way, choice: Choice, end: Bits, goal: StepGoal) -> Way:
     """Return a way with the choice for one more step, and with its goal."""
     before = len(way.instructions)
@@ -577,9 +592,9 @@ def _why_lost(refusal: Refusal | None, energy: float | None, best: float) -> str
     return "it costs more in the end"
 
 
-def _steps(answer: Answer) -> int:
-    """Return the length of a plan; 0 where there is none."""
-    return len(answer.plan) if isinstance(answer, Filled) else 0
+def _little_longer(answer: Filled, least: Filled) -> bool:
+    """Return whether a plan that keeps what earlier steps reached has not too many steps more than the least."""
+    return len(answer.plan) <= len(least.plan) + _MOST_FURTHER_STEPS
 
 
 def _step_goal(target: Target) -> StepGoal:

@@ -1,7 +1,7 @@
 """Proposers: sources of candidate sequences for a clause, which may also judge the candidates of the others.
 
 The paper has one, the templates of the demonstrations (section V-A); the policy is another. Further ones are passed to
-:class:`~tmd.inference.engine.Inference`. :mod:`tmd.inference.goal_pass` completes proposals to a goal.
+:class:`~tmd.inference.goal_pass.Inference`, which completes proposals to a goal.
 """
 
 from __future__ import annotations
@@ -90,21 +90,21 @@ class Proposer(Protocol):
         return {}
 
 
+@dataclass(frozen=True)
 class TemplateProposer(Proposer):
     """The paper's: every template of the clause's verb, instantiated here, and all of its trimmings.
 
-    Args:
+    Attributes:
         world: The environment.
         library: The templates.
         energy: The factors, weighed.
         config: The model.
     """
 
-    def __init__(self, world: World, library: Library, energy: Energy, config: InferenceConfig) -> None:
-        self.world = world
-        self.library = library
-        self.energy = energy
-        self.config = config
+    world: World
+    library: Library
+    energy: Energy
+    config: InferenceConfig
 
     def propose(self, situation: Situation) -> Iterator[Proposal | RejectedProposal]:
         """Yield each distinct trimmed instantiation, at its cheapest."""
@@ -149,12 +149,13 @@ class TemplateProposer(Proposer):
             yield Proposal(made.template.source, whole[t:], names, raw, self.energy.total(raw))
 
 
+@dataclass(frozen=True)
 class PolicyProposer(Proposer):
     """Proposes sequences of a policy, and judges all by the words of the clause. Not in the paper.
 
     It has no say about a clause whose templates all have verbs that it does not know: it is older than the library.
 
-    Args:
+    Attributes:
         policy: What was learned, for this environment.
         world: The environment.
         library: The templates.
@@ -162,14 +163,17 @@ class PolicyProposer(Proposer):
         config: The model.
     """
 
-    def __init__(self, policy: Policy, world: World, library: Library, energy: Energy, config: InferenceConfig) -> None:
-        self.policy = policy
-        self.world = world
-        self.library = library
-        self.energy = energy
-        self.config = config
-        known = max(len(library), 1)
-        self.trust = known / (known + config.few)
+    policy: Policy
+    world: World
+    library: Library
+    energy: Energy
+    config: InferenceConfig
+
+    @cached_property
+    def trust(self) -> float:
+        """The weight of its judgement: few demonstrations are better repeated as they were shown."""
+        known = max(len(self.library), 1)
+        return known / (known + self.config.few)
 
     def propose(self, situation: Situation) -> Iterator[Proposal]:
         """Yield the likeliest sequences, without what can never be done here."""
@@ -197,11 +201,7 @@ class PolicyProposer(Proposer):
 
 
 def proposers_of(
-    config: InferenceConfig,
-    world: World,
-    library: Library,
-    energy: Energy,
-    policy: Policy | None = None,
+    config: InferenceConfig, world: World, library: Library, energy: Energy, policy: Policy | None = None
 ) -> list[Proposer]:
     """Return the proposers of a model; it has no policy where none is given."""
     found: list[Proposer] = [TemplateProposer(world, library, energy, config)]

@@ -16,8 +16,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,22 +28,8 @@ from tmd.files import make_directory
 from tmd.inference.energy import FIXED, NAMES, Weights
 from tmd.inference.ranking import RankedPlan
 
-
-@dataclass(slots=True)
-class Pool:
-    """The plans proposed for one example: factor vectors, shape (plans, factors), and losses in [0, 1]."""
-
-    factors: list[Vector] = field(default_factory=list)
-    losses: list[float] = field(default_factory=list)
-    _known: set[tuple[object, ...]] = field(default_factory=set)
-
-    def add(self, vector: Vector, loss: float) -> None:
-        """Add a plan, once."""
-        key = (*vector.tolist(), loss)
-        if key not in self._known:
-            self._known.add(key)
-            self.factors.append(vector)
-            self.losses.append(loss)
+Pool: TypeAlias = dict[tuple[float, ...], None]
+"""The distinct plans proposed for one example, in their order: the factors of each, then its loss in [0, 1]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +86,7 @@ def learn_weights(
     """
     fixed = {name: start[name] for name in FIXED}
     start = Weights({name: start[name] for name in NAMES if name in factors})
-    pools = [Pool() for _ in range(examples)]
+    pools: list[Pool] = [{} for _ in range(examples)]
     weights = start
     curve: list[Mapping[str, float]] = []
     for number in range(1, rounds + 1):
@@ -111,7 +98,7 @@ def learn_weights(
                 if journal:
                     journal.write(number, example, proposed)
             for vector, loss in proposed:
-                pool.add(vector, loss)
+                pool[*vector.tolist(), loss] = None
             if proposed:
                 chosen.append(proposed[0][1])
         descent = descend(pools, start, random, factors=factors, epochs=epochs, rate=rate, pull=pull)
@@ -148,7 +135,7 @@ def descend(
     The result is the mean of the iterates up to the epoch whose preferred plans have the least mean loss, the start
     included, the latest of equals: the hinge bounds the loss, but the aim is a small loss.
     """
-    useful = [pool for pool in pools if len(pool.losses) > 1]
+    useful = [_table(pool) for pool in pools if len(pool) > 1]
     if not useful:
         return Descent(start, (0.0,) * epochs, (0.0,) * (epochs + 1))
     scale = _spread(useful)
@@ -157,7 +144,7 @@ def descend(
     origin = origin / max(float(np.abs(origin).sum()), 1e-9) * len(NAMES)
     current = origin.copy()
     total = np.zeros_like(current)
-    tables = [(np.array(pool.factors) / scale, np.array(pool.losses)) for pool in useful]
+    tables = [(values / scale, losses) for values, losses in useful]
     first, hinge = _judge(tables, origin)
     losses, objectives = [], [hinge]
     least, kept = first, origin
@@ -182,6 +169,12 @@ def _with_fixed(learned: Weights, start: Weights, fixed: Mapping[str, float]) ->
     before, after = (sum(abs(weights[name]) for name in NAMES) for weights in (start, learned))
     share = after / before if before else 1.0
     return Weights({**learned.values, **{name: value * share for name, value in fixed.items() if value}})
+
+
+def _table(pool: Pool) -> tuple[Vector, Vector]:
+    """Return the factors of the plans in a pool, shape (plans, factors), and their losses."""
+    rows = np.array(list(pool))
+    return np.ascontiguousarray(rows[:, :-1]), np.ascontiguousarray(rows[:, -1])
 
 
 def _judge(tables: Sequence[tuple[Vector, Vector]], weights: Vector) -> tuple[float, float]:
@@ -214,9 +207,9 @@ def _step(current: Vector, origin: Vector, factors: Vector, losses: Vector, step
     return stepped
 
 
-def _spread(pools: Sequence[Pool]) -> Vector:
+def _spread(tables: Sequence[tuple[Vector, Vector]]) -> Vector:
     """Return the mean spread of each factor within the pools, which scales its steps; 1 for no spread."""
-    spreads = np.mean([np.std(np.array(pool.factors), axis=0) for pool in pools], axis=0)
+    spreads = np.mean([np.std(factors, axis=0) for factors, _ in tables], axis=0)
     found: Vector = np.where(spreads > 1e-9, spreads, 1.0)
     return found
 

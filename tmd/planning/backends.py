@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import replace
 from functools import partial
@@ -304,21 +305,19 @@ def _in_time(search: Callable[[], Solution], deadline: Deadline) -> Solution:
     It runs in a thread, because Python handles no signals while compiled code runs in the main one. A search that is
     given up goes on until its cap of states, or until the program ends.
     """
-    answers: list[Solution] = []
-    errors: list[BaseException] = []
+    answer: Future[Solution] = Future()
 
     def run() -> None:
         try:
-            answers.append(search())
+            answer.set_result(search())
         except BaseException as error:  # for the thread that asked
-            errors.append(error)
+            answer.set_exception(error)
 
-    thread = Thread(target=run, daemon=True)
-    thread.start()
-    thread.join(min(deadline.left(), TIMEOUT_MAX))
-    if errors:
-        raise errors[0]
-    return answers[0] if answers else GaveUp(f"{deadline.seconds:g} s of {IN_PROCESS}")
+    Thread(target=run, daemon=True).start()
+    try:
+        return answer.result(min(deadline.left(), TIMEOUT_MAX))
+    except TimeoutError:
+        return GaveUp(f"{deadline.seconds:g} s of {IN_PROCESS}")
 
 
 def _in_process(problem: Problem, deadline: Deadline) -> Solution:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import signal
 import sys
-from contextlib import nullcontext
+from contextlib import ExitStack, nullcontext
 from importlib.util import find_spec
 from pathlib import Path
 from typing import IO
@@ -84,29 +84,23 @@ def binaries() -> Path:
     return Path(spec.origin).parent / "downward" / "builds" / "release" / "bin"
 
 
-class _Downward:
+class _Downward(ExitStack):
     """The files of one problem that Fast Downward works on; a ``with`` block closes them."""
 
     def __init__(self, problem: Problem, deadline: Deadline) -> None:
+        super().__init__()
         self._binaries = binaries()
         self._deadline = deadline
-        self._texts = texts_for_planners(problem)
-        self.sas, self.plan = unnamed_file(), unnamed_file()
-
-    def __enter__(self) -> _Downward:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        for file in (*self._texts, self.sas, self.plan):
-            file.close()
+        files = (*texts_for_planners(problem), unnamed_file(), unnamed_file())
+        self._files = tuple(self.enter_context(file) for file in files)
+        *_, self.sas, self.plan = files
 
     def translate(self, search: str | None) -> PlannerProcess:
         """Start the translator, which becomes the search with this configuration."""
-        command = [sys.executable, "-S", "-c", _TRANSLATE_AND_SEARCH, *map(path_of, self._texts)]
+        command = [sys.executable, "-S", "-c", _TRANSLATE_AND_SEARCH, *map(path_of, self._files[:2])]
         command += [str(self.sas.fileno()), *(self._command(search) if search else ())]
-        passed = (*self._texts, self.sas, self.plan)
         paths = {"PYTHONPATH": str(self._binaries)}
-        return PlannerProcess(NAME, command, self._deadline, passed=passed, environment=paths)
+        return PlannerProcess(NAME, command, self._deadline, passed=self._files, environment=paths)
 
     def search(self, configuration: str) -> PlannerProcess:
         """Start another search of what is translated already."""

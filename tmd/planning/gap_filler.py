@@ -8,7 +8,7 @@ search.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from functools import cache
 
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube, Task
@@ -22,72 +22,46 @@ QUICK = 2_000
 """Cap up to which a filler does not look further for the reason when it gives up."""
 
 
-@dataclass
-class Counters:
-    """Number of questions that a filler answered, by the means, and of states that it generated."""
-
-    held: int = 0
-    exact: int = 0
-    searched: int = 0
-    generated: int = 0
-
-
 class GapFiller:
     """Fills gaps of plans for one task.
 
-    Every answer depends on the question alone: the canonical cheapest plan.
+    Every answer depends on the question alone: the canonical cheapest plan. Answers are remembered, failures too.
 
     Args:
         task: The instantiated problem. States may be any that its operators reach from where it was instantiated.
         backend: The form of the search kernel: ``"auto"``, ``"numba"`` or ``"python"``; plans are the same.
-        memo: Whether answers are remembered, failures too.
         cap: Give up after this many generated states.
-
-    Attributes:
-        counters: How questions were answered.
 
     Raises:
         MissingToolError: ``backend`` is ``"numba"`` and numba is not installed.
         TmdError: There is no such back-end, or the cap is not positive.
     """
 
-    def __init__(self, task: Task, *, backend: Backend = "auto", memo: bool = True, cap: int = DEFAULT_CAP) -> None:
+    def __init__(self, task: Task, *, backend: Backend = "auto", cap: int = DEFAULT_CAP) -> None:
         self.task = task
-        self.counters = Counters()
         self._search = OptimalSearch(task, backend=backend, cap=cap)
         self._impossible = Impossible(task)
-        self._memo: dict[tuple[Bits, tuple[Cube, ...]], Answer] | None = {} if memo else None
+        self._remembered = cache(self._searched)
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
         """Return the missing instructions from ``state`` to any cube of ``goal``."""
         cubes = tuple(goal)
         if any(cube.holds(state) for cube in cubes):
-            self.counters.held += 1
             return Filled((), state, 0)
-        if self._memo is None:
-            return self._searched(state, cubes)
-        if (state, cubes) in self._memo:
-            self.counters.exact += 1
-        else:
-            self._memo[state, cubes] = self._searched(state, cubes)
-        return self._memo[state, cubes]
+        return self._remembered(state, cubes)
 
     def forget(self) -> None:
-        """Empty the memo."""
-        if self._memo is not None:
-            self._memo.clear()
+        """Forget the remembered answers."""
+        self._remembered.cache_clear()
 
     def _searched(self, state: Bits, goal: tuple[Cube, ...]) -> Answer:
-        self.counters.searched += 1
         search = self._search
         answer = search.fill(state, goal, min(BRIEF, search.cap))
-        self.counters.generated += search.generated
         if not isinstance(answer, GaveUp):
             return answer
         reason = self._impossible.reason(state, goal)
         if reason is None and search.cap > BRIEF:
             answer = search.fill(state, goal)
-            self.counters.generated += search.generated
         if reason is None and isinstance(answer, GaveUp) and search.cap > QUICK:
             reason = self._impossible.reason_from(state, goal)
         return answer if reason is None else Unreachable(reason)

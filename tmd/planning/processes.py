@@ -15,10 +15,12 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
+from pathlib import Path
 from pkgutil import resolve_name
-from tempfile import TemporaryFile
+from shutil import rmtree
+from tempfile import TemporaryDirectory, TemporaryFile, gettempdir
 from typing import IO
 
 import psutil
@@ -81,7 +83,6 @@ class PlannerProcess:
         passed: Files that it inherits under their descriptors.
         environment: Variables that are set in addition to those of this program.
         directory: Working directory.
-        bound: Whether the kernel kills it when this program dies; otherwise it must end by itself.
 
     Raises:
         PlannerError: It cannot be started.
@@ -97,12 +98,12 @@ class PlannerProcess:
         passed: Sequence[IO[bytes]] = (),
         environment: Mapping[str, str] | None = None,
         directory: str | None = None,
-        bound: bool = True,
     ) -> None:
         self.name = name
         self._files = (unnamed_file(), unnamed_file())
         try:
-            self._process = subprocess.Popen(
+            # the wait of subprocess hangs where a signal interrupted its poll while that held a lock
+            self._process = psutil.Popen(
                 list(command),
                 stdin=stdin or subprocess.DEVNULL,
                 stdout=self._files[0],
@@ -110,7 +111,7 @@ class PlannerProcess:
                 pass_fds=[file.fileno() for file in passed],
                 cwd=directory,
                 env={**os.environ, **(environment or {})},
-                preexec_fn=_limits(deadline, os.getpid() if bound else None),
+                preexec_fn=_limits(deadline, os.getpid()),
                 process_group=0,
             )
         except OSError as error:
@@ -128,6 +129,7 @@ class PlannerProcess:
 
         The code is negative for the signal that killed the process, and ``None`` while it runs.
         """
+        code: int | None
         while (code := self._process.poll()) is None and (other is None or other._process.poll() is None):
             if not deadline.left():
                 break
@@ -207,7 +209,7 @@ def _limit(kind: int, most: int) -> None:
     resource.setrlimit(kind, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
 
 
-def _limits(deadline: Deadline, parent: int | None) -> Callable[[], None]:
+def _limits(deadline: Deadline, parent: int) -> Callable[[], None]:
     """Return the function that a new process calls first, which sets its limits and lets it die with ``parent``."""
     import ctypes
 
@@ -218,7 +220,7 @@ def _limits(deadline: Deadline, parent: int | None) -> Callable[[], None]:
         limits.append((resource.RLIMIT_CPU, deadline.processor))
 
     def limit() -> None:
-        if parent is not None and hasattr(library, "prctl"):
+        if hasattr(library, "prctl"):
             library.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
             if os.getppid() != parent:
                 os._exit(1)
@@ -230,41 +232,59 @@ def _limits(deadline: Deadline, parent: int | None) -> Callable[[], None]:
 
 def kill_marked(variable: str, value: str) -> None:
     """Kill every process, except this one, that has the environment variable with this value."""
-    for process in psutil.process_iter(["environ"]):
-        if (process.info["environ"] or {}).get(variable) == value and process.pid != os.getpid():
-            with suppress(psutil.NoSuchProcess):
-                process.kill()
+    for _ in range(2):  # the second time those that were being started
+        for process in psutil.process_iter(["environ"]):
+            if (process.info["environ"] or {}).get(variable) == value and process.pid != os.getpid():
+                with suppress(psutil.NoSuchProcess):
+                    process.kill()
 
 
-_GUARD = f"""
-import sys
-from tmd.planning.processes import kill_marked
-sys.stdin.buffer.read()
-kill_marked("{PROGRAM}", sys.argv[1])
-"""
+# The program of the guard; its arguments are the mark of the program and the directory of temporary files.
+_GUARD = "from tmd.planning.processes import guard; guard()"
+# How the names of temporary directories begin that end with the program, before its mark.
+_DIRECTORY = "tmd-planner-"
 
 
 @cache
-def end_with_program() -> subprocess.Popen[bytes] | None:
+def end_with_program() -> subprocess.Popen[bytes]:
     """Let all processes that are started from now on end with this program, even if it is killed.
 
     A guard process waits for the end of a pipe that only this program holds, and then kills the processes that carry
     the mark of this program in their environment. Libraries start worker processes in various ways, so the kernel
     cannot bind each of them to us.
     """
-    if sys.platform != "linux":
-        return None
-    name = f"{os.getpid()}-{time.monotonic_ns()}"
-    guard = subprocess.Popen(
-        [sys.executable, "-c", _GUARD, name],
+    name = os.environ[PROGRAM] = f"{os.getpid()}-{time.monotonic_ns()}"
+    return subprocess.Popen(  # the cache keeps it, and with it the pipe
+        [sys.executable, "-c", _GUARD, name, gettempdir()],
         stdin=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         env=python_environment(),
         start_new_session=True,  # signals to our group must not end the guard
     )
-    os.environ[PROGRAM] = name
-    return guard  # the cache keeps it, and with it the pipe
+
+
+def guard() -> None:
+    """Wait for the end of a program, then end its processes and remove its directories: the guard's program."""
+    _, name, temporary = sys.argv
+    sys.stdin.buffer.read()
+    kill_marked(PROGRAM, name)
+    for directory in Path(temporary).glob(f"{_DIRECTORY}{name}-*"):
+        rmtree(directory, ignore_errors=True)
+
+
+@contextmanager
+def temporary_directory() -> Iterator[str]:
+    """Make a directory for a process; in the end remove it, and end all processes that have it as their ``TMPDIR``.
+
+    This is done even if this program is killed.
+    """
+    end_with_program()
+    with TemporaryDirectory(prefix=f"{_DIRECTORY}{os.environ[PROGRAM]}-") as directory:
+        try:
+            yield directory
+        finally:
+            kill_marked("TMPDIR", directory)
 
 
 def python_environment() -> dict[str, str]:
@@ -282,9 +302,7 @@ def call_in_process(
     arguments: Sequence[object],
     deadline: Deadline,
     *,
-    environment: Mapping[str, str] | None = None,
     directory: str | None = None,
-    bound: bool = True,
 ) -> PlannerProcess:
     """Start a Python process that calls a function and prints the result as JSON.
 
@@ -292,16 +310,12 @@ def call_in_process(
         name: Name of the process for messages.
         function: The function as ``module:name``, so that this program need not import it.
         arguments: Its arguments, which are pickled.
-        deadline: As for :class:`PlannerProcess`, as are the other arguments.
-        environment: Variables that are set in addition.
-        directory: Working directory.
-        bound: Whether the kernel kills it when this program dies.
+        deadline: As for :class:`PlannerProcess`.
+        directory: Its directory, for temporary files as well; by default that of this program.
     """
     with unnamed_file(pickle.dumps((function, arguments))) as question:
-        variables = {**python_environment(), **(environment or {})}
-        return PlannerProcess(
-            name, _CALL, deadline, stdin=question, environment=variables, directory=directory, bound=bound
-        )
+        variables = {**python_environment(), **({"TMPDIR": directory} if directory else {})}
+        return PlannerProcess(name, _CALL, deadline, stdin=question, environment=variables, directory=directory)
 
 
 def answer_call() -> None:
@@ -313,7 +327,7 @@ def answer_call() -> None:
     answers.close()
 
 
-class Prover:
+class Prover(ExitStack):
     """The process that looks for a proof that a problem has no plan, from when it is first needed.
 
     No search finds out that a mug cannot be in two places; it runs to its limit. The proofs that do
@@ -331,16 +345,10 @@ class Prover:
     EXPLAINING = 20.0
 
     def __init__(self, problem: Problem, deadline: Deadline) -> None:
+        super().__init__()
         self._problem = problem
         self._deadline = deadline
         self._process: PlannerProcess | None = None
-
-    def __enter__(self) -> Prover:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        if self._process is not None:
-            self._process.kill()
 
     def explain(self) -> str | None:
         """Return why the problem, which is known to have no plan, has none; ``None`` where that takes too long."""
@@ -365,6 +373,7 @@ class Prover:
 
     def _started(self) -> PlannerProcess:
         if self._process is None:
-            proof = "tmd.planning.unsolvable:proof"
-            self._process = call_in_process("the search for a proof", proof, [self._problem], self._deadline)
+            function, arguments = "tmd.planning.unsolvable:proof", [self._problem]
+            started = call_in_process("the search for a proof", function, arguments, self._deadline)
+            self._process = self.enter_context(started)
         return self._process

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import cached_property, reduce
 from itertools import combinations, product
 from math import gcd, lcm
 from operator import or_
@@ -260,12 +260,15 @@ class Counts:
 
     Args:
         task: The ground problem.
-        mutexes: What excludes each other from the same start.
         start: The state whose counts the laws keep.
+
+    Attributes:
+        mutexes: What excludes each other from the same start.
+        laws: The laws.
     """
 
-    def __init__(self, task: Task, mutexes: Mutexes, start: Bits) -> None:
-        self._mutexes = mutexes
+    def __init__(self, task: Task, start: Bits) -> None:
+        self.mutexes = Mutexes(task, start)
         masks: dict[str, Bits] = {}
         for number, atom in enumerate(task.atoms):
             masks[atom.predicate] = masks.get(atom.predicate, 0) | 1 << number
@@ -277,7 +280,6 @@ class Counts:
             {case for operator in task.operators for case in self._cases(operator)},
             key=lambda case: (case.change, case.bounds),
         )
-        self.laws: list[Law] = []
         seen: set[tuple[int, ...]] = set()
         while True:
             basis = null_space(sorted(seen), len(self._names))
@@ -302,6 +304,12 @@ class Counts:
                 return f"it breaks a law of this domain, {law}"
         return None
 
+    def reason(self, goal: Sequence[Cube]) -> str | None:
+        """Return the reason why every cube of a goal is out of reach; ``None`` where that is not known of all."""
+        reasons = [self.mutexes.clash(cube) or self.clash(cube) for cube in goal]
+        known = [reason for reason in reasons if reason is not None]
+        return "; ".join(dict.fromkeys(known)) if known and len(known) == len(goal) else None
+
     def _total(self, vector: Sequence[int]) -> int:
         return sum(weight * count for weight, count in zip(vector, self._start, strict=True))
 
@@ -321,7 +329,7 @@ class Counts:
         positive, negative = operator.precondition
         for chosen in subsets(unknown):
             case = Cube(positive | chosen, negative | (unknown & ~chosen))
-            if not self._mutexes.exclusive(case, Cube()):
+            if not self.mutexes.exclusive(case, Cube()):
                 after = operator.apply(case.positive)
                 change = tuple((after & mask).bit_count() - (case.positive & mask).bit_count() for mask in self._masks)
                 yield _Case(change, self._bounds(case))
@@ -345,7 +353,7 @@ class Counts:
         for choice in product((0, 1), repeat=len(flags)):
             chosen = fixed | sum(self._masks[n] for n, taken in zip(flags, choice, strict=True) if taken)
             more = sum(vector[n] for n, taken in zip(flags, choice, strict=True) if taken)
-            if low + more <= total <= high + more and not self._mutexes.exclusive(Cube(chosen), Cube()):
+            if low + more <= total <= high + more and not self.mutexes.exclusive(Cube(chosen), Cube()):
                 return True
         return False
 
@@ -365,16 +373,11 @@ def _wild(operators: Sequence[Operator], masks: Mapping[str, Bits]) -> set[str]:
     wild: set[str] = set()
     for operator in operators:
         unknown = {name: _unknown(operator, mask) for name, mask in masks.items() if name not in wild}
-        while union(unknown.values()).bit_count() > MOST_ATOMS:
+        while reduce(or_, unknown.values(), 0).bit_count() > MOST_ATOMS:
             worst = max(unknown, key=lambda name: (unknown[name].bit_count(), name))
             wild.add(worst)
             del unknown[worst]
     return wild
-
-
-def union(sets: Iterable[Bits]) -> Bits:
-    """Return all bits that are in any of ``sets``."""
-    return reduce(or_, sets, 0)
 
 
 def subsets(bits: Bits) -> Iterator[Bits]:
@@ -452,21 +455,23 @@ class Impossible:
 
     def __init__(self, task: Task) -> None:
         self.task = task
-        self._general: _Derived | None = None
         self._too_large = sum((1 + len(o.conditional)) ** 2 for o in task.operators) > _MOST_PAIRS
+
+    @cached_property
+    def general(self) -> Counts:
+        """The proofs that hold from the initial state."""
+        return Counts(self.task, self.task.init)
 
     def reason(self, state: Bits, goal: Sequence[Cube]) -> str | None:
         """Return the reason why ``goal`` cannot be reached from ``state``; ``None`` where that is not known."""
         if self._too_large:
             return None
-        if self._general is None:
-            self._general = _Derived(self.task, self.task.init)
-        derived = self._general if self._general.mutexes.covers(state) else _Derived(self.task, state)
-        return derived.reason(state, goal)
+        covered = self.general.mutexes.covers(state)
+        return self.general.reason(goal) if covered else self.reason_from(state, goal)
 
     def reason_from(self, state: Bits, goal: Sequence[Cube]) -> str | None:
         """Return the reason as derived from ``state`` itself: slower, and it sees more (what is used up)."""
-        return None if self._too_large else _Derived(self.task, state).reason(state, goal)
+        return None if self._too_large else Counts(self.task, state).reason(goal)
 
 
 def proof(problem: Problem) -> str | None:
@@ -479,17 +484,3 @@ def proof(problem: Problem) -> str | None:
     if any(reachable(cube, relaxed_literals(task, task.init)) for cube in task.goal):
         return Impossible(task).reason(task.init, task.goal)
     return unreachable_reason(task, task.init, task.goal)
-
-
-class _Derived:
-    """The proofs that are derived from one state."""
-
-    def __init__(self, task: Task, start: Bits) -> None:
-        self.mutexes = Mutexes(task, start)
-        self.counts = Counts(task, self.mutexes, start)
-
-    def reason(self, state: Bits, goal: Sequence[Cube]) -> str | None:
-        """Return the reason why every cube is out of reach, or ``None``."""
-        reasons = [self.mutexes.clash(cube) or self.counts.clash(cube) for cube in goal]
-        known = [reason for reason in reasons if reason is not None]
-        return "; ".join(dict.fromkeys(known)) if known and len(known) == len(goal) else None

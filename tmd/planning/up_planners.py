@@ -12,15 +12,9 @@ instantiation.
 from __future__ import annotations
 
 import json
-import os
-import threading
-import time
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from importlib.util import find_spec
-from pathlib import Path
-from shutil import rmtree
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from tmd.diagnostics import LimitError, MissingToolError, PlannerError, TmdError
@@ -30,11 +24,9 @@ from tmd.pddl.normalise import portable
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.fast_downward import OPTIMAL_WITH_AXIOMS, OPTIMAL_WITH_CONDITIONS
-from tmd.planning.processes import Deadline, call_in_process, ending, kill_marked, memory_limit
+from tmd.planning.processes import Deadline, call_in_process, ending, memory_limit, temporary_directory
 from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
 
-PLANNER = "TMD_PLANNER"
-"""Environment variable that marks the process of an engine and all processes that it started."""
 # Seconds that the process may take beyond the time limit of its engine: it imports and reads as well.
 GRACE = 15.0
 # Statuses with a plan.
@@ -92,33 +84,21 @@ def require_unified_planning() -> None:
 
 
 def _asked(engine: EngineSpec, question: tuple[object, ...]) -> dict[str, Any] | None:
-    """Return the answer of :func:`answer`, run in a process and a directory of its own; ``None`` for none in time.
-
-    Engines run in process groups of their own, so all processes that they start carry a mark in their environment.
-    """
-    with TemporaryDirectory(prefix="tmd-planner-") as directory:
-        mark = Path(directory).name
+    """Return the answer of :func:`answer`, from a process with a directory for it alone; ``None`` for none in time."""
+    name, function = f"the planner {engine.name}", "tmd.planning.up_planners:answer"
+    limits = Deadline(engine.time_limit)  # it limits its memory itself, beyond unified-planning's
+    with (
+        temporary_directory() as directory,
+        call_in_process(name, function, question, limits, directory=directory) as process,
+    ):
+        code = process.wait(Deadline(engine.time_limit + GRACE))
+        if code:
+            raise process.failed(ending(code))
         try:
-            with call_in_process(
-                f"the planner {engine.name}",
-                "tmd.planning.up_planners:answer",
-                question,
-                Deadline(engine.time_limit),  # it limits its memory itself, beyond unified-planning's
-                environment={PLANNER: mark, "TMPDIR": directory},
-                directory=directory,
-                bound=False,  # it ends what the engine has started first
-            ) as process:
-                code = process.wait(Deadline(engine.time_limit + GRACE))
-                if code:
-                    raise process.failed(ending(code))
-                try:
-                    reply: dict[str, Any] | None = None if code is None else json.loads(process.output())
-                except ValueError as error:
-                    raise process.failed("answered what is no JSON") from error
-                return reply
-        finally:
-            kill_marked(PLANNER, mark)
-            kill_marked(PLANNER, mark)  # those that were being started
+            reply: dict[str, Any] | None = None if code is None else json.loads(process.output())
+        except ValueError as error:
+            raise process.failed("answered what is no JSON") from error
+        return reply
 
 
 def _judged(status: str, engine: EngineSpec) -> Unreachable | GaveUp:
@@ -174,7 +154,6 @@ def has_universal(formula: Formula) -> bool:
 
 def answer(domain: str, problem: str, engine: Mapping[str, Any]) -> dict[str, Any]:
     """Return unified-planning's name of the status, and the plan if there is one; or an exception and its message."""
-    threading.Thread(target=_end_with_parent, args=(os.getppid(),), daemon=True).start()
     try:
         return _solved(domain, problem, engine)
     except Exception as error:
@@ -197,14 +176,3 @@ def _solved(domain: str, problem: str, engine: Mapping[str, Any]) -> dict[str, A
     steps = None if result.plan is None else result.plan.actions
     plan = steps and [[step.action.name, *map(str, step.actual_parameters)] for step in steps]
     return {"status": result.status.name, "plan": plan}
-
-
-def _end_with_parent(parent: int) -> None:
-    """End this process, the processes that it started, and its directory, when its parent is gone."""
-    while os.getppid() == parent:
-        time.sleep(1.0)
-    mark = os.environ.get(PLANNER)
-    if mark and Path.cwd().name == mark:  # the directory was made for this process
-        kill_marked(PLANNER, mark)
-        rmtree(Path.cwd(), ignore_errors=True)
-    os._exit(1)

@@ -70,5 +70,5 @@ class InstructionTree:
         ground = data.world(environment)
         policy = self._policies.get(environment)
         if policy is None or policy.menu.things.world is not ground:
-            policy = self._policies[environment] = Policy(reward, ground, grounded=self.grounded)
+            policy = self._policies[environment] = Policy(reward, ground)
         return policy

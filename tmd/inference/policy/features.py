@@ -52,6 +52,10 @@ EFFECTS = 4
 # How much more the squared weights of words count in a grounded policy than those of its other features, because there
 # are a hundred times as many of them. Chosen by the likelihood of folds of VEIL-500's training environments.
 _TABLE_RIDGE, _TEXT_RIDGE = 3.0, 12.0
+# Share of occurrences from which on an earlier action counts as needed.
+_CERTAIN = 0.95
+# Share of the training sequences that are not longer than those that are searched.
+_COVER = 0.99
 _NO_STATE = 0
 _DIGITS = re.compile(r"_?\d+")
 _WORD = re.compile(r"[a-z0-9']+")
@@ -117,11 +121,8 @@ class Syntax:
 
     def menu(self, things: KnownObjects) -> list[Instruction]:
         """Return the instructions of an environment that have a seen shape, sorted."""
-        found: set[Instruction] = set()
-        for name, kinds in self.shapes:
-            for args in product(*(things.of_kind.get(kind, ()) for kind in kinds)):
-                found.add(Instruction(name, args))
-        return sorted(i for i in found if things.well_formed(i))
+        choices = ((name, [things.of_kind.get(kind, ()) for kind in kinds]) for name, kinds in self.shapes)
+        return _instructions(choices, things)
 
     def about(self, things: KnownObjects, mentioned: Collection[str]) -> list[Instruction]:
         """Return the well-formed instructions about ``mentioned`` objects alone, seen or not, sorted.
@@ -133,24 +134,22 @@ class Syntax:
             for place, kind in enumerate(kinds):
                 if kind in things.kinds and things.is_constant(kind):
                     words.setdefault((name, place), {})[kind] = None
-        found: set[Instruction] = set()
-        for name in sorted({name for name, _ in self.shapes} & set(things.parameters)):
-            places = range(len(things.parameters[name]))
-            for args in product(*(words.get((name, place), mentioned) for place in places)):
-                found.add(Instruction(name, args))
-        return sorted(i for i in found if things.well_formed(i))
+        names = {name for name, _ in self.shapes} & things.parameters.keys()
+        choices = (
+            (name, [words.get((name, place), mentioned) for place in range(len(things.parameters[name]))])
+            for name in names
+        )
+        return _instructions(choices, things)
 
 
-def learn_syntax(
-    sequences: Iterable[tuple[KnownObjects, Sequence[Sequence[Instruction]]]], *, certain: float, cover: float
-) -> Syntax:
-    """Learn the constraints.
+def _instructions(choices: Iterable[tuple[str, Sequence[Iterable[str]]]], things: KnownObjects) -> list[Instruction]:
+    """Return the well-formed instructions with actions and the objects for each of their places, sorted."""
+    found = {Instruction(name, args) for name, places in choices for args in product(*places)}
+    return sorted(i for i in found if things.well_formed(i))
 
-    Args:
-        sequences: The sequences of each demonstration, clause by clause, of well-formed instructions.
-        certain: Share of occurrences from which on an earlier action counts as needed.
-        cover: Share of the clauses that are not longer than ``longest``.
-    """
+
+def learn_syntax(sequences: Iterable[tuple[KnownObjects, Sequence[Sequence[Instruction]]]]) -> Syntax:
+    """Learn the constraints from demonstrations, each with the well-formed instructions of its clauses."""
     shapes: set[tuple[str, tuple[str, ...]]] = set()
     seen: Counter[tuple[str, int]] = Counter()
     before: Counter[tuple[str, int, str]] = Counter()
@@ -170,10 +169,10 @@ def learn_syntax(
                     named.setdefault(arg, set()).add(instruction.name)
     needs: dict[tuple[str, int], tuple[str, ...]] = {}
     for name, place, earlier in sorted(before):
-        if before[name, place, earlier] >= certain * seen[name, place]:
+        if before[name, place, earlier] >= _CERTAIN * seen[name, place]:
             needs[name, place] = (*needs.get((name, place), ()), earlier)
     lengths.sort()
-    longest = lengths[min(int(cover * len(lengths)), len(lengths) - 1)] if lengths else 0
+    longest = lengths[min(int(_COVER * len(lengths)), len(lengths) - 1)] if lengths else 0
     return Syntax(tuple(sorted(shapes)), needs, longest)
 
 
@@ -256,21 +255,26 @@ class Features:
         # one more place stands for "no such argument", one more action for "none before"
         n, p = len(self.actions), len(self.places) + 1
         blocks = [p * LEVELS, p * RECENCIES, p * (n + 1), (n + 1) * n * 2, n * 2, 1 + MET]
-        if self.facts:
+        if self.grounded:
             blocks += [p * LEVELS * RECENCIES, p * 4, (n + 1) * (n + 1) * n, n * REPEATS, n * WHERE * BEGUN]
             blocks += [n * EFFECTS, n * MET, 1 + MET * WHERE * LENGTHS]
         self.starts = np.cumsum((0, *blocks))
         self.shape = (len(self.words), len(self.properties))
         matrix = len(self.words) * len(self.properties)
-        parts = (matrix, matrix if self.facts else 0, int(self.starts[-1]), p * len(self.facts), REALS)
+        parts = (matrix, matrix if self.grounded else 0, int(self.starts[-1]), p * len(self.facts), REALS)
         self._ends = np.cumsum(parts).tolist()
         self.size: int = self._ends[-1]
+
+    @property
+    def grounded(self) -> bool:
+        """Return whether the policy knows states, and the objects that a clause's nouns may mean."""
+        return bool(self.facts)
 
     def parts(self, theta: Floats) -> WeightBlocks:
         """Return views of the weights, or of an array of their size, part by part."""
         local, text, paired, facts, reals = np.split(theta, self._ends[:-1])
         places = len(self.places) + 1
-        whole = text.reshape(self.shape) if self.facts else None
+        whole = text.reshape(self.shape) if self.grounded else None
         return WeightBlocks(local.reshape(self.shape), whole, paired, facts.reshape(places, len(self.facts)), reals)
 
     def ridge(self) -> Floats:
@@ -306,14 +310,12 @@ class ClauseContext:
     where: int
 
 
-def context_of(
-    clauses: Sequence[VerbClause], number: int, features: Features, things: KnownObjects, *, grounded: bool
-) -> ClauseContext:
+def context_of(clauses: Sequence[VerbClause], number: int, features: Features, things: KnownObjects) -> ClauseContext:
     """Return the context of one clause of a text."""
     clause = clauses[number]
     later: Ints = np.zeros(len(things.numbers) + 1, np.int64)
-    words = features.known(bag(clause, grounded=grounded))
-    if not grounded:
+    words = features.known(bag(clause, grounded=features.grounded))
+    if not features.grounded:
         return ClauseContext(words, words, later, later, 0)
     where = 0 if number == 0 else 2 if number == len(clauses) - 1 else 1
     text = features.known(word for each in clauses for word in bag(each, grounded=True))

@@ -31,13 +31,12 @@ from tmd.world.world import World
 # Sequences between two steps of the ascent.
 _BATCH = 8
 _SMALL = 1e-6
-# Weight of the squared weights: of the paper's baseline, and of a grounded policy, chosen as those of its words were.
+# Weight of the squared weights, of the paper's baseline and of a grounded policy.
 _RIDGE = 3.0
-_GROUNDED_RIDGE = 3.0
-# For fewer demonstrations the weight is less, in proportion: what one or two of them show is imitated closely.
+# A grounded policy has a smaller weight for fewer demonstrations: what one or two of them show is imitated closely.
 _MANY = 100
-# This share of the training sequences is not longer than those that are searched.
-_COVER = 0.99
+# Step size of the ascent.
+_RATE = 0.2
 
 
 class Made(NamedTuple):
@@ -70,7 +69,7 @@ def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient
         weights = np.repeat(rest[at.allowed], at.pairs.shape[2])
         parts.paired[:] += np.bincount(at.pairs[at.allowed].ravel(), weights, minlength=len(parts.paired))
         parts.reals[:] += np.einsum("hc,hcr->r", rest, at.reals)
-        if features.facts:
+        if features.grounded:
             things = len(menu.things.numbers) + 1
             cells = menu.places * things + menu.args
             for row, allowed, facts in zip(rest, at.allowed, at.facts, strict=True):
@@ -124,10 +123,7 @@ def learn_policy(
     random: np.random.Generator,
     *,
     grounded: bool = True,
-    certain: float = 0.95,
     rounds: int = 8,
-    rate: float = 0.2,
-    ridge: float | None = None,
     tell: Callable[[float], None] | None = None,
 ) -> Reward:
     """Learn the constraints, the features and their weights.
@@ -140,25 +136,21 @@ def learn_policy(
         world_of: The world of an environment, by the environment's name.
         random: Generator of the order of the training data.
         grounded: Whether the reward also knows which objects the clause's nouns may mean.
-        certain: Share from which on an earlier action counts as needed (``learn_syntax``).
         rounds: Number of passes over the training data.
-        rate: Step size of the ascent.
-        ridge: Weight of the squared weights; by default 3, for a grounded policy less where demonstrations are few.
         tell: Called with the share of the ascent, which takes the longest, that is done.
     """
     lessons = study(demonstrations, world_of)
     sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]
-    syntax = learn_syntax(sequences, certain=certain, cover=_COVER)
+    syntax = learn_syntax(sequences)
     features = number_features(lessons, syntax, grounded=grounded)
     menus: dict[KnownObjects, Menu] = {}
     data = []
     for lesson in lessons:
         if lesson.things not in menus:
             menus[lesson.things] = Menu(features, lesson.things, syntax.menu(lesson.things))
-        data += steps_made(lesson, menus[lesson.things], grounded=grounded)
-    if ridge is None:
-        ridge = _GROUNDED_RIDGE * min(1.0, len(lessons) / _MANY) if grounded else _RIDGE
-    theta = ascend(features, data, random, rounds=rounds, rate=rate, ridge=ridge, tell=tell)
+        data += steps_made(lesson, menus[lesson.things])
+    ridge = _RIDGE * min(1.0, len(lessons) / _MANY) if grounded else _RIDGE
+    theta = ascend(features, data, random, rounds=rounds, rate=_RATE, ridge=ridge, tell=tell)
     choices = max(sum(len(made.choices) for made in data), 1)
     before, after = (likelihood(features, weights, data) / choices for weights in (np.zeros_like(theta), theta))
     return Reward(features, theta, before, after)
@@ -199,7 +191,7 @@ def number_features(lessons: Sequence[PolicyLesson], syntax: Syntax, *, grounded
     return Features(words, seen, syntax, facts if grounded else ())
 
 
-def steps_made(lesson: PolicyLesson, menu: Menu, *, grounded: bool) -> list[Made]:
+def steps_made(lesson: PolicyLesson, menu: Menu) -> list[Made]:
     """Return the sequence of each clause as choices from the menu, with the STOP at its end."""
     found = []
     done: tuple[Instruction, ...] = ()
@@ -208,7 +200,7 @@ def steps_made(lesson: PolicyLesson, menu: Menu, *, grounded: bool) -> list[Made
     for clause, made in lesson.clauses:
         if clause is not None and made:
             nodes = [Node(done, made[:length]) for length in range(len(made) + 1)]
-            at = steps(menu, context_of(clauses, number, menu.features, menu.things, grounded=grounded), nodes)
+            at = steps(menu, context_of(clauses, number, menu.features, menu.things), nodes)
             choices: Ints = np.array([menu.index[choice] for choice in (*made, STOP)], np.int64)
             # the constraints are only almost always kept; what was done was possible
             at.allowed[np.arange(len(choices)), choices] = True

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -109,8 +110,8 @@ class Menu:
         self._task = things.world.task
         self._operators = [self._task.by_instruction.get(choice) for choice in self.choices]
         self._reached: dict[tuple[Instruction, ...], Bits] = {(): self._task.init}
-        self._seen: dict[Bits, Seen] = {}
-        if features.facts:
+        self._seen = lru_cache(_REMEMBERED)(self._seen_in)
+        if features.grounded:
             self._prepare_states()
 
     def _prepare_states(self) -> None:
@@ -121,8 +122,9 @@ class Menu:
         self._negative = self._rows(operator.precondition.negative for operator in operators)
         self._adds = self._rows(operator.add for operator in operators)
         self._deletes = self._rows(operator.delete & ~operator.add for operator in operators)
-        self._special = [i for i, operator in enumerate(operators) if operator.forbidden or operator.conditional]
-        self._special_operators = [operators[i] for i in self._special]
+        self._special = [
+            (i, operator) for i, operator in enumerate(operators) if operator.forbidden or operator.conditional
+        ]
         masks: Counter[tuple[int, int]] = Counter()
         for bit, atom in enumerate(self._task.atoms):
             for place, name in enumerate(atom.args[:FACT_PLACES]):
@@ -139,23 +141,20 @@ class Menu:
 
     def seen_after(self, sequence: tuple[Instruction, ...]) -> Seen:
         """Return the state after a sequence, as the features see it; an impossible instruction changes nothing."""
-        state = self._state(sequence)
-        known = self._seen.get(state)
-        if known is None:
-            (row,) = self._rows([state])
-            applies = ~((self._positive & ~row) | (self._negative & row)).any(axis=1)
-            changes = ((self._adds & ~row) | (self._deletes & row)).any(axis=1)
-            for i, operator in zip(self._special, self._special_operators, strict=True):
-                applies[i] = applies[i] and operator.applicable(state)
-                changes[i] = applies[i] and operator.apply(state) != state
-            effects: Ints = np.full(len(self.choices), UNKNOWN, np.int64)
-            effects[self._possible] = np.where(applies, np.where(changes, CHANGES, APPLIES), 0)
-            facts: Floats = np.zeros((len(self.things.numbers) + 1, len(self.features.facts)))
-            facts[self._about] = (self._masks & row).any(axis=1)
-            if len(self._seen) == _REMEMBERED:
-                self._seen.clear()
-            known = self._seen[state] = Seen(effects, facts)
-        return known
+        return self._seen(self._state(sequence))
+
+    def _seen_in(self, state: Bits) -> Seen:
+        (row,) = self._rows([state])
+        applies = ~((self._positive & ~row) | (self._negative & row)).any(axis=1)
+        changes = ((self._adds & ~row) | (self._deletes & row)).any(axis=1)
+        for i, operator in self._special:
+            applies[i] = applies[i] and operator.applicable(state)
+            changes[i] = applies[i] and operator.apply(state) != state
+        effects: Ints = np.full(len(self.choices), UNKNOWN, np.int64)
+        effects[self._possible] = np.where(applies, np.where(changes, CHANGES, APPLIES), 0)
+        facts: Floats = np.zeros((len(self.things.numbers) + 1, len(self.features.facts)))
+        facts[self._about] = (self._masks & row).any(axis=1)
+        return Seen(effects, facts)
 
     def _state(self, sequence: tuple[Instruction, ...]) -> Bits:
         known = len(sequence)
@@ -234,7 +233,7 @@ def _look(menu: Menu, context: ClauseContext, node: Node) -> tuple[Ints, Ints, F
         last_column,
     ]
     facts = _NO_FACTS
-    if features.facts:
+    if features.grounded:
         seen = menu.seen_after(node.earlier + node.own)
         facts = seen.facts
         times: Ints = np.zeros(len(menu.choices), np.int64)

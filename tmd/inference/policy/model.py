@@ -31,6 +31,12 @@ from tmd.world.world import World
 _ROUNDED = 9
 MOST = 12.0
 """The surprise of a choice that training makes impossible."""
+# Number of sequences of each length that the beam search extends.
+_BEAM = 5
+# Reward for each instruction, because the likeliest sequence is shorter than the usual one.
+_BONUS = 0.5
+# A sequence is given up when its reward is this much below that of the best complete one.
+_SLACK = 3.0
 
 
 def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
@@ -46,7 +52,7 @@ def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
     padded = np.pad(rows, ((0, 0), (0, 1)))
     worth = padded[:, menu.having[possible]].sum(axis=2) + parts.paired[at.pairs[:, possible]].sum(axis=2)
     worth += (at.reals @ parts.reals)[:, possible]
-    if features.facts:
+    if features.grounded:
         of_facts = at.facts @ parts.facts.T  # H × (things + 1) × places
         worth += of_facts[:, menu.args[possible], menu.places[possible]].sum(axis=2)
     worth[~at.allowed[:, possible]] = -np.inf
@@ -85,29 +91,12 @@ class Policy:
     Args:
         reward: The learned reward.
         world: The environment.
-        grounded: Whether the reward knows which objects the clause's nouns may mean; as it was learned.
-        beam: Number of sequences of each length that are extended.
-        bonus: Reward for each instruction, because the likeliest sequence is shorter than the usual one.
-        slack: A sequence is given up when its reward is this much below that of the best complete one.
     """
 
-    def __init__(
-        self,
-        reward: Reward,
-        world: World,
-        *,
-        grounded: bool = True,
-        beam: int = 5,
-        bonus: float = 0.5,
-        slack: float = 3.0,
-    ) -> None:
+    def __init__(self, reward: Reward, world: World) -> None:
         things = KnownObjects(world)
         self.reward = reward
         self.menu = Menu(reward.features, things, reward.features.syntax.menu(things))
-        self.grounded = grounded
-        self.beam = beam
-        self.bonus = bonus
-        self.slack = slack
         self._last: tuple[tuple[object, ...], tuple[Menu, ClauseContext]] | None = None
 
     def knows(self, verb: str) -> bool:
@@ -135,14 +124,14 @@ class Policy:
             longer = []
             for (total, own), row in zip(beam, logs, strict=True):
                 found.append((float(total + row[-1]), own))
-                following = np.argsort(-row[:-1], kind="stable")[: self.beam].tolist()
+                following = np.argsort(-row[:-1], kind="stable")[:_BEAM].tolist()
                 longer += [
-                    (round(total + float(row[i]) + self.bonus, _ROUNDED), (*own, menu.choices[i])) for i in following
+                    (round(total + float(row[i]) + _BONUS, _ROUNDED), (*own, menu.choices[i])) for i in following
                 ]
             found = sorted(found, key=lambda node: -node[0])[:count]
             worst = found[-1][0] if len(found) == count else -np.inf
             longer.sort(key=lambda node: -node[0])
-            beam = [node for node in longer[: self.beam] if node[0] >= worst - self.slack and np.isfinite(node[0])]
+            beam = [node for node in longer[:_BEAM] if node[0] >= worst - _SLACK and np.isfinite(node[0])]
             if not beam:
                 break
         return found
@@ -211,13 +200,15 @@ class Policy:
         last = self._last
         if last is None or last[0] != key:
             menu = self.menu
-            context = context_of(clauses, number, menu.features, menu.things, grounded=self.grounded)
-            last = self._last = key, (_with_mentioned(menu, context.levels) if self.grounded else menu, context)
+            context = context_of(clauses, number, menu.features, menu.things)
+            last = self._last = key, (_with_mentioned(menu, context.levels), context)
         return last[1]
 
 
 def _with_mentioned(menu: Menu, levels: Ints) -> Menu:
-    """Return the menu with instructions of unseen shapes about the objects that the clause mentions."""
+    """Return the menu of a grounded policy with instructions of unseen shapes about the clause's objects."""
+    if not menu.features.grounded:
+        return menu
     names = list(menu.things.kinds)
     about = [names[number] for number in np.flatnonzero(levels >= POSSIBLE)]
     more = set(menu.features.syntax.about(menu.things, about)) - set(menu.choices)

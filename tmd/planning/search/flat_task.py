@@ -190,56 +190,68 @@ def rows(lists: Iterable[Sequence[int]]) -> tuple[Ints, Ints]:
 def build(task: Task) -> Tables:
     """Return the tables of ``task``."""
     operators = task.operators
-    count, atoms = len(operators), len(task.atoms)
-    words = max(1, -(-atoms // WORD))
-    relaxation = _Relaxation(atoms, count)
+    words = max(1, -(-len(task.atoms) // WORD))
+    costs = search_costs(operators)
+    relaxation = _Relaxation(len(task.atoms), len(operators))
     for number, operator in enumerate(operators):
         relaxation.operator(number, operator)
-    relaxed = relaxation.rows + relaxation.free_rows
-    costs = search_costs(operators)
-    groups: list[Ints] = [[] for _ in range(count + 1)]
-    makers: list[Ints] = [[] for _ in range(relaxation.facts)]
-    for number, row in enumerate(relaxed):
-        groups[row.action].append(number)
-        for fact in row.make:
-            makers[fact].append(number)
-
-    def flat(sets: Iterable[Bits]) -> Ints:
-        return [word for bits in sets for word in words_of(bits, words)]
-
-    forbidden = [cube for operator in operators for cube in operator.forbidden]
-    effects = [effect for operator in operators for effect in operator.conditional]
-    need_start, need = rows(row.need for row in relaxed)
-    guard_start, guard = rows(row.guard for row in relaxed)
-    make_start, make = rows(row.make for row in relaxed)
-    maker_start, maker = rows(makers)
     return Tables(
         words=words,
-        atoms=atoms,
-        operators=count,
+        atoms=len(task.atoms),
+        operators=len(operators),
         facts=relaxation.facts,
         step=1 if len(set(costs)) <= 1 else STEP,
         cost=[*costs, 0, *costs],
-        positive=flat(operator.precondition.positive for operator in operators),
-        negative=flat(operator.precondition.negative for operator in operators),
-        add=flat(operator.add for operator in operators),
-        delete=flat(operator.delete for operator in operators),
-        forbidden_start=offsets(len(operator.forbidden) for operator in operators),
-        forbidden_positive=flat(cube.positive for cube in forbidden),
-        forbidden_negative=flat(cube.negative for cube in forbidden),
-        when_start=offsets(len(operator.conditional) for operator in operators),
-        when_positive=flat(effect.condition.positive for effect in effects),
-        when_negative=flat(effect.condition.negative for effect in effects),
-        when_add=flat(effect.add for effect in effects),
-        when_delete=flat(effect.delete for effect in effects),
-        row_start=offsets(len(group) for group in groups),
-        action=[row.action for row in relaxed],
-        need_start=need_start,
-        need=need,
-        guard_start=guard_start,
-        guard=guard,
-        make_start=make_start,
-        make=make,
-        maker_start=maker_start,
-        maker=maker,
+        **_operator_tables(operators, words),
+        **_row_tables(relaxation),
     )
+
+
+def flat(sets: Iterable[Bits], words: int) -> Ints:
+    """Return the words of all sets, one after the other."""
+    return [word for bits in sets for word in words_of(bits, words)]
+
+
+def _cube_tables(prefix: str, cubes: Sequence[Cube], words: int) -> dict[str, Ints]:
+    return {
+        f"{prefix}positive": flat((cube.positive for cube in cubes), words),
+        f"{prefix}negative": flat((cube.negative for cube in cubes), words),
+    }
+
+
+def _operator_tables(operators: Sequence[Operator], words: int) -> dict[str, Ints]:
+    """Return the tables that say when operators apply, and what they do."""
+    forbidden = [cube for operator in operators for cube in operator.forbidden]
+    effects = [effect for operator in operators for effect in operator.conditional]
+    return {
+        **_cube_tables("", [operator.precondition for operator in operators], words),
+        **_cube_tables("forbidden_", forbidden, words),
+        **_cube_tables("when_", [effect.condition for effect in effects], words),
+        "add": flat((operator.add for operator in operators), words),
+        "delete": flat((operator.delete for operator in operators), words),
+        "forbidden_start": offsets(len(operator.forbidden) for operator in operators),
+        "when_start": offsets(len(operator.conditional) for operator in operators),
+        "when_add": flat((effect.add for effect in effects), words),
+        "when_delete": flat((effect.delete for effect in effects), words),
+    }
+
+
+def _row_tables(relaxation: _Relaxation) -> dict[str, Ints]:
+    """Return the tables of the relaxed operators."""
+    relaxed = relaxation.rows + relaxation.free_rows
+    counts = [0] * (relaxation.free + 1)
+    makers: list[Ints] = [[] for _ in range(relaxation.facts)]
+    for number, row in enumerate(relaxed):
+        counts[row.action] += 1
+        for fact in row.make:
+            makers[fact].append(number)
+    found = {"row_start": offsets(counts), "action": [row.action for row in relaxed]}
+    lists = {
+        "need": [row.need for row in relaxed],
+        "guard": [row.guard for row in relaxed],
+        "make": [row.make for row in relaxed],
+        "maker": makers,
+    }
+    for name, own in lists.items():
+        found[f"{name}_start"], found[name] = rows(own)
+    return found

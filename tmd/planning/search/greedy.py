@@ -17,6 +17,7 @@ from tmd.planning.search.flat_task import Ints, Tables
 from tmd.planning.search.heuristics import (
     FAR,
     Goal,
+    Scratch,
     applicable,
     grown,
     landmark_cut,
@@ -25,7 +26,7 @@ from tmd.planning.search.heuristics import (
     successor,
     zeros,
 )
-from tmd.planning.search.kernel import CAPPED, DEAD_END, FOUND, enlarged, find, insert, new_table
+from tmd.planning.search.kernel import CAPPED, DEAD_END, FOUND, Table, enlarged, find, insert, new_table
 
 BOOST = 1_000
 """For how many turns the preferred operators go first after progress."""
@@ -39,40 +40,64 @@ ORDERS = 1 << 32
 """More than ever stand in a line; a value times this is below the greatest integer of compiled code."""
 
 
-def put(line: Ints, count: Ints, value: int, node: int, operator: int) -> Ints:
-    """Add to a line, which is a binary heap; returns the line, which may have got more room."""
-    at = count[0]
-    count[0] = at + 1
-    if ENTRY * (at + 1) > len(line):
-        line = grown(line, 2 * len(line))
-    key = value * ORDERS + count[1]
-    count[1] += 1
-    while at > 0 and line[ENTRY * ((at - 1) // 2)] > key:
+class Line(NamedTuple):
+    """A binary heap of operators that wait, each with its state.
+
+    ``number`` has how many are in it, and how many were put so far.
+    """
+
+    entry: Ints
+    number: Ints
+
+
+def put(line: Line, value: int, node: int, operator: int) -> Line:
+    """Add to a line; returns the line, which may have got more room."""
+    at = line.number[0]
+    line.number[0] = at + 1
+    if ENTRY * (at + 1) > len(line.entry):
+        line = Line(grown(line.entry, 2 * len(line.entry)), line.number)
+    entry = line.entry
+    key = value * ORDERS + line.number[1]
+    line.number[1] += 1
+    while at > 0 and entry[ENTRY * ((at - 1) // 2)] > key:
         above = (at - 1) // 2
         for j in range(ENTRY):
-            line[ENTRY * at + j] = line[ENTRY * above + j]
+            entry[ENTRY * at + j] = entry[ENTRY * above + j]
         at = above
-    line[ENTRY * at], line[ENTRY * at + 1], line[ENTRY * at + 2] = key, node, operator
+    entry[ENTRY * at], entry[ENTRY * at + 1], entry[ENTRY * at + 2] = key, node, operator
     return line
 
 
-def take(line: Ints, count: Ints) -> tuple[int, int]:
+def take(line: Line) -> tuple[int, int]:
     """Remove the first of a line that is not empty: its state and its operator."""
-    node, operator = line[1], line[2]
-    last = count[0] - 1
-    count[0] = last
-    key, at, below = line[ENTRY * last], 0, 1
+    entry = line.entry
+    node, operator = entry[1], entry[2]
+    last = line.number[0] - 1
+    line.number[0] = last
+    key, at, below = entry[ENTRY * last], 0, 1
     while below < last:
-        if below + 1 < last and line[ENTRY * (below + 1)] < line[ENTRY * below]:
+        if below + 1 < last and entry[ENTRY * (below + 1)] < entry[ENTRY * below]:
             below += 1
-        if line[ENTRY * below] >= key:
+        if entry[ENTRY * below] >= key:
             break
         for j in range(ENTRY):
-            line[ENTRY * at + j] = line[ENTRY * below + j]
+            entry[ENTRY * at + j] = entry[ENTRY * below + j]
         at, below = below, 2 * below + 1
     for j in range(ENTRY):
-        line[ENTRY * at + j] = line[ENTRY * last + j]
+        entry[ENTRY * at + j] = entry[ENTRY * last + j]
     return node, operator
+
+
+def take_next(every: Line, preferred: Line, lead: int, turn: int) -> tuple[int, int, int]:
+    """Remove the first of the line whose turn it is; returns its state, its operator and the new lead.
+
+    The preferred line goes first for ``lead`` turns, then every other time.
+    """
+    if preferred.number[0] > 0 and (lead > 0 or turn % 2 == 0):
+        node, operator = take(preferred)
+        return node, operator, max(lead - 1, 0)
+    node, operator = take(every)
+    return node, operator, lead
 
 
 def traced(parent: Ints, via: Ints, node: int) -> Ints:
@@ -100,20 +125,35 @@ class Round(NamedTuple):
     cap: int
 
 
+def put_successors(
+    t: Tables, s: Scratch, usable: Ints, table: Table, node: int, key: int, every: Line, preferred: Line
+) -> tuple[Line, Line]:
+    """Add the operators that apply in a state to both lines, those of a cut to the preferred one; returns the lines."""
+    for i in range(len(usable)):
+        if applicable(t, usable[i], table.word, node * t.words):
+            every = put(every, key, node, usable[i])
+            if s.in_cut[usable[i]] | s.in_cut[t.operators + 1 + usable[i]] != 0:
+                preferred = put(preferred, key, node, usable[i])
+    return every, preferred
+
+
+def weighed(rule: Round, cost: int, value: int) -> int:
+    """Return the place in a line of the successors of a state with a cost so far and a lower bound."""
+    return cost + rule.weight * value if rule.weight > 0 else value
+
+
 def look(t: Tables, g: Goal, usable: Ints, start: Ints, rule: Round, counter: Ints) -> tuple[int, int, Ints]:
     """Search for a plan that costs less than ``rule.below``.
 
     ``counter`` counts generated states. Returns the status, the cost of the plan, and its operators. ``DEAD_END``
     proves that there is no plan that is so cheap.
     """
-    words, width, cubes = t.words, len(usable), len(g.fact_start) - 1
+    words, cubes = t.words, len(g.fact_start) - 1
     s, table = scratch(t, g.tight), new_table(words, 64)
-    child, gone = zeros(words), zeros(words)
+    child, gone = grown(start, words), zeros(words)
     parent, via, spent = zeros(64), zeros(64), zeros(64)
-    every, some, every_count, some_count = zeros(64 * ENTRY), zeros(64 * ENTRY), zeros(2), zeros(2)
+    every, preferred = Line(zeros(64 * ENTRY), zeros(2)), Line(zeros(64 * ENTRY), zeros(2))
     lead, best, cost = 0, FAR, 0
-    for w in range(words):
-        child[w] = start[w]
     node, before, operator = -1, -1, -1
     while True:
         at = find(table, words, child)
@@ -138,24 +178,16 @@ def look(t: Tables, g: Goal, usable: Ints, start: Ints, rule: Round, counter: In
             value = table.first[node]
             if value < best:
                 best, lead = value, lead + BOOST
-            for i in range(width):
-                if applicable(t, usable[i], table.word, node * words):
-                    key = cost + rule.weight * value if rule.weight > 0 else value
-                    every = put(every, every_count, key, node, usable[i])
-                    if s.in_cut[usable[i]] | s.in_cut[t.operators + 1 + usable[i]] != 0:
-                        some = put(some, some_count, key, node, usable[i])
+            key = weighed(rule, cost, value)
+            every, preferred = put_successors(t, s, usable, table, node, key, every, preferred)
         elif fresh:
             spent[node] = cost
-        if every_count[0] == 0:
+        if every.number[0] == 0:
             return DEAD_END, FAR, zeros(0)
         counter[0] += 1
         if counter[0] > rule.cap:
             return CAPPED, best, zeros(0)
-        if some_count[0] > 0 and (lead > 0 or counter[0] % 2 == 0):
-            before, operator = take(some, some_count)
-            lead = max(lead - 1, 0)
-        else:
-            before, operator = take(every, every_count)
+        before, operator, lead = take_next(every, preferred, lead, counter[0])
         cost = spent[before] + t.cost[operator]
         successor(t, operator, table.word, before * words, g.mask, child, gone)
 

@@ -6,6 +6,7 @@ The kernel runs compiled where numba is installed and as plain Python elsewhere;
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from importlib.util import find_spec
 from typing import Literal
 
@@ -13,9 +14,9 @@ from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable, filled
 from tmd.planning.search import greedy, kernel
-from tmd.planning.search.flat_task import Ints, Tables, build, literals, rows, words_of
+from tmd.planning.search.flat_task import Ints, Tables, build, flat, literals, rows, words_of
 from tmd.planning.search.heuristics import Goal, prepared
-from tmd.planning.search.numba_build import Functions, SearchFunction, array, arrays, compiled
+from tmd.planning.search.numba_build import Functions, PrepareFunction, SearchFunction, array, arrays, compiled
 from tmd.planning.unsolvable import unreachable_reason
 
 Backend = Literal["auto", "numba", "python"]
@@ -52,6 +53,7 @@ class OptimalSearch:
     """
 
     patience = PATIENCE
+    entry = "search"
 
     def __init__(self, task: Task, *, backend: Backend = "auto", cap: int = DEFAULT_CAP) -> None:
         if cap < 1:
@@ -91,14 +93,12 @@ class OptimalSearch:
 
     def _made(self, backend: str) -> _Kernel:
         """Return the kernel in one of its forms."""
+        tables = build(self.task)
         if backend == "python":
             functions = Functions(prepared, kernel.search, greedy.search_any)
-            return _Kernel(build(self.task), functions, self._entry(functions), list)
+            return _Kernel(tables, functions.prepared, getattr(functions, self.entry), list)
         functions = compiled()
-        return _Kernel(arrays(build(self.task)), functions, self._entry(functions), array)
-
-    def _entry(self, functions: Functions) -> SearchFunction:
-        return functions.search
+        return _Kernel(arrays(tables), functions.prepared, getattr(functions, self.entry), array)
 
 
 class FirstSearch(OptimalSearch):
@@ -108,9 +108,7 @@ class FirstSearch(OptimalSearch):
     """
 
     patience = 0
-
-    def _entry(self, functions: Functions) -> SearchFunction:
-        return functions.search_any
+    entry = "search_any"
 
 
 def chosen(backend: str) -> Literal["numba", "python"]:
@@ -131,30 +129,22 @@ class _Kernel:
     """Calls the kernel with a question in flat form, and keeps what it works out about goals."""
 
     def __init__(
-        self, tables: Tables, functions: Functions, search: SearchFunction, pack: Callable[[Ints], Ints]
+        self, tables: Tables, prepare: PrepareFunction, search: SearchFunction, pack: Callable[[Ints], Ints]
     ) -> None:
         self._tables = tables
-        self._functions = functions
+        self._prepare = prepare
         self._search = search
         self._pack = pack
-        self._goals: dict[tuple[Cube, ...], Goal] = {}
+        self._goal = lru_cache(GOALS_KEPT)(self._prepared)
 
     def run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, tuple[int, ...]]:
         """Return the status, the number of generated states and the operators of the plan."""
-        goal = self._goals.pop(cubes, None) or self._prepared(cubes)
-        self._goals[cubes] = goal
         start = self._pack(words_of(state, self._tables.words))
-        status, _, generated, plan = self._search(self._tables, goal, start, cap)
+        status, _, generated, plan = self._search(self._tables, self._goal(cubes), start, cap)
         return int(status), int(generated), tuple(int(step) for step in plan)
 
     def _prepared(self, cubes: tuple[Cube, ...]) -> Goal:
-        """Return a goal that is new; the one that was longest without use is forgotten for it."""
-        if len(self._goals) >= GOALS_KEPT:
-            del self._goals[next(iter(self._goals))]
-        words = self._tables.words
         fact_start, fact = rows(literals(cube) for cube in cubes)
-        positive = [word for cube in cubes for word in words_of(cube.positive, words)]
-        negative = [word for cube in cubes for word in words_of(cube.negative, words)]
-        return self._functions.prepared(
-            self._tables, self._pack(positive), self._pack(negative), self._pack(fact_start), self._pack(fact)
-        )
+        positive = flat((cube.positive for cube in cubes), self._tables.words)
+        negative = flat((cube.negative for cube in cubes), self._tables.words)
+        return self._prepare(self._tables, *map(self._pack, (positive, negative, fact_start, fact)))

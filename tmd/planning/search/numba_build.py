@@ -28,10 +28,14 @@ SearchFunction: TypeAlias = Callable[[Tables, Goal, Ints, int], tuple[int, int, 
 """Status, bound, generated states and plan, for tables, goal, start and the greatest number of generated states."""
 
 
+PrepareFunction: TypeAlias = Callable[[Tables, Ints, Ints, Ints, Ints], Goal]
+"""The prepared goal, for tables, the goal as words and as facts."""
+
+
 class Functions(NamedTuple):
     """The entry points of the kernel."""
 
-    prepared: Callable[[Tables, Ints, Ints, Ints, Ints], Goal]
+    prepared: PrepareFunction
     search: SearchFunction
     search_any: SearchFunction
 
