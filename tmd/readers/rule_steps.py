@@ -18,7 +18,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Relation
+from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Relation
 from tmd.readers.interface import Step
 
 USE: str = the_word("verbs", "using")
@@ -49,7 +49,7 @@ class RuleStep(Step):
 
 
 def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
-    """Return a clause with words for persons that mean things here: "take her to the ward" is of the cat.
+    """Return a clause with words that mean things here: "take her to the ward" of the cat, "that thing" of what was said.
 
     Args:
         clause: The clause.
@@ -57,6 +57,11 @@ def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
     """
     inner = tuple(replace(c, clauses=tuple(about_things(said, known) for said in c.clauses)) for c in clause.conditions)
     clause = replace(clause, conditions=inner)
+    for noun in clause.objects:
+        phrase = clause.phrase(noun)
+        one = not phrase.plural and phrase.quantifier is Quantifier.PLAIN and not phrase.attributes
+        if is_noun(noun, "vague") and one and not any(r.source == noun for r in clause.stated):
+            clause = clause.renamed(noun, IT)  # but "the thing that is in the sink" is what is there
     acted_on = clause.direct or tuple(r.target for r in clause.relations if r.source is None)  # "operate on him"
     for noun in acted_on:
         if noun in PERSONS and any(map(known, clause.antecedents.get(noun, ())[:1])):
