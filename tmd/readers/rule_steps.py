@@ -49,7 +49,7 @@ class RuleStep(Step):
 
 
 def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
-    """Return a clause with words that mean things here: "take her to the ward" of the cat, "that thing" of what was said.
+    """Return a clause with words that mean things here: "take her to the ward" of the cat, "put that thing there".
 
     Args:
         clause: The clause.

@@ -533,6 +533,9 @@ class Bracketer(ClauseEnds):
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
         if also := self._also(at):
             return also
+        if self._verb is not None and self.follows(at + 1, "IDLE* NP+ NEG BREAK"):
+            end = self.first(at + 1, "NEG")  # "take the red cup, the blue one not"
+            self.tokens[at + 1 : end + 1] = [self.tokens[end], *self.tokens[at + 1 : end]]
         if self.among(at, "dashes") and self._verb is None and self._named():
             return self._stop(at)  # "the radio - off"
         named = self._verb is None and self._named()

@@ -32,6 +32,8 @@ class ClauseEnds(Words):
             return True
         if self.kind(at) not in LINKS:
             return False
+        if self.follows(at + 1, "IDLE* NP+ NEG BREAK"):
+            return True  # "the red one should be washed, the blue one not"
         said = self.kind(at) is K.COMMA and self._statement_follows(at)
         also = self._too(at + 1 + (self.kind(at + 1) is K.CC))
         return said or also or self._is_reason(at + 1) or self.among(at, "then_words")
