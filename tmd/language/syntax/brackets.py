@@ -434,7 +434,8 @@ class Bracketer(ClauseEnds):
 
     def _corrects(self, at: int) -> bool:
         """Return whether a speaker says something better from here on: "no wait", "no," behind a sign."""
-        denies = self.among(at, "none_words") and self.kind(at + 1) is K.COMMA
+        no_the = self.kind(at + 1) is K.DET and self.tokens[at].text == first_of("none_words")  # "no the blue one"
+        denies = (self.among(at, "none_words") and self.kind(at + 1) is K.COMMA) or no_the
         signs = self.among(at, "corrections") or (denies and self.kind(at - 1) in (K.COMMA, K.SEP))
         return signs and bool(self.out) and self.kind(self.peek(at, _GAP)) is not K.NEG
 
