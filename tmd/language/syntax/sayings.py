@@ -186,7 +186,10 @@ def demand(draft: ClauseDraft, *, denied: bool) -> None:
         _demand_state(draft, denied=denied, none=none)
     elif verb.stem in section("going"):
         whither = any(r.relation in section("bringing") for r in draft.relations)
-        verb.stem = BE if none else BRING if whither else PUT
+        if draft.result in pairs("state_verbs") and not denied:  # "has to go off"
+            verb.stem, draft.result = pairs("state_verbs")[draft.result or ""], None
+        else:
+            verb.stem = BE if none else BRING if whither else PUT
     elif denied:
         draft.mood = Mood.AVOID
 
