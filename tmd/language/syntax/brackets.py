@@ -534,13 +534,10 @@ class Bracketer(ClauseEnds):
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
         if also := self._also(at):
             return also
-        if self._verb is not None and self.follows(at + 1, "IDLE* NP+ NEG BREAK"):
-            end = self.first(at + 1, "NEG")  # "take the red cup, the blue one not"
-            self.tokens[at + 1 : end + 1] = [self.tokens[end], *self.tokens[at + 1 : end]]
+        self._deny_ahead(at)
         if self.among(at, "dashes") and self._verb is None and self._named():
             return self._stop(at)  # "the radio - off"
-        named = self._verb is None and self._named()
-        if (named or self.among(self.past(at + 1, "CC*"), "back_words")) and self._is_returned(at + 1):
+        if self._is_returned(at + 1):
             return self._stop(at)
         listed = any(t.kind is K.COMMA for t in self.out[self._subject :])
         apart = self.follows(at, "COMMA CC") and self._named() and not listed
@@ -608,13 +605,20 @@ class Bracketer(ClauseEnds):
 
     def _is_returned(self, at: int) -> bool:
         """Return whether something named goes "back" from a place on: "then the mug back", "then back on the table"."""
-        end = self.past(at, "CC*")
-        begin = end
+        end = begin = self.past(at, "CC*")
         while self.kind(end) in NP:
             end += 1
         if not self.among(end, "back_words"):
             return False
-        return self.kind(end - 1) in HEADS if end > begin else self.follows(end + 1, "P|TO|REL")
+        if end == begin:
+            return self.follows(end + 1, "P|TO|REL")
+        return self._verb is None and self._named() and self.kind(end - 1) in HEADS
+
+    def _deny_ahead(self, at: int) -> None:
+        """Put "not" before what is denied: "take the red cup, the blue one not"."""
+        if self._verb is not None and self.follows(at + 1, "IDLE* NP+ NEG BREAK"):
+            end = self.first(at + 1, "NEG")
+            self.tokens[at + 1 : end + 1] = [self.tokens[end], *self.tokens[at + 1 : end]]
 
     def _reasoned(self) -> None:
         """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""
