@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from tmd.language.clause import Span
+from tmd.language.clause import TO, Span
 from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
 from tmd.language.syntax.ends import ClauseEnds
 from tmd.language.syntax.tokens import ADDRESS, BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, mark, noted
@@ -594,10 +594,19 @@ class Bracketer(ClauseEnds):
             verb = self.tokens[at]  # "the mug back where it was"
             verb.kind, verb.stem, verb.form = K.V, first_of("returning"), "base"
             return self._deed(at)
+        if self.among(at, "whither_adverbs") and self._moves_at(at):
+            self.out.append(Token(K.P, TO, self.tokens[at].span))  # "take it upstairs"
+            self.tokens[at].kind = K.N
+            return self._keep(at)
         if not (self.among(at, "end_states") and self._is_state(at)):
             return at + 1
         self.tokens[at].kind = K.STATE
         return self._keep(at)
+
+    def _moves_at(self, at: int) -> bool:
+        """Return whether the open verb moves something, whose place is said by a word that ends the clause."""
+        moves = self._verb is not None and self._verb.stem.partition("_")[0] in section("moving")
+        return moves and not self._open and self._last() in HEADS and self.follows(at + 1, "BREAK|TO|P")
 
     def _is_first_back(self, at: int) -> bool:
         """Return whether "back" says where something named before goes, or with its place, what was mentioned."""
