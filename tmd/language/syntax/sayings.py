@@ -110,16 +110,14 @@ class Saying:
 
     def _states(self, attach: Attach) -> list[ClauseDraft]:
         """Return a clause for each state: "should be shut, locked and dry"; but one for "open or shut"."""
-        rest = self.rest
-        listed = next((n for n in rest if is_a(n, "state")), None)
-        words = [n for n in trees([listed], "state")[0].children if isinstance(n, Leaf)] if listed is not None else []
-        either = any(word.source.text in section("choices") for word in words)
-        states = [word for word in words if word.source.kind is Kind.STATE]
-        if either or len(states) < 2:
+        rest, listed = self.rest, trees(self.rest, "state")[:1]
+        words = [leaf for node in listed for leaf in node.children if isinstance(leaf, Leaf)]
+        states = [leaf for leaf in words if leaf.source.kind is Kind.STATE]
+        if len(states) < 2 or any(leaf.source.text in section("choices") for leaf in words):
             return [self._state(attach)]
         found = []
         for state in states:
-            self.rest = [Tree("state", [state]) if node is listed else node for node in rest]
+            self.rest = [Tree("state", [state]) if node is listed[0] else node for node in rest]
             found.append(self._state(attach))
         return found
 
