@@ -223,7 +223,8 @@ class GoalReader:
             own = [*ranked("verbs", "setting"), *own]
         plain, _, particle = verb.partition("_")
         going = tuple(words_of("relations", "going"))
-        goes = any(r.source in clause.direct and relations_said(r.relation, going) for r in clause.relations)
+        moved = clause.direct or (None,)  # "go back to the hall": who acts
+        goes = any(r.source in moved and relations_said(r.relation, going) for r in clause.relations)
         phrasal = verb.count("_") == 1  # to take out is to take; to get rid of is not to get
         if phrasal and (goes or particle not in words_of("particle_ends")):
             own += [plain, *self._synonyms(plain)]
@@ -259,9 +260,11 @@ class GoalReader:
         return self.knows(noun) or bool(self.nouns.things(noun, self.world.task.init) or self.nouns.substances(noun))
 
     def _by_tables(self, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refusal:
-        """Return the goal by the first source that knows the verb."""
+        """Return the goal by the first source that knows the verb, or else by the first that knows a relative of it."""
         failure: Refusal | None = None
-        for table in self.tables:  # a weaker source is asked only where the surer ones know nothing
+        knows = {id(table): any(map(table.of, own)) for table in self.tables}
+        # a weaker source is asked only where the surer ones know nothing
+        for table in sorted(self.tables, key=lambda table: not knows[id(table)]):
             found = self._by_table(table, own, reading)
             if isinstance(found, ClauseGoal) or (found and found.kind is not RefusalKind.NOT_UNDERSTOOD):
                 return found
