@@ -79,7 +79,7 @@ def test_json_says_what_is_asked_of_a_clause(text: str, said: list[dict[str, obj
         ("Take all the dirty cups.", "cup", {"quantifier": "all", "attributes": ["dirty"]}),
         ("Take some cups.", "cup", {"quantifier": "some", "plural": True}),
         ("Fill each cup.", "cup", {"quantifier": "all", "each": True}),
-        ("Take another cup.", "cup", {"quantifier": "other"}),
+        ("Take another cup.", "cup", {"other": True}),
         ("Put no sugar in the cup.", "sugar", {"quantifier": "none"}),
         ("Take the cup or the mug.", "mug", {"definite": True, "either": ["cup", "mug"]}),
     ],

@@ -65,7 +65,7 @@ class ConstraintReader:
         for clause in parsed.clauses:
             untouched = self._done_without(clause, state) | self._excepted(clause, parsed, state, memory)
             found |= TextConstraints(untouched=frozenset(untouched))
-            other = any(clause.phrase(noun).quantifier is Quantifier.OTHER for noun in clause.direct)
+            other = any(clause.phrase(noun).other for noun in clause.direct)
             if clause.mood is not Mood.KEEP or clause.otherwise or clause.conditions or other:
                 continue
             preserved = self.preserved(clause, state, memory)

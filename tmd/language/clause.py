@@ -71,8 +71,6 @@ class Quantifier(StrEnum):
     """Every one: *all the cups*, *both cups*, *each cup*, *the cups*."""
     NUMBER = "number"
     """So many of them as :attr:`NounPhrase.number` says."""
-    OTHER = "other"
-    """One that was not mentioned before: *another cup*, *the other cup*."""
     NONE = "none"
     """None of them: *no sugar*."""
 
@@ -91,6 +89,7 @@ class NounPhrase:
         either: The language-objects of which any one will do: *the cup or the mug*.
         each: Every one by itself is meant: *each cup*.
         undetermined: It is in the singular without any determiner: *cup*.
+        other: None that was mentioned before is meant: *another cup*, *every other cup*.
     """
 
     name: str
@@ -102,6 +101,7 @@ class NounPhrase:
     either: tuple[str, ...] = ()
     each: bool = False
     undetermined: bool = False
+    other: bool = False
 
 
 class Mood(StrEnum):

@@ -364,13 +364,13 @@ class Referents:
         """Return *the other one* and *the red one* as one of what was spoken of."""
         said = reading.clause.phrase(pronoun)
         relations = self.relations_of(pronoun, reading.clause)
-        plain = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations)
+        plain = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations or said.other)
         bound = reading.memory.bound.get(antecedent)
         order = position(pronoun)
         if order is not None and bound is not None:  # "take both cans, and put the first on the table"
             names = bound.names if order < len(bound.names) else bound.names[:1]
             return Referent(antecedent, names[order:][:1] or names, definite=True)
-        other = self._other_one(antecedent, said, types, reading) if said.quantifier is Quantifier.OTHER else None
+        other = self._other_one(antecedent, said, types, reading) if said.other else None
         if other is not None:
             return other
         if pronoun == ONE and plain and antecedent in reading.memory.bound:  # "… the other plate. Wash that one."
@@ -425,7 +425,7 @@ class Referents:
         noun, phrase, relations = context.noun, context.phrase, context.relations
         group = self.nouns.is_group(noun) and not (context.place and noun in self.lexicon.nouns)
         mode, number = mode_of(phrase, group=group, thing=True, place=context.place)
-        among = phrase.quantifier in (Quantifier.SOME, Quantifier.OTHER) and len(objects) == 1 and certain
+        among = (phrase.quantifier is Quantifier.SOME or phrase.other) and len(objects) == 1 and certain
         several = mode is not Mode.ANY or (among and not relations and not phrase.attributes)
         if several and not group:  # "one of the lamps", "the other lamp": where there is but one lamp, a floor lamp
             every = mode in (Mode.ALL, Mode.NUMBER)
@@ -461,9 +461,8 @@ class Referents:
         if referent.mode is Mode.ALL:  # "all of it to the table, but leave the bowl"
             referent = referent.only(choose(NOT_LEFT, referent.names, context))
         if noun in reading.taken:
-            other, one = phrase.quantifier is Quantifier.OTHER, reading.taken[noun]
-            return referent.only(n for n in referent.names if (n == one) != other)
-        if phrase.quantifier is Quantifier.OTHER:
+            return referent.only(n for n in referent.names if (n == reading.taken[noun]) != phrase.other)
+        if phrase.other:
             return self._other(referent, context)
         if (phrase.definite or phrase.undetermined) and referent.mode is Mode.ANY:
             return referent.only(choose(AS_BEFORE, referent.names, context))
@@ -471,9 +470,16 @@ class Referents:
 
     def _other(self, referent: Referent, context: Context) -> Referent:
         """Return those of several things that were not spoken of; of places those where the thing is not."""
-        bound = context.reading.memory.bound.get(context.noun)
-        if bound is not None:
-            return referent.only(n for n in referent.names if n not in bound.names)
+        bound = context.reading.memory.bound
+        spoken = {name for each in bound.values() for name in each.names}
+        spoken |= {name for each in spoken for name in self.grounder.relatives(each, 1)}  # the burner of a knob
+        own = bound[context.noun].names if context.noun in bound else ()
+        # "put the red cup in the sink and the other cups on the table", "take the cups; the red one …, the others …"
+        for gone in (spoken, own):
+            left = [n for n in referent.names if n not in gone]
+            if own or len(left) < len(referent.names):
+                if left or gone is own:
+                    return referent.only(left)
         left = self._places_now(referent, context.reading) if context.place else ()
         return referent.only([n for n in referent.names if n not in left] or referent.names)
 
@@ -490,7 +496,7 @@ class Referents:
             names = next(filter(None, (self.nouns.contained(p, types, reading.state) for p in places)), ())
         else:
             names = self.nouns.constants(noun, types, reading.state)
-        spoken_of = noun in reading.memory.bound and context.phrase.quantifier is not Quantifier.OTHER
+        spoken_of = noun in reading.memory.bound and not context.phrase.other
         return self._by_now(names, types, reading) if spoken_of else names
 
     def _places_now(self, places: Referent, reading: ClauseReading) -> tuple[str, ...]:

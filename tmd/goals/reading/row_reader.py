@@ -155,10 +155,10 @@ class RowReader:
         clause = reading.clause
         for noun, phrase in clause.phrases.items():
             meant = clause.meant(noun)[0]
-            other = is_one(noun) and phrase.quantifier is Quantifier.OTHER
+            other = is_one(noun) and phrase.other
             same = is_noun(noun, "it") and any(r.target == noun for r in clause.relations)
             first = clause.phrases.get(meant)
-            if (other or same) and first is not None and first.quantifier not in (Quantifier.ALL, Quantifier.OTHER):
+            if (other or same) and first is not None and not (first.other or first.quantifier is Quantifier.ALL):
                 return meant
         return None
 

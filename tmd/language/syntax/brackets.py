@@ -544,15 +544,13 @@ class Bracketer(ClauseEnds):
         return self._stop(at) if (self._verb is not None or apart) and self._statement_follows(at) else self._keep(at)
 
     def _also(self, at: int) -> int:
-        """Mark "and so does the mug", "as does the mug", "and the mug too"; return where reading goes on, or 0."""
+        """Mark "and the mug too"; return where reading goes on, or 0."""
         begin = at + 1 + (self.kind(at + 1) is K.CC)
-        does = self.follows(begin, "(ADV|PURP) AUX NP")
-        does = does or (self.among(begin, "as_words") and self.follows(begin + 1, "AUX NP"))
-        if not (does or self._too(begin)):
+        if not self._too(begin):
             return 0
         self.tokens[at].form = ALSO
         self.out.append(self.tokens[at])
-        return begin + 2 * does
+        return begin
 
     def _noun(self, at: int) -> int:
         """Keep a noun, but for a name that is called: "Dave, take"."""

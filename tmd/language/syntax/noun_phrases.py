@@ -85,6 +85,7 @@ class Phrase:
             either=self.either,
             each=not section("each_words").isdisjoint(words),
             undetermined=self._undetermined(),
+            other=not section("other_words").isdisjoint(self.lead),
         )
 
     def _undetermined(self) -> bool:
@@ -101,7 +102,6 @@ class Phrase:
             (Quantifier.NONE, not section("none_words").isdisjoint((*self.lead, self.name))),
             (Quantifier.ALL, self.whole or not section("all_words").isdisjoint(words)),
             (Quantifier.NUMBER, number_of(quantity) not in (None, 1)),
-            (Quantifier.OTHER, not section("other_words").isdisjoint(self.lead)),
             (Quantifier.SOME, one_of or not section("some_words").isdisjoint(self.lead)),
         )
         return next((quantifier for quantifier, holds in rows if holds), Quantifier.PLAIN)

@@ -530,11 +530,18 @@ def _only_when(node: Tree[Leaf]) -> bool:
 
 def _repeat(draft: ClauseDraft, before: ClauseDraft) -> None:
     """Read "do the same with the glass" as the clause before, with another object."""
-    named = [p for p in draft.landmarks if any(r.target == p.name for r in draft.relations)]
+    inner = [r for r in draft.relations if r.relation in section("static")]  # "with the glass in the sink"
+    targets = {r.target for r in draft.relations if r not in inner}
+    named = [p for p in draft.landmarks if p.name in targets]
     if not named or not any(p.name in section("same_words") for p in draft.direct):
         return
     moved = {p.name for p in before.direct}
+    none = tuple(w for p in before.direct for w in p.lead if w in section("none_words"))
+    for phrase in named:
+        phrase.lead = (*none[:1], *phrase.lead)
     draft.verb.stem, draft.direct, draft.result = before.verb.stem, named, before.result
-    draft.landmarks, draft.relations = [], [r for r in before.relations if r.source not in moved]
+    draft.landmarks = [p for p in draft.landmarks if any(r.target == p.name for r in inner)]
+    draft.stated += [r._replace(source=p.name) for r in inner for p in named[-1:]]
+    draft.relations = [*draft.stated, *(r for r in before.relations if r.source not in moved)]
     draft.take_places(before)
     draft.folds += before.folds
