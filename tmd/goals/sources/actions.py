@@ -18,7 +18,7 @@ from itertools import chain, permutations, product
 
 from tmd.goals.sources.table import ACTIONS, FIRST, MARK, WAS, GoalRow, GoalTable, Slot
 from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, words_of
-from tmd.language.lexicon.lexicon import builtin
+from tmd.language.lexicon.lexicon import builtin, section
 from tmd.language.lexicon.nouns import split_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import conjunction, disjunction
@@ -165,10 +165,11 @@ class _Words:
     def _state(self, predicate: Predicate, word: str, *, any_value: bool = False) -> Formula | None:
         """Return that ``?x`` is in a state that has ``word`` in its name; everything else is left open.
 
-        A predicate with a value besides (an amount, a load) is such a state with ``any_value`` only: nothing is in it.
+        A predicate with a value or thing besides (an amount, a load, what it is connected to) is such a state with
+        ``any_value`` only: nothing is in it.
         """
         things = self.things(predicate)
-        if len(things) != 1:
+        if not 0 < len(things) <= 1 + any_value:
             return None
         values = [p for p in predicate.parameters if self.valued(p)]
         named = word in words_in_name(predicate.name)
@@ -345,7 +346,11 @@ class _Words:
     # ------------------------------------------------------------------ participles
 
     def participles(self) -> Iterator[GoalRow]:
-        """Yield ``deliver X to Y`` for ``delivered-to``: what something is when the verb was done to it."""
+        """Yield ``deliver X to Y`` for ``delivered-to``: what something is when the verb was done to it.
+
+        And the same for verbs with that outcome: to plug one thing into another leaves them ``connected``. A prefix
+        undoes it: to unmute a channel takes ``muted`` away.
+        """
         for predicate in self.domain.predicates:
             first, *rest = split_name(predicate.name)
             verb = _participle(first)
@@ -355,10 +360,18 @@ class _Words:
                 continue
             slots = (Slot("?x"), Slot("?y", _ROWS["beside"]))[: len(things)]
             names = {thing.name: slot.variable for thing, slot in zip(things, slots, strict=True)}
-            verbs = (verb, "_".join([verb, *rest])) if rest else (verb,)
+            verbs = (verb, "_".join([verb, *rest])) if rest else (verb, *self._leading_to(first))
             pattern = " … ".join([verb, *(s.variable.removeprefix("?").upper() for s in slots)])
             why = f"the predicate {predicate.name}"
             yield self._row(verbs, slots, self._atom(predicate, names), pattern, why)
+            undoing = tuple(prefix + verb for prefix in section("undoing"))
+            undone = Not(self._atom(predicate, {things[0].name: "?x"}))
+            yield self._row(undoing, (Slot("?x"),), undone, f"{undoing[0]} X", why)
+
+    @staticmethod
+    def _leading_to(outcome: str) -> list[str]:
+        """Return the verbs that leave something so."""
+        return [verb for verb in table("results") if outcome in results(verb)]
 
     # ------------------------------------------------------------------ actions
 

@@ -213,7 +213,15 @@ class Lexicon:
         if word in pairs("spellings"):
             return pairs("spellings")[word], "base", 3
         listed = _wordnet_verbs()[0]
-        found = verb_stem(word, lambda verb: verb in self._own_verbs or verb in listed, _wordnet_verbs()[1])
+
+        def known(verb: str) -> bool:
+            return verb in self._own_verbs or verb in listed
+
+        found = verb_stem(word, known, _wordnet_verbs()[1])
+        prefix = next(filter(word.startswith, sorted(section("undoing"))), "") if found is None else ""
+        undone = verb_stem(word.removeprefix(prefix), known, _wordnet_verbs()[1]) if prefix else None
+        if undone is not None and undone[1] != "ed":  # "unmute", but "unwashed" is an adjective
+            return prefix + undone[0], undone[1], 2
         if found is None:
             return None
         stem, form = found

@@ -64,7 +64,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
     for index, draft in enumerate(reading.drafts):
         while statements and statements[0][0] <= index:
             said = statements.pop(0)[1]
-            fact = said.clause(reading.text)
+            fact = _resolved(said.clause(reading.text), said, scenes)
             scenes.append(_scene(said, fact))
             facts |= _new(fact, clauses)
         clause = draft.clause(reading.text)
@@ -118,7 +118,9 @@ def _stated(clause: Clause, facts: dict[str, Clause]) -> tuple[Relation, ...]:
         # "there is a sock on the floor and one on the bed: put both away" is not about the first only
         several = fact is not None and name in section("plural_pronouns") and not fact.phrase(meant).plural
         places = fact.relations if fact is not None and not several else ()
-        found += [r for r in places if r.source == meant and r.relation in section("static")]
+        meanings = fact.antecedents if fact is not None else {}  # "there is a sock on it"
+        told = [r for r in places if r.source == meant and r.relation in section("static")]
+        found += [r._replace(target=meanings.get(r.target, (r.target,))[0]) for r in told]
     return tuple(r for r in found if r.target not in clause.objects and not is_pronoun(r.target))
 
 

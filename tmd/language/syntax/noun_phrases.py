@@ -9,7 +9,7 @@ from functools import cache
 from lark import Tree
 
 from tmd.language.clause import PERSONS, NounPhrase, Quantifier
-from tmd.language.lexicon.lexicon import first_of, section, sections, singular
+from tmd.language.lexicon.lexicon import first_of, pairs, section, sections, singular
 from tmd.language.syntax.brackets import ALSO
 from tmd.language.syntax.grammar import CHOICE, Leaf, Node, leaves, trees
 from tmd.language.syntax.tokens import NAME, Kind, Token
@@ -19,7 +19,7 @@ def number_of(word: str) -> int | None:
     """Return the number that a word or numeral names, up to twelve in words."""
     if word.isascii() and word.isdigit() and len(word) < 10:
         return int(word)
-    order = sections()["number_order"]
+    order, word = sections()["number_order"], pairs("counts").get(word, word)
     return order.index(word) if word in order else None
 
 
@@ -177,6 +177,8 @@ def _head(words: list[Token], lead: list[Token]) -> Phrase:
         return Phrase(f"{texts[0]}_{one}", start, False, True, lead=said)
     if texts[0] in section("rest_words") and len(texts) == 1 and said:
         return Phrase(one, start, True, True, lead=(*said, first_of("other_words")))
+    if texts == [one] and said and said[-1] in section("demonstratives"):
+        return Phrase(said[-1], start, False, True, lead=said[:-1])  # "that one"
     written = "_".join(texts)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     if last.text in section("one_words"):

@@ -296,7 +296,7 @@ def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
 
 
 def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
-    """Remove somebody who is addressed between commas: "shut the gate, my dear, and lock it".
+    """Remove who is addressed between commas, and sounds: "shut the gate, my dear, and, er, lock it".
 
     Returns:
         The tokens that stay and the tokens removed.
@@ -310,6 +310,8 @@ def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
         if token.text in section("endearments") and opened and after in (Kind.COMMA, Kind.STOP):
             dropped += tokens[begin : at + 1]
             gone.update(map(id, tokens[begin - 1 : at + 1 + (after is Kind.COMMA)]))  # without the commas
+        if token.text in section("hesitations"):
+            gone.update(map(id, tokens[at : at + 1 + (after is Kind.COMMA)]))
     return [token for token in tokens if id(token) not in gone], noted(dropped, ADDRESS)
 
 
