@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import cache
 
 import yaml
@@ -204,7 +205,8 @@ def _new(
     new: list[Token] = []
     for element, name in row.replacement:
         if name and not element.endswith(".stem}"):
-            new += slots.get(name, ())
+            again = any(token is other for token in slots.get(name, ()) for other in new)
+            new += [replace(token) if again else token for token in slots.get(name, ())]
             continue
         place = new[-1].span.end if new else place
         fresh = _fresh(element, slots[name][0].stem if name else "", Span(place, place))
