@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -422,19 +422,18 @@ class Referents:
 
     def _counted(self, objects: tuple[str, ...], context: Context, *, certain: bool) -> Referent:
         """Return how many of the objects that a noun may mean are meant."""
-        noun, phrase, relations = context.noun, context.phrase, context.relations
+        noun, phrase = context.noun, context.phrase
         group = self.nouns.is_group(noun) and not (context.place and noun in self.lexicon.nouns)
         mode, number = mode_of(phrase, group=group, thing=True, place=context.place)
-        among = (phrase.quantifier is Quantifier.SOME or phrase.other) and len(objects) == 1 and certain
-        several = mode is not Mode.ANY or (among and not relations and not phrase.attributes)
+        some = phrase.quantifier is Quantifier.SOME or phrase.other
+        among = some and len(objects) == 1 and certain and not (context.relations or phrase.attributes)
+        several = mode is not Mode.ANY or among
         if several and not group:  # "one of the lamps", "the other lamp": where there is but one lamp, a floor lamp
             every = mode in (Mode.ALL, Mode.NUMBER)
             objects, group = self._all_kinds(noun, objects, context.types, context.reading.state, all_of_it=every)
         if phrase.number == 2 and mode is Mode.ALL:
             mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
-        one = phrase.definite or phrase.undetermined
-        definite = one and phrase.quantifier is not Quantifier.SOME  # "one of the lamps": any of them
-        return Referent(noun, objects, mode, number, definite, group, phrase.each)
+        return Referent(noun, objects, mode, number, _is_definite(phrase), group, phrase.each)
 
     def _told_apart(self, whole: Referent, context: Context) -> Referent:
         """Return the candidates that the adjectives, the relations and the rest of the text leave."""
@@ -471,17 +470,19 @@ class Referents:
     def _other(self, referent: Referent, context: Context) -> Referent:
         """Return those of several things that were not spoken of; of places those where the thing is not."""
         bound = context.reading.memory.bound
-        spoken = {name for each in bound.values() for name in each.names}
-        spoken |= {name for each in spoken for name in self.grounder.relatives(each, 1)}  # the burner of a knob
-        own = bound[context.noun].names if context.noun in bound else ()
-        # "put the red cup in the sink and the other cups on the table", "take the cups; the red one …, the others …"
-        for gone in (spoken, own):
-            left = [n for n in referent.names if n not in gone]
-            if own or len(left) < len(referent.names):
-                if left or gone is own:
-                    return referent.only(left)
+        unspoken = self._unspoken(referent, bound)
+        if unspoken.names and unspoken.names != referent.names:
+            return unspoken
+        if context.noun in bound:
+            return referent.only(n for n in referent.names if n not in bound[context.noun].names)
         left = self._places_now(referent, context.reading) if context.place else ()
         return referent.only([n for n in referent.names if n not in left] or referent.names)
+
+    def _unspoken(self, referent: Referent, bound: Mapping[str, Bound]) -> Referent:
+        """Return those of several things that no noun meant: "the red cup in the sink, the other cups on the table"."""
+        spoken = {name for each in bound.values() for name in each.names}
+        spoken |= {name for each in spoken for name in self.grounder.relatives(each, 1)}  # the burner of a knob
+        return referent.only(n for n in referent.names if n not in spoken)
 
     def _constants(self, context: Context) -> tuple[str, ...]:
         """Return the constants that a noun names; *everything* is what is in something.
@@ -717,6 +718,11 @@ class Referents:
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
         hint = "name a thing that is there, or allow guesses"
         return Refusal(RefusalKind.NO_SUCH_THING, f"nothing here is called '{said}'", hint)
+
+
+def _is_definite(phrase: NounPhrase) -> bool:
+    """Return whether a phrase means one particular thing; "one of the lamps" is any of them."""
+    return (phrase.definite or phrase.undetermined) and phrase.quantifier is not Quantifier.SOME
 
 
 def is_none(noun: str, clause: Clause) -> bool:

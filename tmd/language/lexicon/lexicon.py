@@ -213,17 +213,9 @@ class Lexicon:
         if word in pairs("spellings"):
             return pairs("spellings")[word], "base", 3
         listed = _wordnet_verbs()[0]
-
-        def known(verb: str) -> bool:
-            return verb in self._own_verbs or verb in listed
-
-        found = verb_stem(word, known, _wordnet_verbs()[1])
-        prefix = next(filter(word.startswith, sorted(section("undoing"))), "") if found is None else ""
-        undone = verb_stem(word.removeprefix(prefix), known, _wordnet_verbs()[1]) if prefix else None
-        if undone is not None and undone[1] != "ed":  # "unmute", but "unwashed" is an adjective
-            return prefix + undone[0], undone[1], 2
+        found = self._stem(word)
         if found is None:
-            return None
+            return self._undoing(word)
         stem, form = found
         noun = singular(word) in self._own_nouns or stem in self._own_nouns
         if stem in self.verbs:
@@ -233,6 +225,19 @@ class Lexicon:
         if stem in section("verbs"):
             return stem, form, 2 if noun else 3
         return stem, form, 1 if noun or listed.get(stem) == "nv" else 2
+
+    def _stem(self, word: str) -> tuple[str, str] | None:
+        """Return the stem and the form of a verb of the own list or of WordNet."""
+        listed, irregular, _ = _wordnet_verbs()
+        return verb_stem(word, lambda verb: verb in self._own_verbs or verb in listed, irregular)
+
+    def _undoing(self, word: str) -> tuple[str, str, int] | None:
+        """Return a verb with a prefix that undoes it: "unmute"; "unwashed" is an adjective."""
+        for prefix in filter(word.startswith, sorted(section("undoing"))):
+            found = self._stem(word.removeprefix(prefix))
+            if found is not None and found[1] != "ed":
+                return prefix + found[0], found[1], 2
+        return None
 
     def particle(self, stem: str, particle: str) -> bool | None:
         """Return whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""

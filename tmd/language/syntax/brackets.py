@@ -407,7 +407,7 @@ class Bracketer(ClauseEnds):
 
     def _question(self, at: int) -> int:
         """Set a question aside; one that "if so" or "if not" follows is a condition of what is asked then."""
-        end = self.first(at, "STOP")
+        end = self.first(at, "STOP | COMMA IDLE* V")  # "is there no hurry, could you set the table?"
         so = end + 1 + (self.kind(end + 1) is K.SUB and self.among(end + 2, "affirming"))
         denied = self.among(end + 1, "denying")
         opener = mark(K.SUB, self.tokens[at].span.start)

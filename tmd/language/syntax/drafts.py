@@ -117,6 +117,11 @@ class ClauseDraft:
         places = {r.relation: r.target for r in other.relations if r.source in moved and r.target in named}
         self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
 
+    def unmoved(self) -> list[Relation]:
+        """Return its relations but for those of what it acts on."""
+        moved = {p.name for p in self.direct}
+        return [r for r in self.relations if r.source not in moved]
+
     def settings(self) -> list[str]:
         """Return its settings."""
         return [token.text for token in self.folds if token.form == SETTING]

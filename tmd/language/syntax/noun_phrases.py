@@ -170,15 +170,9 @@ def _head(words: list[Token], lead: list[Token]) -> Phrase:
     """Return the phrase of a head; "the white one" and "the other" pick one of the things mentioned."""
     start, said = words[0].span.start, tuple(t.text for t in lead)
     texts, last = [t.text for t in words], words[-1]
-    one = first_of("one_words")
-    if texts[0] in section("other_words") and len(texts) == 1:
-        return Phrase(one, start, False, True, lead=(*said, *texts))
-    if texts[0] in section("ordinals") and len(texts) == 1:
-        return Phrase(f"{texts[0]}_{one}", start, False, True, lead=said)
-    if texts[0] in section("rest_words") and len(texts) == 1 and said:
-        return Phrase(one, start, True, True, lead=(*said, first_of("other_words")))
-    if texts == [one] and said and said[-1] in section("demonstratives"):
-        return Phrase(said[-1], start, False, True, lead=said[:-1])  # "that one"
+    alone = _one_of(texts[0], start, said) if len(texts) == 1 else None
+    if alone is not None:
+        return alone
     written = "_".join(texts)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     if last.text in section("one_words"):
@@ -187,6 +181,20 @@ def _head(words: list[Token], lead: list[Token]) -> Phrase:
     pronoun = last.kind is Kind.PRON
     name = written if pronoun or last.form == NAME else singular(written)
     return Phrase(name, start, name != written, pronoun, quantity, lead=said)
+
+
+def _one_of(word: str, start: int, lead: tuple[str, ...]) -> Phrase | None:
+    """Return "the other", "the first", "the rest" or "that one"; ``None`` for any other word."""
+    one = first_of("one_words")
+    if word in section("other_words"):
+        return Phrase(one, start, False, True, lead=(*lead, word))
+    if word in section("ordinals"):
+        return Phrase(f"{word}_{one}", start, False, True, lead=lead)
+    if word in section("rest_words") and lead:
+        return Phrase(one, start, True, True, lead=(*lead, first_of("other_words")))
+    if word == one and lead and lead[-1] in section("demonstratives"):
+        return Phrase(lead[-1], start, False, True, lead=lead[:-1])
+    return None
 
 
 def named_in(nodes: Sequence[Node]) -> list[Phrase]:

@@ -535,13 +535,11 @@ def _repeat(draft: ClauseDraft, before: ClauseDraft) -> None:
     named = [p for p in draft.landmarks if p.name in targets]
     if not named or not any(p.name in section("same_words") for p in draft.direct):
         return
-    moved = {p.name for p in before.direct}
-    none = tuple(w for p in before.direct for w in p.lead if w in section("none_words"))
-    for phrase in named:
-        phrase.lead = (*none[:1], *phrase.lead)
+    if before.none():
+        named = [replace(p, lead=(first_of("none_words"), *p.lead)) for p in named]
     draft.verb.stem, draft.direct, draft.result = before.verb.stem, named, before.result
-    draft.landmarks = [p for p in draft.landmarks if any(r.target == p.name for r in inner)]
-    draft.stated += [r._replace(source=p.name) for r in inner for p in named[-1:]]
-    draft.relations = [*draft.stated, *(r for r in before.relations if r.source not in moved)]
+    draft.landmarks = [p for p in draft.landmarks if p.name not in targets]
+    draft.stated += [r._replace(source=named[-1].name) for r in inner]
+    draft.relations = [*draft.stated, *before.unmoved()]
     draft.take_places(before)
     draft.folds += before.folds
