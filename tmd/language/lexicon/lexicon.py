@@ -160,10 +160,13 @@ class Lexicon:
 
     def with_names(self, names: Iterable[str]) -> Lexicon:
         """Return the lexicon with names of objects: all words of a name are one noun ("blood sample 1")."""
-        words = (name.lower().replace("-", "_").rstrip("0123456789").split("_") for name in names)
-        parts = (tuple(word for word in name if word.isalpha()) for name in words)
+        words = [name.lower().replace("-", "_").rstrip("0123456789").split("_") for name in names]
+        parts = [tuple(word for word in name if word.isalpha()) for name in words]
         compounds = {words for words in parts if len(words) > 1 and (self.verb(words[0]) or ("", "", 0))[2] < _SURE}
-        return self if compounds <= self.compounds else replace(self, compounds=self.compounds | compounds)
+        counted = {part[-1] for name, part in zip(names, parts, strict=True) if part and name[-1].isdigit()}
+        if compounds <= self.compounds and counted <= self.kinds:
+            return self
+        return replace(self, compounds=self.compounds | compounds, kinds=self.kinds | counted)
 
     def canonical_verb(self, verb: str) -> str:
         """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""

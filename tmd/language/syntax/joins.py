@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section, singular
-from tmd.language.syntax.tokens import HEADS, IDLE, NP, Kind, Token, Words, fold
+from tmd.language.syntax.tokens import HEADS, IDLE, LINKS, NP, Kind, Token, Words, fold
 
 K = Kind
 SETTING = "setting"
@@ -97,7 +97,7 @@ def _partitives(words: Words) -> None:
 def _firsts(words: Words, lexicon: Lexicon) -> None:
     """Read "burner one" with a figure; "the toy one" and "red one" refer to something that was mentioned."""
     for at, token in enumerate(words.tokens[1:], start=1):
-        named = words.kind(at - 1) is K.N and lexicon.names_thing(words.tokens[at - 1].text)
+        named = words.kind(at - 1) is K.N and lexicon.names_thing(singular(words.tokens[at - 1].text))
         if named and token.text == first_of("one_words") and not _counts(words, at):
             front = next((t.kind for t in reversed(words.tokens[:at]) if t.kind is not K.N), None)
             if front is not K.DET:
@@ -105,15 +105,28 @@ def _firsts(words: Words, lexicon: Lexicon) -> None:
 
 
 def _numbered(words: Words) -> list[Token]:
-    """Join "burner 2" to one noun; a numeral without a noun is a noun itself; "ones" carries what tells which."""
+    """Join "burner 2" to one noun; a numeral without a noun is a noun itself; "ones" carries what tells which.
+
+    "Burners 2 and 3" are burner 2 and burner 3.
+    """
     result: list[Token] = []
+    listed = ""
     for at, token in enumerate(words.tokens):
         before = result[-1] if result and result[-1].kind is K.N else None
+        numeral = token.kind is K.NUM and not _counts(words, at)
+        if numeral and before is not None:
+            one = singular(before.text)
+            listed = one if one != before.text else ""
+            before.text = one
+        elif numeral and listed and words.kind(at - 1) in LINKS:
+            token.kind, token.text = K.N, f"{listed}_{token.text}"
+        elif token.kind not in LINKS:
+            listed = ""
         if token.kind in (K.NUM, K.PRON) and words.among(at, "one_words") and before is not None:
             token.kind = K.N  # "the red one"
         elif words.among(at, "other_words") and not words.follows(at + 1, "(IDLE|ADJ)* (N|NUM|HEAD)"):
             token.kind = K.PRON if token.kind in (K.DET, K.ADJ) else token.kind  # "and another in the crate"
-        elif token.kind is K.NUM and not _counts(words, at):
+        elif token.kind is K.NUM and numeral:
             if before is not None:
                 joined = fold([before, token], K.N)
                 joined.parts = before.parts
