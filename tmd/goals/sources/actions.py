@@ -18,7 +18,7 @@ from itertools import chain, permutations, product
 
 from tmd.goals.sources.table import ACTIONS, FIRST, MARK, WAS, GoalRow, GoalTable, Slot
 from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, words_of
-from tmd.language.lexicon.lexicon import builtin, section
+from tmd.language.lexicon.lexicon import builtin, section, singular
 from tmd.language.lexicon.nouns import split_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import conjunction, disjunction
@@ -388,10 +388,32 @@ class _Words:
                 continue
             wanted = self._brought_about(action)
             verbs = words[:1] if shortened else tuple(dict.fromkeys(_verbs_of("_".join(words))))
+            noun = "" if shortened or not wanted else self._noun_in(action, words)
+            if noun:
+                yield from self._about_noun(action, words[0], noun, wanted)
+                verbs = tuple(verb for verb in verbs if verb != words[0])
             if wanted:
                 yield from self._with_slots(action, verbs, wanted)
             else:
                 yield from self._of_oneself(action, words)
+
+    def _noun_in(self, action: ActionSchema, words: Sequence[str]) -> str:
+        """Return the noun behind the verb of an action's name that none of its parameters is: ``set_chocks``."""
+        nouns = [word for word in words[1:] if word not in words_of("names", "particles") and not _is_preposition(word)]
+        kinds = {word for p in action.parameters for kind in self._kinds(p) for word in words_in_name(kind)}
+        # what is a verb as well may be one: ``press-mute``, ``saddle_up``
+        return singular("_".join(nouns)) if nouns and kinds.isdisjoint((*nouns, *map(singular, nouns))) else ""
+
+    def _about_noun(
+        self, action: ActionSchema, verb: str, noun: str, wanted: Sequence[Effect]
+    ) -> Iterator[GoalRow]:
+        """Yield rows for an action whose name has a noun: "put the chocks under the plane" for ``set_chocks``."""
+        mentioned = {term for effect in wanted for term in effect.atom.terms}
+        for place in (p for p in action.parameters if p.name in mentioned and not self.actor(p)):
+            formula = conjunction([self._said(effect, {place.name: "?y"}, action) for effect in wanted])
+            slot = Slot("?y", (*_ANYWHERE, *_ROWS["whither"]))
+            row = self._row((verb,), (slot,), formula, f"{verb} {noun} … Y", f"the action {action.name}")
+            yield replace(row, noun=noun)
 
     def _brought_about(self, action: ActionSchema) -> list[Effect]:
         """Return what an action makes true of its parameters without a condition, or else what it makes false."""
@@ -517,7 +539,7 @@ def _verbs_of(name: str) -> Iterator[str]:
         ends = (ending for ending in table("names")["joined"] if len(name) > len(ending) + 2)
         yield from (name.removesuffix(ending) for ending in ends if name.endswith(ending))
         return
-    if any(words[-1] in members for members in PREPOSITIONS.values()):
+    if _is_preposition(words[-1]):
         yield "_".join(words[:-1])
     if words[-1] not in words_of("names", "particles"):
         yield words[0]
@@ -527,6 +549,10 @@ def _participle(name: str) -> str | None:
     """Return the verb of which a name is a past participle; ``None`` for any other name."""
     verb = builtin().verb(name)
     return verb[0] if verb is not None and verb[1] in words_of("outcomes", "participle") else None
+
+
+def _is_preposition(word: str) -> bool:
+    return any(word in members for members in PREPOSITIONS.values())
 
 
 def _placelike(parameter: TypedName) -> bool:
