@@ -12,7 +12,7 @@ from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.reading.referents import ANY_TYPE, is_none
 from tmd.goals.words import BE, is_pronoun, is_relation, is_verb, words_of
-from tmd.language.clause import PERSONS, Clause, Mood, Parsed, Quantifier
+from tmd.language.clause import PERSONS, Clause, Mood, Parsed
 from tmd.pddl.ground_formula import atoms_of
 from tmd.pddl.model import Atom, Formula, GroundAtom, Not
 from tmd.pddl.task import Bits, Cube

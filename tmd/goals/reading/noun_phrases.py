@@ -157,7 +157,8 @@ class Nouns(Facts):
     def _with_part(self, noun: str) -> tuple[str, ...]:
         """Return the things that a part is only told of: rooms, for *doors*, where ``door_open`` is said of rooms."""
         facts = {
-            name: [f for f in self.facts_about(name) if _tells_of(noun, f)] for name in self.world.profiles.objects
+            name: [f for f in self.facts_about(name) if _tells_of(noun, f, name)]
+            for name in self.world.profiles.objects
         }
         having = tuple(n for n, told in facts.items() if any(f in self.world.task.static for f in told))
         having = having or tuple(n for n, told in facts.items() if told)
@@ -398,12 +399,12 @@ def _words_of_name(name: str) -> set[str]:
     return {*words, *map(singular, words)}
 
 
-def _tells_of(noun: str, fact: GroundAtom) -> bool:
-    """Return whether a fact about one thing speaks of a part of it: ``door_open``, ``has_door``."""
+def _tells_of(noun: str, fact: GroundAtom, name: str) -> bool:
+    """Return whether a fact speaks of a part of a thing: ``door_open``, ``has_door``; ``in_hold`` of what is in it."""
     parts = split_name(fact.predicate)
     words = {singular(word) for word in parts}
-    if is_relation(parts[0], "place"):
-        return False  # "on_table" says where a thing is
+    if is_relation(parts[0], "place"):  # "on_table", of one thing, says where it is
+        return len(fact.args) == 2 and fact.args[1] == name and words == {parts[0], noun}
     return len(fact.args) == 1 and noun in words and words - {noun} <= words_of("part_states") and len(words) > 1
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -364,7 +364,9 @@ class Referents:
         """Return *the other one* and *the red one* as one of what was spoken of."""
         said = reading.clause.phrase(pronoun)
         relations = self.relations_of(pronoun, reading.clause)
-        plain = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations or said.other)
+        plain = (
+            said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations or said.other)
+        )
         bound = reading.memory.bound.get(antecedent)
         order = position(pronoun)
         if order is not None and bound is not None:  # "take both cans, and put the first on the table"
@@ -580,19 +582,26 @@ class Referents:
             if excepting and is_one(target) and self._any_one(target, reading) and referent.names:
                 referent = replace(referent, mode=Mode.NUMBER, number=len(referent.names) - 1)  # "all but one"
                 continue
-            if excepting:
-                left: Iterable[str] = self.excepted([(relation, target)], reading)
-            elif relation.startswith(NEGATED) or is_none(target, reading.clause):  # "the chair that has no pillow"
-                plain = relation.removeprefix(NEGATED)
-                left = self.nouns.related_now(referent.names, plain, names, reading.moments)
-            elif is_relation(relation, "untelling") or not names:
-                continue
-            else:
+            left = self._taken_away(referent, relation, target, names, reading)
+            if left is not None:
+                referent = referent.only(n for n in referent.names if n not in left)
+            elif names and not is_relation(relation, "untelling"):
                 stated = Relation(relation, referent.noun, target) in reading.clause.stated
                 referent = self._where(referent, relation, names, reading, whole, stated=stated)
-                continue
-            referent = referent.only(n for n in referent.names if n not in left)
         return referent
+
+    def _taken_away(
+        self, referent: Referent, relation: str, target: str, names: Sequence[str], reading: ClauseReading
+    ) -> Collection[str] | None:
+        """Return the candidates that a relation takes away; ``None`` for one that says where they are."""
+        if is_relation(relation, "excepting"):
+            return self.excepted([(relation, target)], reading)
+        if relation.startswith(NEGATED) or is_none(target, reading.clause):  # "the chair that has no pillow"
+            plain = relation.removeprefix(NEGATED)
+            return self.nouns.related_now(referent.names, plain, names, reading.moments)
+        if is_relation(relation, "partitive") and not set(names).isdisjoint(referent.names):
+            return set(referent.names) - set(names)  # "the hold of the jet", which is but told of
+        return None
 
     def _where(
         self,

@@ -404,9 +404,7 @@ class _Words:
         # what is a verb as well may be one: ``press-mute``, ``saddle_up``
         return singular("_".join(nouns)) if nouns and kinds.isdisjoint((*nouns, *map(singular, nouns))) else ""
 
-    def _about_noun(
-        self, action: ActionSchema, verb: str, noun: str, wanted: Sequence[Effect]
-    ) -> Iterator[GoalRow]:
+    def _about_noun(self, action: ActionSchema, verb: str, noun: str, wanted: Sequence[Effect]) -> Iterator[GoalRow]:
         """Yield rows for an action whose name has a noun: "put the chocks under the plane" for ``set_chocks``."""
         mentioned = {term for effect in wanted for term in effect.atom.terms}
         for place in (p for p in action.parameters if p.name in mentioned and not self.actor(p)):

@@ -789,7 +789,9 @@ class Bracketer(ClauseEnds):
             token.kind, token.stem = K.PARTICIPLE, token.text
         elif self.follows(at + 1, "IDLE* (BREAK|SUB|MOD|P|V)"):
             hosted = state and last in (K.AUX, K.V, K.FINITE, K.STATE, K.CC)
-            there = any(self.among(i - 1, "there_words") and self.past(i, "(AUX|NEG)*") == at for i in range(at - 3, at))
+            there = any(
+                self.among(i - 1, "there_words") and self.past(i, "(AUX|NEG)*") == at for i in range(at - 3, at)
+            )
             if hosted or (last is K.AUX and not there and not self.lexicon.is_noun(token.text)):
                 token.kind = K.STATE
         return self._keep(at)

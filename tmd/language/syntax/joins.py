@@ -110,23 +110,14 @@ def _numbered(words: Words) -> list[Token]:
     "Burners 2 and 3" are burner 2 and burner 3.
     """
     result: list[Token] = []
-    listed = ""
+    _list_numbered(words)
     for at, token in enumerate(words.tokens):
         before = result[-1] if result and result[-1].kind is K.N else None
-        numeral = token.kind is K.NUM and not _counts(words, at)
-        if numeral and before is not None:
-            one = singular(before.text)
-            listed = one if one != before.text else ""
-            before.text = one
-        elif numeral and listed and words.kind(at - 1) in LINKS:
-            token.kind, token.text = K.N, f"{listed}_{token.text}"
-        elif token.kind not in LINKS:
-            listed = ""
         if token.kind in (K.NUM, K.PRON) and words.among(at, "one_words") and before is not None:
             token.kind = K.N  # "the red one"
         elif words.among(at, "other_words") and not words.follows(at + 1, "(IDLE|ADJ)* (N|NUM|HEAD)"):
             token.kind = K.PRON if token.kind in (K.DET, K.ADJ) else token.kind  # "and another in the crate"
-        elif token.kind is K.NUM and numeral:
+        elif token.kind is K.NUM and not _counts(words, at):
             if before is not None:
                 joined = fold([before, token], K.N)
                 joined.parts = before.parts
@@ -135,6 +126,20 @@ def _numbered(words: Words) -> list[Token]:
             token.kind = K.PRON if singular(token.text) == token.text else K.N
         result.append(token)
     return result
+
+
+def _list_numbered(words: Words) -> None:
+    """Give each numeral of a list the noun in front: "burners 2 and 3"."""
+    noun = ""
+    for at, token in enumerate(words.tokens):
+        if token.kind is not K.NUM or _counts(words, at):
+            noun = noun if token.kind in LINKS else ""
+        elif words.kind(at - 1) is K.N:
+            before = words.tokens[at - 1]
+            noun = singular(before.text) if singular(before.text) != before.text else ""
+            before.text = singular(before.text)
+        elif noun and words.kind(at - 1) in LINKS:
+            token.kind, token.text = K.N, f"{noun}_{token.text}"
 
 
 def _counts(words: Words, at: int) -> bool:
