@@ -110,9 +110,21 @@ class GoalReader:
         if isinstance(found, Refusal) and clause.verb == BE and found.kind is not RefusalKind.NO_SUCH_THING:
             asked = self._state(reading.again())
             found = found if isinstance(asked, Refusal) else asked
+        elided = self._elided(clause) if isinstance(found, Refusal) else None
+        if elided is not None:
+            said = ClauseReading(elided, reading.moments, memory, awaited=awaited, decisions=decisions)
+            placed = self._by_tables(self._own_verbs(elided), said)
+            found = found if isinstance(placed, Refusal) else placed
         if isinstance(found, Refusal) and clause.setting in words_of("extremes"):
             return self.read(replace(clause, setting=None), state, memory, awaited=awaited, decisions=decisions)
         return found
+
+    def _elided(self, clause: Clause) -> Clause | None:
+        """Return "put on the table" as to put there what was spoken of; ``None`` where the particle is no place."""
+        verb, _, particle = clause.verb.partition("_")
+        if "" not in clause.antecedents or clause.relations or not particle:
+            return None
+        return replace(clause, verb=verb, direct=(), relations=tuple(Relation(particle, None, n) for n in clause.direct))
 
     @cached_property
     def _place_states(self) -> Mapping[tuple[str, str], str]:

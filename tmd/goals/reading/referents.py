@@ -333,7 +333,8 @@ class Referents:
         if is_one(pronoun):
             return replace(self._one_of(antecedent, pronoun, types, reading), noun=pronoun)
         bound = reading.memory.bound.get(antecedent)
-        many = is_noun(pronoun, "plural") or self.nouns.is_group(antecedent) or (bound is not None and bound.every)
+        many = not pronoun or is_noun(pronoun, "plural")  # what is left out is all that was acted on
+        many = many or self.nouns.is_group(antecedent) or (bound is not None and bound.every)
         if bound is not None:
             return self._bound(antecedent, bound, types, reading, many=many)
         phrase = NounPhrase(antecedent, definite=True, plural=many)

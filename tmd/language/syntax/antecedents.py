@@ -83,7 +83,9 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
 
 def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:
     places = [name for name in clause.objects if is_pronoun(name) or name in section("animate")]
-    if not draft.direct and clause.verb not in section("intransitive"):
+    verb, _, particle = clause.verb.partition("_")
+    elided = verb in section("placing") and particle in section("static")  # "put on the table"
+    if elided or not (draft.direct or clause.verb in section("intransitive")):
         places.append("")
     antecedents, together = {}, {}
     for pronoun in places:
