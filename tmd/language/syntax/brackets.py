@@ -130,7 +130,7 @@ class Bracketer(ClauseEnds):
         start = (self.out[self._subject] if self._subject < len(self.out) else self.tokens[at]).span.start
         say = mark(K.SAY, start)
         say.negated = negated
-        say.form = DUTY if self._asked else ""
+        say.form = DUTY if self._asked or self._demand_goes_on(at) else ""
         self.out.insert(self._subject, say)
         reported = self.kind(at) is K.FINITE and self.stem_among(at, "reporting")
         end = self.past(at + 1, "REL?") if reported else self._statement_end(at)
@@ -140,6 +140,12 @@ class Bracketer(ClauseEnds):
             self._begin()
         return end
 
+    def _demand_goes_on(self, at: int) -> bool:
+        """Return whether a statement is one of a demanded list: "make sure the radio is off, the gate is shut and …"."""
+        demanded = any(t.kind is K.ENSURE for t in self.out[self._units[0][0] :])
+        rest = range(at, self.first(at, "STOP"))
+        return demanded and any(self.kind(i) is K.CC and self._statement_follows(i) for i in rest)
+
     def _part_subject(self) -> None:
         """Begin a unit behind what precedes the subject without belonging to it: "radio off, the baby is asleep"."""
         named = self.out[self._subject :]
@@ -147,7 +153,7 @@ class Bracketer(ClauseEnds):
         first = next((i for i in range(comma, len(named)) if named[i].kind not in LINKS), comma)
         before, subject = named[:comma], {t.kind for t in named[first:]}
         stated = any(t.kind is K.STATE for t in before)
-        placed = any(t.kind is K.P for t in before[1:]) and before[0].kind is not K.P and K.PRON not in subject
+        placed = any(t.kind is K.P for t in before[1:]) and before[0].kind not in (K.P, K.EXC) and K.PRON not in subject
         if (stated or placed) and K.CC not in subject and not subject.isdisjoint(HEADS):
             named[comma].kind = K.SEP
             self._subject += comma

@@ -259,7 +259,8 @@ class Attachment:
         named = {p.name for p in self.draft.direct} - {p.name for p in phrases}
         goes = any(r.source in named and r.relation in section("arrivals") for r in self.draft.relations)
         # "all cups in the sink except the cup on the shelf": where the others go was said before
-        self.host, self._behind = phrases if goes or _tells(phrases) else [], EXCEPT
+        fronted = not self.draft.direct  # "except for the cup on the shelf, all cups …"
+        self.host, self._behind = phrases if goes or fronted or _tells(phrases) else [], EXCEPT
 
     def _place(self, preposition: Token, group: Tree[Leaf], later: int) -> None:
         """Add a prepositional phrase; ``later`` counts those still to come."""

@@ -172,8 +172,12 @@ def _settings(words: Words) -> None:
 
 def _exceptions(words: Words) -> None:
     """Mark what opens an exception: "except", and "but" or "save" behind a word for all there is."""
-    whole = -_AHEAD
+    whole, all_of_them = -_AHEAD, False
     for at, token in enumerate(words.tokens):
+        all_of_them = token.kind is not K.STOP and (all_of_them or words.among(at, "whole_words", "all_words"))
+        denied = all_of_them and words.among(at, "excepted") and words.follows(at + 1, "NEG IDLE* NP")
+        if denied:  # "everything in the fridge, but not my cup"
+            token.kind, words.tokens[at + 1].kind = K.EXC, K.FILLER
         if words.among(at, "whole_words", "all_words"):
             whole = at
         elif token.kind in (K.STOP, K.COMMA, K.V):
