@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 
 from lark import Tree
@@ -381,6 +381,17 @@ class Attachment:
             return self._instrument or (stem in held and not self._behind)
         return self._instrument or stem.partition("_")[0] not in section("with_verbs")
 
+    def _tell_excepted_apart(self, acted_on: Collection[str]) -> None:
+        """Rename what is excepted in front of its whole: "except for the cup on the shelf, every cup"."""
+        for number, (name, targets) in enumerate(self._pending):
+            alike = {p.name: as_one(p) for p in targets if name == EXCEPT and p.name in acted_on}
+            if not alike:
+                continue
+            self._pending[number] = name, [alike.get(p.name, p) for p in targets]
+            self.draft.landmarks = [alike.get(p.name, p) for p in self.draft.landmarks]
+            said = self.draft.relations
+            self.draft.relations = [r._replace(source=alike[r.source].name) if r.source in alike else r for r in said]
+
     def _tells_one(self) -> bool:
         """Return whether what comes now says which *one* is meant."""
         return bool(self._behind) and bool(self.host) and all(p.name in section("one_words") for p in self.host)
@@ -388,6 +399,7 @@ class Attachment:
     def flush(self, direct: list[Phrase]) -> None:
         """Relate what stands behind prepositions to the direct objects."""
         sources: list[str | None] = [p.name for p in direct] or [None]
+        self._tell_excepted_apart({p.name for p in direct})
         for name, targets in self._pending:
             self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)
         self._pending.clear()
