@@ -107,24 +107,32 @@ class GoalReader:
         if self._is_state(clause):
             return self._state(reading)
         found = self._by_tables(self._own_verbs(clause), reading)
-        if isinstance(found, Refusal) and clause.verb == BE and found.kind is not RefusalKind.NO_SUCH_THING:
-            asked = self._state(reading.again())
-            found = found if isinstance(asked, Refusal) else asked
-        elided = self._elided(clause) if isinstance(found, Refusal) else None
-        if elided is not None:
-            said = ClauseReading(elided, reading.moments, memory, awaited=awaited, decisions=decisions)
-            placed = self._by_tables(self._own_verbs(elided), said)
-            found = found if isinstance(placed, Refusal) else placed
-        if isinstance(found, Refusal) and clause.setting in words_of("extremes"):
-            return self.read(replace(clause, setting=None), state, memory, awaited=awaited, decisions=decisions)
-        return found
+        return self._read_again(reading, found) if isinstance(found, Refusal) else found
 
-    def _elided(self, clause: Clause) -> Clause | None:
-        """Return "put on the table" as to put there what was spoken of; ``None`` where the particle is no place."""
+    def _read_again(self, reading: ClauseReading, refusal: Refusal) -> ClauseGoal | Refusal:
+        """Return what a clause asks for that no row understands as it was said."""
+        clause = reading.clause
+        if clause.verb == BE and refusal.kind is not RefusalKind.NO_SUCH_THING:
+            asked = self._state(reading.again())
+            if not isinstance(asked, Refusal):
+                return asked
+        placed = self._placed(reading)
+        if placed is None and clause.setting in words_of("extremes"):
+            plain, memory = replace(clause, setting=None), reading.memory
+            return self.read(plain, reading.state, memory, awaited=reading.awaited, decisions=reading.decisions)
+        return placed or refusal
+
+    def _placed(self, reading: ClauseReading) -> ClauseGoal | None:
+        """Return the goal of "put on the table" as to put there what was spoken of; ``None`` where it is none."""
+        clause = reading.clause
         verb, _, particle = clause.verb.partition("_")
         if "" not in clause.antecedents or clause.relations or not particle:
             return None
-        return replace(clause, verb=verb, direct=(), relations=tuple(Relation(particle, None, n) for n in clause.direct))
+        where = tuple(Relation(particle, None, noun) for noun in clause.direct)
+        said = reading.again()
+        said.clause = replace(clause, verb=verb, direct=(), relations=where)
+        found = self._by_tables(self._own_verbs(said.clause), said)
+        return None if isinstance(found, Refusal) else found
 
     @cached_property
     def _place_states(self) -> Mapping[tuple[str, str], str]:

@@ -83,9 +83,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
 
 def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:
     places = [name for name in clause.objects if is_pronoun(name) or name in section("animate")]
-    verb, _, particle = clause.verb.partition("_")
-    elided = verb in section("placing") and particle in section("static")  # "put on the table"
-    if elided or not (draft.direct or clause.verb in section("intransitive")):
+    if _elides(clause, draft):
         places.append("")
     antecedents, together = {}, {}
     for pronoun in places:
@@ -99,6 +97,13 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
         if ranked:
             antecedents[pronoun], together[pronoun] = ranked, count
     return replace(clause, antecedents=antecedents, together=together)
+
+
+def _elides(clause: Clause, draft: ClauseDraft) -> bool:
+    """Return whether what a clause acts on may be left out: "put on the table" as well, if nothing is called so."""
+    verb, _, particle = clause.verb.partition("_")
+    placed = verb in section("placing") and particle in section("static")
+    return placed or not (draft.direct or clause.verb in section("intransitive"))
 
 
 def _new(fact: Clause, before: Sequence[Clause]) -> dict[str, Clause]:
