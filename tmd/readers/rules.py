@@ -343,8 +343,11 @@ def bindings_of(meant: Mapping[str, tuple[str, ...]], cube: Cube, reader: GoalRe
         bound[noun] = Bound(chosen, tuple(containers))
         recent |= dict.fromkeys(n for n in chosen if not is_constant(n)) | containers
     recent |= dict.fromkeys(a for a in mentioned if not is_constant(a))
-    recent |= dict.fromkeys(memory.recent)
-    return replace(memory, bound=bound, recent=tuple(recent))
+    # "put it there", after it was taken out of something: not back in that
+    lost = (atom.args for atom in reader.world.task.names(cube.negative))
+    left = {place for _, *places in lost for place in places} - kept
+    order = dict.fromkeys(sorted((*recent, *memory.recent), key=lambda name: name in left))
+    return replace(memory, bound=bound, recent=tuple(order))
 
 
 def _chosen(names: tuple[str, ...], mentioned: Collection[str], reader: GoalReader) -> tuple[str, ...]:

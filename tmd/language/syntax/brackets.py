@@ -141,7 +141,7 @@ class Bracketer(ClauseEnds):
         return end
 
     def _demand_goes_on(self, at: int) -> bool:
-        """Return whether a statement is one of a demanded list: "ensure that the gate is shut, the radio is off and …"."""
+        """Return whether a statement is one of a demanded list: "see that the gate is shut, the radio off and …"."""
         demanded = any(t.kind is K.ENSURE for t in self.out[self._units[0][0] :])
         rest = range(at, self.first(at, "STOP"))
         return demanded and any(self.kind(i) is K.CC and self._statement_follows(i) for i in rest)
