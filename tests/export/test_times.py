@@ -8,7 +8,7 @@ from tests.export.conftest import Val, planned_case
 from tmd.export.durative import format_durative_domain, format_durative_problem, format_popf, format_temporal, token
 from tmd.export.formats import FORMATS
 from tmd.export.planned_problem import Planned
-from tmd.export.strips import restored
+from tmd.export.strips import strips
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_plan
 from tmd.pddl.reading.reader import parse_domain
@@ -34,7 +34,7 @@ def test_plans_with_times_come_back(source: Planned) -> None:
     assert parse_plan(format_popf(source.plan)).instructions == source.plan
     plan = parse_plan(FORMATS["plansys2"].write(source)["plan.plan"].decode())
     assert plan.overlap is None
-    assert restored(source.problem, plan.instructions) == source.plan
+    assert plan.instructions == strips(source, typed=True).plan
 
 
 def test_a_plan_with_times() -> None:

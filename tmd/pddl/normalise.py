@@ -58,7 +58,7 @@ def without_either(problem: Problem) -> Problem:
         types = _reduced(name.types, hierarchy)
         return replace(name, types=(new.get(types, types[0]),))
 
-    plain: Problem = _renamed(problem, one_type)
+    plain: Problem = map_typed_names(problem, one_type)
     places = {t.name: t.location for t in domain.types}
     declared = [TypeDeclaration(name, parent, places.get(name)) for name, parent in parents.items()]
     return replace(plain, domain=replace(plain.domain, types=parents_first(declared)))
@@ -87,12 +87,12 @@ def _join(types: tuple[str, ...], parents: dict[str, str], example: TypedName) -
     return name
 
 
-def _renamed(node: Any, change: Callable[[TypedName], TypedName]) -> Any:  # noqa: ANN401 - any part of a problem
+def map_typed_names(node: Any, change: Callable[[TypedName], TypedName]) -> Any:  # noqa: ANN401 - any part of a problem
     """Return a part of a problem with each typed name in it changed."""
     if isinstance(node, TypedName):
         return change(node)
     if isinstance(node, tuple):
-        return tuple(_renamed(part, change) for part in node)
+        return tuple(map_typed_names(part, change) for part in node)
     if not is_dataclass(node) or isinstance(node, type | Location):
         return node
-    return replace(node, **{field.name: _renamed(getattr(node, field.name), change) for field in fields(node)})
+    return replace(node, **{field.name: map_typed_names(getattr(node, field.name), change) for field in fields(node)})

@@ -90,7 +90,6 @@ def validate(roots: Roots, domain: str, problem: str, plan: Path, as_json: bool)
     plans with times are read as well, as VAL, POPF and PlanSys2 have them. Ends with 0 for a plan that works and 11
     for one that does not.
     """
-    from tmd.export.strips import restored
     from tmd.pddl.plan_file import read_plan
     from tmd.pddl.validator import validate
 
@@ -98,7 +97,7 @@ def validate(roots: Roots, domain: str, problem: str, plan: Path, as_json: bool)
     told = read_plan(plan)
     if told.overlap:
         emit(f"warning: {told.overlap}: instructions overlap in time; they are taken one after the other\n", error=True)
-    verdict = validate(world, restored(world, told.instructions))
+    verdict = validate(world, told.instructions)
     place = told.locations[verdict.step - 1] if verdict.step else None
     if as_json:
         emit(
