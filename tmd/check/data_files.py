@@ -25,6 +25,7 @@ from tmd.world.corpus import CHANGED, replay
 from tmd.world.demonstration import Demonstration, check_goal, read_demonstration
 from tmd.world.environment import Environment, EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
+from tmd.world.problem_domain import folder_near
 from tmd.world.yaml_positions import YamlSource
 
 
@@ -433,10 +434,9 @@ class DataFiles:
         """Return the folder of the domain ``name``: near the environment, or the known one."""
         if Path(name).name != name:
             raise YamlSource(file).error(("domain",), f"'{name}' is not a name of a domain", None, "outside-folder")
-        for above in list(real(file).parents)[:4]:
-            path = above / "domains" / name
-            if (path / "domain.pddl").is_file():
-                return self._folders.setdefault(path, DomainFolder(path))
+        near = folder_near(file, name)
+        if near:
+            return self._folders.setdefault(near, DomainFolder(near))
         try:
             found = find_domain(name, self.checker.domains)
         except TmdError as error:

@@ -5,7 +5,6 @@ Every command imports this module, so functions import what is slow to load.
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,8 +12,9 @@ from typing import TYPE_CHECKING
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reading.reader import read_domain, read_problem
-from tmd.pddl.reading.syntax import Group, Word, nearest, parse, read_text
+from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.world.folder import DomainFolder, find_domain, find_problems, find_roots
+from tmd.world.problem_domain import domain_named_in, find_domain_file
 
 if TYPE_CHECKING:
     from tmd.language.lexicon.lexicon import Lexicon
@@ -86,26 +86,23 @@ class Roots:
     def problem(self, path: Path, domain: str | None = None) -> Problem:
         """Return a PDDL problem with its domain.
 
-        That is the one that was asked for, else ``domain.pddl`` beside the problem, else the domain whose folder has
-        the name of the directory in which the problem lies (``problems/02_table/``), else the one that the problem
-        names.
+        That is the one that was asked for, or else that of :func:`tmd.world.problem_domain.find_domain_file`.
 
         Raises:
             TmdError: One of them is missing or wrong.
         """
         if domain is not None:
             return read_problem(path, self.domain(domain))
-        text = read_text(path)
-        beside = path.parent / "domain.pddl"
-        if beside.is_file():
-            return read_problem(path, self.domain(str(beside)))
-        named = _domain_name(text, path)
-        found = None
-        with suppress(TmdError):
-            found = self.folder(path.resolve().parent.name).domain
-        if found is None or found.name != named:
-            found = self.folder(named).domain
-        return read_problem(path, found)
+        name = domain_named_in(read_text(path))
+        found = find_domain_file(path, name, self.domains)
+        if found.others or not name:
+            message = f'the domain "{name}" stands in several files'
+            raise TmdError(
+                message if name else "this problem does not say of which domain it is",
+                location=Location(str(path), 1, 1),
+                hint="give --domain NAME or FILE, or write (:domain NAME)",
+            )
+        return read_problem(path, read_domain(found.file) if found.file else self.folder(name).domain)
 
     def path(self, name: str) -> Path:
         """Return the file or directory of that name; where there is none, the folder of the domain of that name.
@@ -210,16 +207,3 @@ def _is_file(name: str) -> bool:
     """Return whether a name is that of a file, there or not, and not that of something bundled."""
     path = Path(name)
     return path.is_file() or bool(path.suffix) or _is_path(name)
-
-
-def _domain_name(text: str, path: Path) -> str:
-    """Return the name of the domain of a problem."""
-    parts = (part for group in parse(text, str(path)).groups for part in group.parts if isinstance(part, Group))
-    for part in parts:
-        if part.head == ":domain" and len(part.parts) == 2 and isinstance(part.parts[1], Word):
-            return part.parts[1].text
-    raise TmdError(
-        "this problem does not say of which domain it is",
-        location=Location(str(path), 1, 1),
-        hint="give --domain NAME, or write (:domain NAME)",
-    )
