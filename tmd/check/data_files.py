@@ -22,7 +22,7 @@ from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
 from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
 from tmd.world.corpus import CHANGED, replay
-from tmd.world.demonstration import Demonstration, check_goal, read_demonstration
+from tmd.world.demonstration import Demonstration, check_goal, in_line, read_demonstration
 from tmd.world.environment import Environment, EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.problem_domain import folder_near
@@ -52,16 +52,17 @@ def check_demonstrations(path: Path, world: Callable[[str], Problem | None], kno
                 hint = f"it is that of line {seen[demonstration.id]} as well"
                 raise TmdError(message, location=demonstration.location, hint=hint, code="duplicate-name")
             seen[demonstration.id] = number
-            _play(demonstration, line, world, known)
+            _play(demonstration, world, known)
         except TmdError as error:
             report(error)
 
 
-def _play(demonstration: Demonstration, line: str, world: Callable[[str], Problem | None], known: list[str]) -> None:
+def _play(demonstration: Demonstration, world: Callable[[str], Problem | None], known: list[str]) -> None:
     if demonstration.environment not in known:
         message = f"there is no environment '{demonstration.environment}'"
         hint = nearest(demonstration.environment, known, what="environments")
-        raise TmdError(message, location=_place(demonstration, line), hint=hint, code="unknown-environment")
+        place = in_line(demonstration.location, demonstration.source, [json.dumps(demonstration.environment)])
+        raise TmdError(message, location=place, hint=hint, code="unknown-environment")
     problem = world(demonstration.environment)
     if problem is None:
         return
@@ -90,13 +91,6 @@ def _as_proposed(demonstration: Demonstration) -> Demonstration:
     """Return the demonstration without its correction; it need not reach the goal or the stated end."""
     segments = tuple(replace(segment, instructions=segment.proposed or ()) for segment in demonstration.segments)
     return replace(demonstration, segments=segments, end_state=(), goal=None)
-
-
-def _place(demonstration: Demonstration, line: str) -> Location | None:
-    """Return the place of the environment's name."""
-    place = demonstration.location
-    column = line.find(json.dumps(demonstration.environment))
-    return Location(place.file, place.line, column + 1) if place and column >= 0 else place
 
 
 def check_objects(folder: DomainFolder, report: Report) -> None:

@@ -25,7 +25,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import yaml
 from pydantic import BaseModel, ValidationError
 
 from tmd.diagnostics import Location, TmdError
@@ -57,7 +56,7 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Demonstration:
-    """One demonstration, as described in the module's docstring; ``location`` is where it was read."""
+    """One demonstration, as described in the module's docstring; ``source`` is its line, ``location`` where that is."""
 
     id: str
     task: str
@@ -70,6 +69,7 @@ class Demonstration:
     when: str | None = None
     goal: str | None = None
     location: Location | None = field(default=None, compare=False, repr=False)
+    source: str = field(default="", compare=False, repr=False)
 
     @property
     def instructions(self) -> tuple[Instruction, ...]:
@@ -111,7 +111,7 @@ def read_demonstrations(path: Path) -> list[Demonstration]:
         reader = _Line(path, number, line)
         demonstration = reader.read()
         if demonstration.id in seen:
-            raise reader.error(f"the id '{demonstration.id}' stands in this file twice", None, ("id",))
+            raise reader.error(f"the id '{demonstration.id}' stands in this file twice", None, '"id"')
         seen.add(demonstration.id)
         found.append(demonstration)
     return found
@@ -124,10 +124,6 @@ def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
         TmdError: The line is not a demonstration; with its place.
     """
     return _Line(path, number, line).read()
-
-
-# Keys and indices that lead from a demonstration as JSON to a value in it.
-_Path = tuple[str | int, ...]
 
 
 class _Segment(BaseModel):
@@ -161,9 +157,9 @@ class _Line:
     number: int
     line: str
 
-    def error(self, message: str, hint: str | None = None, at: _Path = ()) -> TmdError:
-        """Return a fault of the value that ``at`` leads to."""
-        place = Location(str(self.path), self.number, _column(self.line, at))
+    def error(self, message: str, hint: str | None = None, *words: str) -> TmdError:
+        """Return a fault of the last of ``words``."""
+        place = in_line(Location(str(self.path), self.number, 1), self.line, words)
         return TmdError(message, location=place, hint=hint, source=self.line, code="bad-demonstration")
 
     def read(self) -> Demonstration:
@@ -175,7 +171,8 @@ class _Line:
             key = ".".join(map(str, fault["loc"]))
             said = f"{f'{key}: ' if key else ''}{expectation(fault, 'a JSON object')}"
             hint = _SEGMENT if key.startswith("segments") else _LINE
-            raise self.error(f"this is not a demonstration: {said}", hint, fault["loc"]) from None
+            words = (f'"{part}"' for part in fault["loc"] if isinstance(part, str))
+            raise self.error(f"this is not a demonstration: {said}", hint, *words) from None
         segments = tuple(self._segments(entry))
         return Demonstration(
             entry.id,
@@ -189,6 +186,7 @@ class _Line:
             entry.when,
             entry.goal,
             Location(str(self.path), self.number, 1),
+            self.line,
         )
 
     def _corrected(self, entry: _Entry, segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
@@ -198,39 +196,39 @@ class _Line:
             if any(part is not None for part in parts):
                 raise self.error("a segment has 'proposed', and the demonstration has not", "give the whole plan")
             return None
-        whole = self._instructions(entry.proposed, ("proposed",))
+        whole = self._instructions(entry.proposed)
         if any(part is None for part in parts) or whole != tuple(i for part in parts for i in part or ()):
             raise self.error(
                 "'proposed' is not what its segments have one after the other",
                 "each segment has the part of the plan that was to serve it",
-                ("proposed",),
+                '"proposed"',
             )
         return whole
 
     def _segments(self, entry: _Entry) -> Iterator[Segment]:
         end = 0
         for index, segment in enumerate(entry.segments):
-            at = ("segments", index)
             start = entry.text.find(segment.text, end)
             if start < 0:
                 raise self.error(
                     f"segment {index + 1}: '{segment.text}' does not stand in the text after the segment before it",
                     "segments are pieces of the text, letter by letter and in its order",
-                    (*at, "text"),
+                    '"segments"',
+                    json.dumps(segment.text, ensure_ascii=False),
                 )
             end = start + len(segment.text)
             proposed = None
             if segment.proposed is not None:
-                proposed = self._instructions(segment.proposed, (*at, "proposed"))
-            yield Segment(start, end, self._instructions(segment.instructions, (*at, "instructions")), proposed)
+                proposed = self._instructions(segment.proposed)
+            yield Segment(start, end, self._instructions(segment.instructions), proposed)
 
-    def _instructions(self, lines: Sequence[str], at: _Path) -> tuple[Instruction, ...]:
+    def _instructions(self, lines: Sequence[str]) -> tuple[Instruction, ...]:
         found = []
-        for number, line in enumerate(lines):
+        for line in lines:
             try:
                 found.append(parse_instruction(line))
             except TmdError as error:
-                raise self.error(f"'{line}': {error.message}", error.hint, (*at, number)) from None
+                raise self.error(f"'{line}': {error.message}", error.hint, line) from None
         return tuple(found)
 
 
@@ -243,24 +241,20 @@ def step_fault(demonstration: Demonstration, number: int, fault: TmdError, key: 
         fault: What is wrong; the place is that of the first name that it quotes, where the step has it.
         key: "instructions", or "proposed" for those of the plan that was corrected.
     """
-    places = [(s, i) for s, segment in enumerate(demonstration.segments) for i in range(len(segment.instructions))]
-    at, index = places[number - 1]
+    owners = [segment for segment in demonstration.segments for _ in segment.instructions]
+    at, segment = demonstration.segments.index(owners[number - 1]) + 1, owners[number - 1]
     step = str(demonstration.instructions[number - 1])
     what = fault.message.removesuffix(f" in {step}").replace(f" in {step} ", " ")
     quoted = re.search(r'"([^"]+)"', what)
-    offset = step.find(quoted[1]) if quoted else 0
-    message = f"segment {at + 1}, step {number}, {step}: {what}"
-    place, line = _in_file(demonstration, ("segments", at, key, index), max(offset, 0))
-    return TmdError(message, location=place, hint=fault.hint, source=line, code="not-executable")
+    text = json.dumps(demonstration.text[segment.start : segment.end], ensure_ascii=False)
+    words = (text, f'"{key}"', step, *(quoted.groups() if quoted and quoted[1] in step else ()))
+    place = in_line(demonstration.location, demonstration.source, words)
+    message = f"segment {at}, step {number}, {step}: {what}"
+    return TmdError(message, location=place, hint=fault.hint, source=demonstration.source, code="not-executable")
 
 
 # The kind of fault of a goal that does not hold when all instructions are done.
 NOT_REACHED = "goal-not-reached"
-_TEXT = "goal"
-_HIGH, _LOW = r"\\u[dD][89abAB][\da-fA-F]{2}", r"\\u[dD][c-fC-F][\da-fA-F]{2}"
-_CHARACTER = re.compile(rf"{_HIGH}{_LOW}|\\u[\da-fA-F]{{4}}|\\.|.", re.DOTALL)
-_SURROGATE = re.compile(r"\\u[dD][89abAB][\da-fA-F]{2}|\\u[dD][c-fC-F][\da-fA-F]{2}")
-_END_OF_LINE = re.compile(r"\r\n|\r|\n")
 
 
 def read_goal(demonstration: Demonstration, problem: Problem) -> Formula | None:
@@ -277,9 +271,9 @@ def read_goal(demonstration: Demonstration, problem: Problem) -> Formula | None:
         return None
     try:
         # the goal alone is looked at: to check every fact of the environment again takes long
-        return with_goal(replace(problem, init=frozenset()), demonstration.goal, _TEXT).goal
+        return with_goal(replace(problem, init=frozenset()), demonstration.goal, "goal").goal
     except TmdError as fault:
-        raise _placed(demonstration, fault, f"the goal of '{demonstration.id}': {fault.message}") from None
+        raise _goal_fault(demonstration, fault, f"the goal of '{demonstration.id}': {fault.message}") from None
 
 
 def check_goal(demonstration: Demonstration, problem: Problem, state: State) -> None:
@@ -293,51 +287,29 @@ def check_goal(demonstration: Demonstration, problem: Problem, state: State) -> 
     if missing is not None:
         message = f"the goal of '{demonstration.id}' is not reached: {missing.text} does not hold at the end"
         hint = "fix the goal, or the instructions if it is what the text asks for"
-        fault = TmdError(message, location=Location(_TEXT, 1, 1), hint=hint, code=NOT_REACHED)
-        raise _placed(demonstration, fault, message)
+        fault = TmdError(message, location=Location("goal", 1, 1), hint=hint, code=NOT_REACHED)
+        raise _goal_fault(demonstration, fault, message)
 
 
-def _placed(demonstration: Demonstration, fault: TmdError, message: str) -> TmdError:
+def _goal_fault(demonstration: Demonstration, fault: TmdError, message: str) -> TmdError:
     """Return the fault with its place in the file of the demonstration instead of that in the goal's own text."""
-    place, line = demonstration.location, None
-    if fault.location is not None:
-        goal = demonstration.goal or ""
-        starts = [0, *(match.end() for match in _END_OF_LINE.finditer(goal))]
-        offset = starts[fault.location.line - 1] + fault.location.column - 1
-        place, line = _in_file(demonstration, ("goal",), offset)
-    return TmdError(message, location=place, hint=fault.hint, source=line, code=fault.code)
+    place, line, goal = demonstration.location, demonstration.source, demonstration.goal or ""
+    if place is not None and fault.location is not None:
+        starts = [0, *(end.end() for end in re.finditer(r"\r\n|\r|\n", goal))]
+        before = goal[: starts[fault.location.line - 1] + fault.location.column - 1]
+        start = line.rfind('"goal":') + len('"goal":')
+        for escaped in (False, True):
+            written = json.dumps(before, ensure_ascii=escaped)[:-1]
+            found = line.find(written, start)
+            if found >= 0:
+                place = replace(place, column=found + len(written) + 1)
+                break
+    return TmdError(message, location=place, hint=fault.hint, source=line or None, code=fault.code)
 
 
-def _in_file(demonstration: Demonstration, at: _Path, offset: int = 0) -> tuple[Location | None, str | None]:
-    """Return the place of a value of a demonstration, and its line, which is read again."""
-    place = demonstration.location
-    if place is None:
-        return None, None
-    try:
-        line = split_lines(read_text(place.file))[place.line - 1]
-    except (TmdError, IndexError):  # it is there no more
-        return place, None
-    return replace(place, column=_column(line, at, offset)), line
-
-
-def _column(line: str, at: _Path, offset: int = 0) -> int:
-    """Return the column in ``line``, which is JSON, of the value that ``at`` leads to; of a string, of its ``offset``.
-
-    JSON is YAML, whose nodes know their places; only halves of characters (surrogates) YAML does not have.
-    """
-    try:
-        node = yaml.compose(_SURROGATE.sub(r"\\u0041", line), Loader=yaml.CSafeLoader)
-    except (yaml.YAMLError, RecursionError):
-        return 1
-    for step in at:
-        if isinstance(node, yaml.MappingNode):
-            node = next((value for key, value in reversed(node.value) if key.value == step), node)
-        elif isinstance(node, yaml.SequenceNode) and isinstance(step, int) and step < len(node.value):
-            node = node.value[step]
-    if node is None:
-        return 1
-    first, end = node.start_mark.index, node.end_mark.index
-    if not isinstance(node, yaml.ScalarNode) or node.style != '"':
-        return int(first) + 1
-    columns = [match.start() + 1 for match in _CHARACTER.finditer(line, first + 1, end - 1)]
-    return [*columns, int(end)][min(offset, len(columns))]
+def in_line(place: Location | None, line: str, words: Sequence[str]) -> Location | None:
+    """Return the place of the last of ``words`` in ``line``, each looked for behind the one before."""
+    column = 0
+    for word in words:
+        column = max(column, line.find(word, column))
+    return place and replace(place, column=column + 1)
