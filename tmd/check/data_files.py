@@ -23,7 +23,7 @@ from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
 from tmd.world.corpus import CHANGED, replay
 from tmd.world.demonstration import Demonstration, check_goal, in_line, read_demonstration
-from tmd.world.environment import Environment, EnvironmentFile, load_environment
+from tmd.world.environment import Environment, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.problem_domain import folder_near
 from tmd.world.yaml_positions import YamlSource
@@ -412,7 +412,7 @@ class DataFiles:
         if key not in self._worlds:
             self._worlds[key] = None
             faults: list[TmdError] = []
-            said = YamlSource(file).load(EnvironmentFile)
+            said = YamlSource(file).load(Environment)
             folder = self._domain_of(file, said.domain)
             problem = check_environment(file, folder, faults.append)
             scene = faults if faults or problem is None else _scene_faults(file, folder)
