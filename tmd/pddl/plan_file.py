@@ -20,6 +20,7 @@ from tmd.pddl.reading.syntax import read_text, split_lines
 
 _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
+_CALL = re.compile(r"([^(]*)\((.*)\)\s*", re.DOTALL)
 _STAMP = re.compile(r"([0-9.]+)\s*:\s*")
 _DURATION = re.compile(r"\s*\[\s*(?:D:)?\s*([0-9.]+)[^\]]*\]$", re.IGNORECASE)
 # What stands before a comment; LPG has a ``;`` within the brackets of a duration.
@@ -185,41 +186,21 @@ def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *,
     return "\n".join(lines) + "\n"
 
 
-def parse_instruction(text: str, *, file: str = "<text>", line: int = 1) -> Instruction:
+def parse_instruction(text: str) -> Instruction:
     """Return the instruction written as ``keep(mug1, counter1, on)``; ``str`` of it gives the text back.
-
-    Args:
-        text: What to read.
-        file: Names the text in errors.
-        line: The line on which ``text`` stands, for errors.
 
     Raises:
         TmdError: It is not an instruction.
     """
-
-    def error(message: str, offset: int, hint: str = "write name(argument, ...)") -> TmdError:
-        return TmdError(message, location=Location(file, line, 1 + offset), source=text, hint=hint)
-
-    body = text.rstrip()
-    start = len(body) - len(body.lstrip())
-    opening = body.find("(")
-    if opening < 0:
-        raise error(f'"{_shown(body.strip())}" has no parentheses', start)
-    if not body.endswith(")"):
-        raise error('the closing ")" is missing', len(body))
-    pieces = body[opening + 1 : -1].split(",")
-    if pieces == [""] or (len(pieces) == 1 and not pieces[0].strip()):
-        pieces = []
-    words: list[str] = []
-    offset = start
-    for number, piece in enumerate((body[start:opening], *pieces)):
-        if number:
-            offset = opening + 1 if number == 1 else offset + len(pieces[number - 2]) + 1
-        word = piece.strip().lower()
+    hint = "write name(argument, ...)"
+    call = _CALL.fullmatch(text)
+    if call is None:
+        raise TmdError(f'"{_shown(text.strip())}" is not an instruction', hint=hint)
+    arguments = call[2].split(",") if call[2].strip() else []
+    words = [word.strip().lower() for word in (call[1], *arguments)]
+    for word in words:
         if not _NAME.fullmatch(word):
-            at = offset + len(piece) - len(piece.lstrip())
-            raise error(f'"{_shown(word)}" is not a name' if word else "a name is missing here", at)
-        words.append(word)
+            raise TmdError(f'"{_shown(word)}" is not a name' if word else "a name is missing", hint=hint)
     return Instruction(words[0], tuple(words[1:]))
 
 

@@ -29,7 +29,7 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
-from tmd.pddl.reading.syntax import Group, Node, Source, Word
+from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 # What planners take for a name although PDDL does not.
@@ -261,6 +261,20 @@ def read_condition(node: Node, source: Source) -> Formula:
     if head in _NEVER_PREDICATES or (head in _UNSUPPORTED_CONDITIONS and any(isinstance(p, Group) for p in parts)):
         raise unsupported(source, _UNSUPPORTED_CONDITIONS[head], head, place)
     return read_atom(node, source)
+
+
+def read_only_condition(document: Document) -> Formula:
+    """Return the condition that a text consists of.
+
+    Raises:
+        TmdError: It is none, or several.
+    """
+    document.check_depth()
+    source = document.source
+    if len(document.groups) != 1:
+        place = Location(source.file, 1, 1)
+        raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
+    return read_condition(document.groups[0], source)
 
 
 def _read_parts(parts: Sequence[Node], source: Source) -> tuple[Formula, ...]:

@@ -38,6 +38,7 @@ from tmd.pddl.reading.formulas import (
     read_effects,
     read_name,
     read_number,
+    read_only_condition,
     read_parameters,
     read_typed_list,
     unsupported,
@@ -683,12 +684,7 @@ def with_goal(problem: Problem, text: str, file: str = PLACE) -> Problem:
         TmdError: It is not a condition, or speaks of what the problem does not have.
     """
     document = parse(text, file)
-    source = document.source
-    document.check_depth()
-    if len(document.groups) != 1:
-        place = Location(file, 1, 1)
-        raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
-    return aimed_at(problem, read_condition(document.groups[0], source), source)
+    return aimed_at(problem, read_only_condition(document), document.source)
 
 
 def aimed_at(problem: Problem, goal: Formula, source: Source | None = None) -> Problem:

@@ -59,8 +59,31 @@ Report: TypeAlias = Callable[[TmdError], None]
 """Takes a fault, so that reading can go on."""
 
 
+class Reporting:
+    """Base of texts that are read: without a ``report``, which takes faults, the first fault is raised."""
+
+    __slots__ = ()
+    report: Report | None
+
+    def fault(self, error: TmdError) -> None:
+        """Raise ``error``, or report it and return."""
+        if self.report is None:
+            raise error
+        self.report(error)
+
+    def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
+        """Return the result of ``read``, or ``otherwise`` where it fails and faults are reported."""
+        if self.report is None:
+            return read(*arguments, **named)
+        try:
+            return read(*arguments, **named)
+        except TmdError as error:
+            self.report(error)
+            return otherwise
+
+
 @dataclass(frozen=True, slots=True)
-class Source:
+class Source(Reporting):
     """A text that is being read: it knows its lines, so every error can show the one it speaks of.
 
     ``report`` takes the faults; without it the first one is raised.
@@ -80,12 +103,6 @@ class Source:
         """Return an error at ``location`` that carries its source line."""
         return TmdError(message, location=location, hint=hint, source=self.line(location), code=code)
 
-    def fault(self, error: TmdError) -> None:
-        """Raise ``error``, or report it and return."""
-        if self.report is None:
-            raise error
-        self.report(error)
-
     def fault_at(self, message: str, location: Location | None, hint: str | None = None, code: str = "syntax") -> None:
         """Raise the error of :meth:`error`, or report it and return."""
         self.fault(self.error(message, location, hint, code))
@@ -94,16 +111,6 @@ class Source:
         """Report a warning; it is dropped where faults are raised."""
         if self.report is not None:
             self.report(self.error(message, location, hint, code))
-
-    def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
-        """Return the result of ``read``, or ``otherwise`` where it fails and faults are reported."""
-        if self.report is None:
-            return read(*arguments, **named)
-        try:
-            return read(*arguments, **named)
-        except TmdError as error:
-            self.report(error)
-            return otherwise
 
     def word(self, location: Location | None, number: int) -> Location | None:
         """Return the place of word ``number`` (0 for the head) of the group at ``location``; groups count as one."""
