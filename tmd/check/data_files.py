@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Protocol
@@ -16,13 +15,13 @@ from tmd.files import real
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import BASES, read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
-from tmd.pddl.model import Domain, Problem, State
+from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
 from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
 from tmd.world.corpus import CHANGED, replay
-from tmd.world.demonstration import Demonstration, check_goal, in_line, read_demonstration
+from tmd.world.demonstration import Demonstration, in_line, read_demonstration
 from tmd.world.environment import Environment, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.problem_domain import folder_near
@@ -66,31 +65,16 @@ def _play(demonstration: Demonstration, world: Callable[[str], Problem | None], 
     problem = world(demonstration.environment)
     if problem is None:
         return
-    last = _states(demonstration, problem)[-1]
-    check_goal(demonstration, problem, last)
-
-
-def _states(demonstration: Demonstration, problem: Problem) -> list[State]:
-    """Return the states of a demonstration without its goal; the corrected plan is played as well."""
-    what = f"'{demonstration.id}'"
     try:
-        states = replay(replace(demonstration, goal=None), problem)
-        if demonstration.proposed is not None:
-            what = f"the plan that '{demonstration.id}' corrects"
-            replay(_as_proposed(demonstration), problem, "proposed")
+        replay(demonstration, problem)
     except TmdError as error:
-        message = f"{what} cannot be executed in {demonstration.environment}: {error.message}"
+        if error.code not in ("", "not-executable"):
+            raise  # of the goal
+        message = f"'{demonstration.id}' cannot be executed in {demonstration.environment}: {error.message}"
         place = error.location or demonstration.location
         raise TmdError(
             message, location=place, hint=error.hint or CHANGED, source=error.source, code="not-executable"
         ) from None
-    return states
-
-
-def _as_proposed(demonstration: Demonstration) -> Demonstration:
-    """Return the demonstration without its correction; it need not reach the goal or the stated end."""
-    segments = tuple(replace(segment, instructions=segment.proposed or ()) for segment in demonstration.segments)
-    return replace(demonstration, segments=segments, end_state=(), goal=None)
 
 
 def check_objects(folder: DomainFolder, report: Report) -> None:

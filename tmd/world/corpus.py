@@ -135,10 +135,8 @@ def is_environment_file(environment: str | Path) -> bool:
     return Path(environment).suffix in (".yaml", ".yml", ".pddl")
 
 
-def replay(demonstration: Demonstration, problem: Problem, key: str = "instructions") -> list[State]:
+def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
     """Return the states before the first and after each instruction.
-
-    ``key`` is where the file has them: "instructions", or "proposed" for those of the plan that was corrected.
 
     Raises:
         TmdError: An instruction is not executable (with its place and the first broken precondition), or a
@@ -148,7 +146,7 @@ def replay(demonstration: Demonstration, problem: Problem, key: str = "instructi
     for number, instruction in enumerate(demonstration.instructions, start=1):
         wrong = _wrong(instruction, states[-1], problem)
         if wrong is not None:
-            raise step_fault(demonstration, number, wrong, key)
+            raise step_fault(demonstration, number, wrong)
         states.append(apply(instruction, states[-1], problem))
     for literal in demonstration.end_state:
         if not _literal_holds(literal, states[-1]):

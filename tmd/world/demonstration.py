@@ -13,8 +13,7 @@ Segments are pieces of the text, in order and without overlap; each carries the 
 condition: what the text asks for, written from the text alone, with ``exists`` for what it leaves open.
 
 These two may be left out, and three keys may be added. ``who`` and ``when`` are texts. ``proposed`` stands
-where somebody corrected a plan: it lists the instructions of that plan, and each segment has those of its own as
-``proposed``.
+where somebody corrected a plan: it lists the instructions of that plan.
 """
 
 from __future__ import annotations
@@ -43,15 +42,11 @@ _ENDS = "\x85\u2028\u2029"
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A piece ``text[start:end]`` of a demonstration's text, and the instructions that serve it.
-
-    ``proposed`` are those that a plan had for it which was corrected; ``None`` where there was none.
-    """
+    """A piece ``text[start:end]`` of a demonstration's text, and the instructions that serve it."""
 
     start: int
     end: int
     instructions: tuple[Instruction, ...]
-    proposed: tuple[Instruction, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,19 +77,15 @@ def demonstration_line(demonstration: Demonstration) -> str:
     text = demonstration.text
     data: dict[str, object] = {key: getattr(demonstration, key) for key in _KEYS[:4]}
     data["segments"] = [
-        {"text": text[s.start : s.end], "instructions": list(map(str, s.instructions)), **_proposed(s.proposed)}
-        for s in demonstration.segments
+        {"text": text[s.start : s.end], "instructions": list(map(str, s.instructions))} for s in demonstration.segments
     ]
     data["end_state"] = list(demonstration.end_state)
-    data |= _proposed(demonstration.proposed)
+    if demonstration.proposed is not None:
+        data["proposed"] = list(map(str, demonstration.proposed))
     data |= {key: value for key in ("goal", "who", "when") if (value := getattr(demonstration, key)) is not None}
     line = json.dumps(data, ensure_ascii=False)
     # other programs may take these for ends of lines
     return "".join(f"\\u{ord(c):04x}" if c in _ENDS else c for c in line)
-
-
-def _proposed(instructions: tuple[Instruction, ...] | None) -> dict[str, list[str]]:
-    return {} if instructions is None else {"proposed": list(map(str, instructions))}
 
 
 def read_demonstrations(path: Path) -> list[Demonstration]:
@@ -131,7 +122,6 @@ class _Segment(BaseModel):
 
     text: str
     instructions: list[str]
-    proposed: list[str] | None = None
 
 
 class _Entry(BaseModel):
@@ -173,37 +163,20 @@ class _Line:
             hint = _SEGMENT if key.startswith("segments") else _LINE
             words = (f'"{part}"' for part in fault["loc"] if isinstance(part, str))
             raise self.error(f"this is not a demonstration: {said}", hint, *words) from None
-        segments = tuple(self._segments(entry))
         return Demonstration(
             entry.id,
             entry.task,
             entry.environment,
             entry.text,
-            segments,
+            tuple(self._segments(entry)),
             tuple(entry.end_state),
-            self._corrected(entry, segments),
+            None if entry.proposed is None else self._instructions(entry.proposed),
             entry.who,
             entry.when,
             entry.goal,
             Location(str(self.path), self.number, 1),
             self.line,
         )
-
-    def _corrected(self, entry: _Entry, segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
-        """Return the plan that was corrected; its segments must be that plan as well."""
-        parts = [segment.proposed for segment in segments]
-        if entry.proposed is None:
-            if any(part is not None for part in parts):
-                raise self.error("a segment has 'proposed', and the demonstration has not", "give the whole plan")
-            return None
-        whole = self._instructions(entry.proposed)
-        if any(part is None for part in parts) or whole != tuple(i for part in parts for i in part or ()):
-            raise self.error(
-                "'proposed' is not what its segments have one after the other",
-                "each segment has the part of the plan that was to serve it",
-                '"proposed"',
-            )
-        return whole
 
     def _segments(self, entry: _Entry) -> Iterator[Segment]:
         end = 0
@@ -217,10 +190,7 @@ class _Line:
                     json.dumps(segment.text, ensure_ascii=False),
                 )
             end = start + len(segment.text)
-            proposed = None
-            if segment.proposed is not None:
-                proposed = self._instructions(segment.proposed)
-            yield Segment(start, end, self._instructions(segment.instructions), proposed)
+            yield Segment(start, end, self._instructions(segment.instructions))
 
     def _instructions(self, lines: Sequence[str]) -> tuple[Instruction, ...]:
         found = []
@@ -232,14 +202,13 @@ class _Line:
         return tuple(found)
 
 
-def step_fault(demonstration: Demonstration, number: int, fault: TmdError, key: str = "instructions") -> TmdError:
+def step_fault(demonstration: Demonstration, number: int, fault: TmdError) -> TmdError:
     """Return the fault of step ``number`` (the first is 1), with its segment, and its place in the file.
 
     Args:
         demonstration: The demonstration.
         number: Which of its instructions, over all segments.
         fault: What is wrong; the place is that of the first name that it quotes, where the step has it.
-        key: "instructions", or "proposed" for those of the plan that was corrected.
     """
     owners = [segment for segment in demonstration.segments for _ in segment.instructions]
     at, segment = demonstration.segments.index(owners[number - 1]) + 1, owners[number - 1]
@@ -247,7 +216,7 @@ def step_fault(demonstration: Demonstration, number: int, fault: TmdError, key: 
     what = fault.message.removesuffix(f" in {step}").replace(f" in {step} ", " ")
     quoted = re.search(r'"([^"]+)"', what)
     text = json.dumps(demonstration.text[segment.start : segment.end], ensure_ascii=False)
-    words = (text, f'"{key}"', step, *(quoted.groups() if quoted and quoted[1] in step else ()))
+    words = (text, '"instructions"', step, *(quoted.groups() if quoted and quoted[1] in step else ()))
     place = in_line(demonstration.location, demonstration.source, words)
     message = f"segment {at}, step {number}, {step}: {what}"
     return TmdError(message, location=place, hint=fault.hint, source=demonstration.source, code="not-executable")
