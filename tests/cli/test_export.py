@@ -43,8 +43,10 @@ def test_several_formats(tmd: Tmd, tmp_path: Path) -> None:
     names = "ipc,strips,durative,plansys2,bt"
     ended = tmd("export", PROBLEM, "out", "--plan", PLAN, "--format", names)
     assert sorted(ended.out.split()) == sorted(f"out/{path}" for path in found(tmp_path / "out"))
-    for plan in ("ipc", "strips", "durative", "plansys2"):
+    for plan in ("ipc", "durative"):
         assert tmd("validate", DOMAIN, PROBLEM, f"out/{plan}/plan.plan").code == ExitCode.OK
+    strips = (f"out/strips/{name}" for name in ("domain.pddl", "problem.pddl", "plan.plan"))
+    assert tmd("validate", *strips).code == ExitCode.OK
 
 
 def test_the_same_bytes_whatever_the_order_of_hashes(tmd: Tmd, tmp_path: Path) -> None:

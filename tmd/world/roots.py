@@ -17,7 +17,6 @@ from tmd.world.folder import DomainFolder, find_domain, find_problems, find_root
 from tmd.world.problem_domain import domain_named_in, find_domain_file
 
 if TYPE_CHECKING:
-    from tmd.language.lexicon.lexicon import Lexicon
     from tmd.world.corpus import Corpus
     from tmd.world.environment import Environment
     from tmd.world.world import World
@@ -66,14 +65,6 @@ class Roots:
         from tmd.world.corpus import Corpus
 
         return Corpus(folder, find_problems(folder.name, self.problems))
-
-    def lexicon(self, name: str) -> Lexicon:
-        """Return the words of a domain.
-
-        Raises:
-            TmdError: There is no such domain, or its file of words is wrong.
-        """
-        return self.folder(name).lexicon
 
     def domain(self, name: str) -> Domain:
         """Return the PDDL domain in a file, in a directory, or of a bundled name.
@@ -135,10 +126,10 @@ class Roots:
         path = Path(name)
         if _is_file(name):
             return path
-        places: dict[str, Path] = {}
-        for root in find_roots("problems", self.problems):
-            for directory in sorted(root.glob(f"{domain or '*'}/environments")):
-                places.setdefault(directory.parent.name, directory)
+        if domain:
+            return self.corpus(self.folder(domain)).file(name)
+        roots = find_roots("problems", self.problems)
+        places = {place.parent.name: place for root in reversed(roots) for place in root.glob("*/environments")}
         files = [f for _, d in sorted(places.items()) for f in sorted(d.iterdir()) if f.suffix in (".yaml", ".pddl")]
         found = [file for file in files if file.stem == name]
         if len(found) == 1:
@@ -146,11 +137,6 @@ class Roots:
         if found:
             domains = ", ".join(file.parent.parent.name for file in found)
             raise TmdError(f"several domains have an environment '{name}'", hint=f"give --domain: {domains}")
-        if domain and not files:
-            folders = sorted({d.name for root in find_roots("problems", self.problems) for d in root.iterdir()})
-            raise TmdError(
-                f"there is no environment '{name}' of '{domain}'", hint=nearest(domain, folders, what="domains")
-            )
         known = sorted({file.stem for file in files})
         hint = nearest(name, known, what="environments")
         raise TmdError(f"there is no environment '{name}'", hint=hint or f"give a file, or one of {', '.join(known)}")
@@ -165,27 +151,18 @@ class Roots:
         Raises:
             TmdError: One of them is missing or wrong.
         """
-        from tmd.world.compile import compile_problem
         from tmd.world.environment import load_environment
-        from tmd.world.world import make_world
 
         path = self.environment(environment, domain)
-        if path.suffix == ".xml":
-            raise TmdError(
-                f"{path}: texts are not grounded in single rooms of VEIL-500",
-                hint="tmd experiment --data veil500 grounds all of its texts",
-            )
-        if path.suffix == ".pddl":
-            if domain is None and path.parent.name != "environments":
+        if domain is None:
+            if path.suffix != ".pddl":
+                domain = load_environment(path).domain
+            elif path.parent.name == "environments":
+                domain = path.parent.parent.name
+            else:
                 raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
-            corpus = self.corpus(self.folder(domain or path.parent.parent.name))
-            problem = corpus.read(path)
-            return corpus, make_world(path.stem if domain is None else problem.name, problem, corpus.lexicon)
-        read = load_environment(path)
-        corpus = self.corpus(self.folder(domain or read.domain))
-        if path == corpus.directory / "environments" / f"{read.name}.yaml":
-            return corpus, corpus.world(read.name)
-        return corpus, make_world(read.name, compile_problem(read, corpus.folder), corpus.lexicon)
+        corpus = self.corpus(self.folder(domain))
+        return corpus, corpus.world(path.stem if path == corpus.directory / "environments" / path.name else path)
 
     def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:
         """Return an environment of which the robot's scene can be built, and its domain.
