@@ -10,7 +10,7 @@ from pathlib import Path
 from tmd.check.lint.domain import said_twice
 from tmd.diagnostics import TmdError
 from tmd.pddl.derived import as_actions
-from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, Reachability, Rule, may_be_too_large
+from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, Reachability, Rule
 from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import (
     ActionSchema,
@@ -177,15 +177,13 @@ _MOST_GROUND = 10_000
 
 def lint_cases(problem: Problem) -> list[TmdError]:
     """Return the condition that keeps ``problem`` from being ground, if there is one; with its place in the domain."""
-    objects = universe(problem)
-    actions = [a for a in problem.domain.actions if may_be_too_large(a.precondition, objects)]
-    if not actions or _instances(problem) > _MOST_GROUND:
+    if _instances(problem) > _MOST_GROUND:
         return []
     try:
         ground(problem)
     except TmdError as error:
         place = error.location
-        found = [a for a in actions if any(part.location == place for part in conjuncts(a.precondition))]
+        found = [a for a in problem.domain.actions for part in conjuncts(a.precondition) if part.location == place]
         if error.code == TOO_MANY_CASES and place is not None and found:
             message = f'this condition of action "{found[0].name}" is too large to be written out in "{problem.name}"'
             line = split_lines(read_text(place.file))[place.line - 1] if Path(place.file).is_file() else None
