@@ -198,24 +198,20 @@ def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
     """Read ``(:predicates ...)``, each with the comment that stands beside it."""
     declared = group.parts[1:]
     following = [*(n.location.line for n in declared[1:]), group.end.line + 1][: len(declared)]
-    found: list[Predicate] = []
+    found: list[Predicate | None] = []
     for node, next_line in zip(declared, following, strict=True):
         last = isinstance(node, Group) and node.end.line != next_line
         comment = document.comments.get(node.end.line, "") if isinstance(node, Group) and last else ""
-        found.extend(document.source.recover((), _read_predicate, node, document, comment))
-    return tuple(found)
+        found.append(document.source.recover(None, _read_signature, node, document, comment))
+    return tuple(predicate for predicate in found if predicate)
 
 
-def _read_predicate(node: Node, document: Document, comment: str) -> tuple[Predicate]:
-    if isinstance(node, Word):
-        raise document.source.error(f'expected (predicate ...), found "{node.text}"', node.location)
-    if node.head == ":private":
-        raise unsupported(document.source, "private facts of agents", node.head, node.location)
-    return (_read_signature(node, document, comment),)
-
-
-def _read_signature(node: Group, document: Document, comment: str = "") -> Predicate:
+def _read_signature(node: Node, document: Document, comment: str = "") -> Predicate:
     source = document.source
+    if isinstance(node, Word):
+        raise source.error(f'expected (predicate ...), found "{node.text}"', node.location)
+    if node.head == ":private":
+        raise unsupported(source, "private facts of agents", node.head, node.location)
     if not node.parts:
         raise source.error("expected (name ?parameter ...), found ()", node.location)
     name = read_name(node.parts[0], source, "the name of a predicate")
@@ -240,25 +236,21 @@ def _each_named(parameters: tuple[TypedName, ...], source: Source) -> tuple[Type
 def read_functions(group: Group, document: Document) -> tuple[Predicate, ...]:
     """Read ``(:functions ...)``, which are numbers, all of them."""
     source = document.source
-    found: list[Predicate] = []
+    found: list[Predicate | None] = []
     nodes = list(group.parts[1:])
     while nodes:
         node = nodes.pop(0)
         if isinstance(node, Word):
             source.fault_at(f'expected (function ...), found "{node.text}"', node.location)
             continue
-        found.extend(source.recover((), _read_function, node, document))
+        found.append(source.recover(None, _read_signature, node, document))
         if nodes and isinstance(nodes[0], Word) and nodes[0].text == "-":
             value = nodes[1] if len(nodes) > 1 else nodes[0]
             if isinstance(value, Group) or value.text != "number":
                 hint = "a function is a number"
                 source.fault(unsupported(source, "object fluents", node.head, node.location, hint))
             del nodes[:2]
-    return tuple(found)
-
-
-def _read_function(node: Group, document: Document) -> tuple[Predicate]:
-    return (_read_signature(node, document),)
+    return tuple(function for function in found if function)
 
 
 def read_action(group: Group, source: Source) -> ActionSchema:
