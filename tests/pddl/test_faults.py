@@ -112,7 +112,7 @@ DOMAIN_FAULTS = {
         "rename",
     ),
     "shadowed variable": ("(?n - mug)", "(?m - mug)", 13, 27, '"?m" is declared twice', "rename"),
-    "type cycle": ("item place", "item - mug place", 3, 22, "its own ancestor", "item < mug < item"),
+    "type cycle": ("item place", "item - mug place", 3, 11, "its own ancestor", "mug < item < mug"),
     "unknown section": (
         "(:predicates",
         "(:predicate",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import lru_cache
+from heapq import heappop, heappush
 from typing import NamedTuple, TypeAlias
 
 from tmd.diagnostics import Location
@@ -380,15 +381,19 @@ class Universe:
 
 def parents_first(declarations: Sequence[TypeDeclaration]) -> tuple[TypeDeclaration, ...]:
     """Sort declarations: each parent before its children, as some readers need it, otherwise in order."""
-    named = {declared.name: declared for declared in declarations}
-    order: dict[str, TypeDeclaration] = {}
-    for declared in declarations:
-        line = {declared.name: declared}
-        while (above := named.get(declared.parent)) and above.name not in line and above.name not in order:
-            declared = line[above.name] = above
-        for name in reversed(line):
-            order.setdefault(name, line[name])
-    return tuple(order.values())
+    children: dict[str, list[int]] = {}
+    for number, declared in enumerate(declarations):
+        children.setdefault(declared.parent, []).append(number)
+    order: dict[int, None] = {}
+    ready = list(children.get(OBJECT, ()))  # a heap: the first of those whose parent stands before them comes next
+    for first in range(len(declarations)):  # next where none is ready, as in a cycle
+        while ready or first not in order:
+            number = heappop(ready) if ready else first
+            if number not in order:
+                order[number] = None
+                for child in children.get(declarations[number].name, ()):
+                    heappush(ready, child)
+    return tuple(declarations[number] for number in order)
 
 
 @lru_cache(maxsize=64)
