@@ -11,9 +11,8 @@ import re
 import sys
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from difflib import get_close_matches
-from functools import lru_cache
 from itertools import islice
 from pathlib import Path
 from typing import ParamSpec, TypeAlias, TypeVar
@@ -155,7 +154,6 @@ class Document:
     groups: tuple[Group, ...]
     comments: dict[int, str]
     deepest: Group | None
-    warnings: tuple[TmdError, ...] = ()
 
     def check_depth(self) -> None:
         """Make sure that what reads groups within groups comes to an end.
@@ -247,8 +245,6 @@ _SECTIONS = frozenset(
         ":derived", ":process", ":event", ":domain", ":objects", ":init", ":goal", ":metric",
     }
 )  # fmt: skip
-# The groups of longer texts, in characters, are not kept for the next reader.
-_MOST_KEPT = 200_000
 # Number of faults of parentheses after which the rest of a text tells nothing.
 _MOST_FAULTS = 100
 
@@ -278,31 +274,6 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
     Raises:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
     """
-    if len(text) <= _MOST_KEPT:
-        try:
-            document = _faultless(text, file)
-        except TmdError:
-            pass  # read again, to report all faults
-        else:
-            return _told(replace(document, source=replace(document.source, report=report)))
-    return _told(_split(text, file, report))
-
-
-def _told(document: Document) -> Document:
-    """Report the warnings of a document, and return it."""
-    if document.source.report is not None:
-        for warning in document.warnings:
-            document.source.report(warning)
-    return document
-
-
-@lru_cache(maxsize=8)
-def _faultless(text: str, file: str) -> Document:
-    """Cache the groups of a text without faults: a domain is read several times while it is checked or compiled."""
-    return _split(text, file, None)
-
-
-def _split(text: str, file: str, report: Report | None) -> Document:
     source = Source(file, split_lines(text), report)
     parser = _Parser(source)
     for number, line in enumerate(source.lines, start=1):
@@ -310,7 +281,7 @@ def _split(text: str, file: str, report: Report | None) -> Document:
         if parser.faults > _MOST_FAULTS:
             break
     parser.end()
-    return Document(source, tuple(parser.groups), parser.comments, parser.deepest, tuple(parser.warnings))
+    return Document(source, tuple(parser.groups), parser.comments, parser.deepest)
 
 
 @dataclass(slots=True)
@@ -326,7 +297,6 @@ class _Parser:
     """The first group that the indentation of the text says should have been closed before."""
     outside: bool = False
     faults: int = 0
-    warnings: list[TmdError] = field(default_factory=list)
 
     def read_line(self, number: int, line: str) -> None:
         code, mark, comment = line.partition(";")
@@ -352,7 +322,7 @@ class _Parser:
             token = match[0].lower()
             if match.start() == ended and token[0] == "?":
                 message = f'some tools want a blank before "{token}"'
-                self.warnings.append(self.source.error(message, location, "put a blank before it", "glued-variable"))
+                self.source.warn(message, location, "put a blank before it", "glued-variable")
             ended = match.end() if token not in "()" else -1
             if first:
                 self.look_at_indentation(token, location)
