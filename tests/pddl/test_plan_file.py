@@ -43,10 +43,10 @@ def test_any_text_is_an_instruction_or_a_clear_error(text: str) -> None:
         ("(a b\n", 1, 1, "one (name argument ...) a line"),
         ("; nothing\n()\n", 2, 1, "() is not an instruction"),
         ("(a b!c)\n", 1, 4, '"b!c" is not a name'),
-        ("0.0.0: (a b) [1.0]\n", 1, 1, '"0.0.0" is no time'),
-        ("0.000: (a b) [1.0.1]\n", 1, 15, '"1.0.1" is no time'),
+        ("0.0.0: (a b) [1.0]\n", 1, 1, "one (name argument ...) a line"),
+        ("0.000: (a b) [1.0.1]\n", 1, 1, "one (name argument ...) a line"),
         ("0.000: (a b!c) [1.0]\n", 1, 11, '"b!c" is not a name'),
-        ("0.000: a b [1.0]\n", 1, 8, "one (name argument ...) a line"),
+        ("0.000: a b [1.0]\n", 1, 1, "one (name argument ...) a line"),
         ("0.000: (a b) [1.0]\n(c)\n", 2, 1, "this line has no time"),
     ],
 )

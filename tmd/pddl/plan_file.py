@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
 
@@ -21,8 +21,8 @@ from tmd.pddl.reading.syntax import read_text, split_lines
 _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
 _CALL = re.compile(r"([^(]*)\((.*)\)\s*", re.DOTALL)
-_STAMP = re.compile(r"([0-9.]+)\s*:\s*")
-_DURATION = re.compile(r"\s*\[\s*(?:D:)?\s*([0-9.]+)[^\]]*\]$", re.IGNORECASE)
+_TIME = r"([0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
+_STEP = re.compile(rf"(?:{_TIME}\s*:\s*)?\(([^()]*)\)(?:\s*\[\s*(?:D:)?\s*{_TIME}[^\]]*\])?", re.IGNORECASE)
 # What stands before a comment; LPG has a ``;`` within the brackets of a duration.
 _CODE = re.compile(r"[^;\[]*(?:\[[^\]]*\])?[^;]*")
 # Times are printed with three decimals; what overlaps by less does not.
@@ -121,55 +121,24 @@ def _overlap(steps: Sequence[_Line]) -> Location | None:
     return None
 
 
-def _parse_line(code: str, place: Location, line: str) -> _Line:
-    start = end = None
-    column = place.column
-    stamp = _STAMP.match(code)
-    if stamp:
-        start = _seconds(stamp[1], place, line)
-        column += stamp.end()
-        code = code[stamp.end() :]
-        duration = _DURATION.search(code)
-        if duration:
-            code = code[: duration.start()]
-            end = start + _seconds(duration[1], Location(place.file, place.line, column + duration.start(1)), line)
-    instruction = _parse_instruction(code, Location(place.file, place.line, column), line)
-    return _Line(instruction, place, line, start, end)
-
-
-def _seconds(text: str, place: Location, line: str) -> Decimal:
-    try:
-        return Decimal(text)
-    except InvalidOperation:
-        raise TmdError(
-            f'"{_shown(text)}" is no time',
-            location=place,
-            source=line,
-            hint="a plan with times has START: (name argument ...) [DURATION]",
-        ) from None
-
-
-def _parse_instruction(code: str, place: Location, line: str) -> Instruction:
-    if not (code.startswith("(") and code.endswith(")")) or code.count("(") != 1 or code.count(")") != 1:
-        raise TmdError(
-            "a plan has one (name argument ...) a line",
-            location=place,
-            source=line,
-            hint=f'found "{_shown(code)}"',
-        )
-    words = code[1:-1].lower().split()
+def _parse_line(code: str, place: Location, source: str) -> _Line:
+    """Read ``(name argument ...)``, or with times ``START: (name argument ...) [DURATION]``."""
+    found = _STEP.fullmatch(code)
+    if found is None:
+        hint = f'found "{_shown(code)}"; with times, START: (name argument ...) [DURATION]'
+        raise TmdError("a plan has one (name argument ...) a line", location=place, source=source, hint=hint)
+    words = found[2].lower().split()
     if not words:
-        raise TmdError("() is not an instruction", location=place, source=line, hint="write (name argument ...)")
+        raise TmdError("() is not an instruction", location=place, source=source, hint="write (name argument ...)")
     for word in words:
         if not _NAME.fullmatch(word):
-            column = place.column + code.lower().find(word)
-            raise TmdError(
-                f'"{_shown(word)}" is not a name',
-                location=Location(place.file, place.line, column),
-                source=line,
-                hint="a name has letters, digits, _ and -, a letter first",
-            )
-    return Instruction(words[0], tuple(words[1:]))
+            place = Location(place.file, place.line, place.column + code.lower().find(word))
+            hint = "a name has letters, digits, _ and -, a letter first"
+            raise TmdError(f'"{_shown(word)}" is not a name', location=place, source=source, hint=hint)
+    start = Decimal(found[1]) if found[1] else None
+    end = start + Decimal(found[3]) if start is not None and found[3] else None
+    at = Location(place.file, place.line, place.column + code.index("("))
+    return _Line(Instruction(words[0], tuple(words[1:])), at, source, start, end)
 
 
 def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
