@@ -22,7 +22,8 @@ _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
 _CALL = re.compile(r"([^(]*)\((.*)\)\s*", re.DOTALL)
 _TIME = r"([0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
-_STEP = re.compile(rf"(?:{_TIME}\s*:\s*)?\(([^()]*)\)(?:\s*\[\s*(?:D:)?\s*{_TIME}[^\]]*\])?", re.IGNORECASE)
+_DURATION = rf"\[\s*(?:D:)?\s*{_TIME}(?:[;\s][^\]]*)?\]"
+_STEP = re.compile(rf"(?:{_TIME}\s*:\s*)?\(([^()]*)\)(?:\s*{_DURATION})?", re.IGNORECASE)
 # What stands before a comment; LPG has a ``;`` within the brackets of a duration.
 _CODE = re.compile(r"[^;\[]*(?:\[[^\]]*\])?[^;]*")
 # Times are printed with three decimals; what overlaps by less does not.
