@@ -78,7 +78,7 @@ def prepared(name: str, domain: Path, problem: Path, work: Path) -> Planned:
 def exported(source: Planned, name: str, work: Path) -> Path:
     """The directory in which a problem stands in every format."""
     directory = work / "exports" / name
-    files = {f"{form.name}/{path}": data for form in FORMATS.values() for path, data in form.write(source).items()}
+    files = {f"{name}/{path}": text.encode() for name, make in FORMATS.items() for path, text in make(source).items()}
     write_directory(directory, files, overwrite=True)
     return directory
 

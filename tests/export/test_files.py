@@ -23,7 +23,7 @@ from tmd.pddl.validator import validate
 
 
 def test_adl_is_read_back(source: Planned) -> None:
-    files = {path: data.decode() for path, data in FORMATS["adl"].write(source).items()}
+    files = FORMATS["adl"](source)
     problem = parse_problem(files["problem.pddl"], parse_domain(files["domain.pddl"]))
     assert problem == source.portable
     plan = parse_plan(files["plan.plan"])
@@ -37,9 +37,9 @@ def test_sas_is_what_fast_downward_searches(tmp_path: Path) -> None:
     from tmd.planning.fast_downward import binaries
 
     source = planned_case("kitchen")
-    files = FORMATS["sas"].write(source)
-    assert files["output.sas"].startswith(b"begin_version\n3\nend_version\n")
-    (tmp_path / "output.sas").write_bytes(files["output.sas"])
+    files = FORMATS["sas"](source)
+    assert files["output.sas"].startswith("begin_version\n3\nend_version\n")
+    (tmp_path / "output.sas").write_text(files["output.sas"])
     command = [binaries() / "downward", "--search", "lazy_greedy([ff()])", "--internal-plan-file", "sas_plan"]
     with (tmp_path / "output.sas").open() as sas:
         subprocess.run(command, stdin=sas, cwd=tmp_path, check=True, capture_output=True, timeout=60)

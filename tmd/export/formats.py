@@ -18,27 +18,6 @@ Files: TypeAlias = Mapping[str, bytes]
 Texts: TypeAlias = Mapping[str, str]
 
 
-@dataclass(frozen=True, slots=True)
-class Format:
-    """A format.
-
-    Attributes:
-        name: Its name on the command line.
-        make: Makes its files.
-    """
-
-    name: str
-    make: Callable[[Planned], Texts]
-
-    def write(self, source: Planned) -> Files:
-        """Return its files.
-
-        Raises:
-            TmdError: The format cannot say the problem, or a program for it is missing.
-        """
-        return {name: text.encode("utf-8") for name, text in self.make(source).items()}
-
-
 def _adl(source: Planned) -> Texts:
     domain, problem = format_domain(source.portable.domain), format_problem(source.portable)
     return {"domain.pddl": domain, "problem.pddl": problem, **_ipc(source)}
@@ -106,18 +85,15 @@ def _sas(source: Planned) -> Texts:
 # What is written where no format is asked for.
 DEFAULT = "adl"
 
-# Every format by its name, in the order in which they are documented.
-FORMATS: Mapping[str, Format] = {
-    form.name: form
-    for form in (
-        Format("adl", _adl),
-        Format("ipc", _ipc),
-        Format("strips", _strips),
-        Format("durative", _durative),
-        Format("plansys2", _plansys2),
-        Format("bt", _tree),
-        Format("sas", _sas),
-    )
+# Every format by its name, in the order in which they are documented: it makes the texts of its files.
+FORMATS: Mapping[str, Callable[[Planned], Texts]] = {
+    "adl": _adl,
+    "ipc": _ipc,
+    "strips": _strips,
+    "durative": _durative,
+    "plansys2": _plansys2,
+    "bt": _tree,
+    "sas": _sas,
 }
 
 
@@ -140,19 +116,19 @@ def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
     Raises:
         TmdError: There is no such format.
     """
-    forms = [_form(name) for name in dict.fromkeys(names)]
-    prefix = "{}/" if len(forms) > 1 else ""
+    wanted = {name: _format(name) for name in names}
     files: dict[str, Files] = {}
     failures: dict[str, TmdError] = {}
-    for form in forms:
+    for name, make in wanted.items():
+        prefix = f"{name}/" if len(wanted) > 1 else ""
         try:
-            files[form.name] = {prefix.format(form.name) + path: data for path, data in form.write(source).items()}
+            files[name] = {prefix + path: text.encode("utf-8") for path, text in make(source).items()}
         except TmdError as error:
-            failures[form.name] = error
+            failures[name] = error
     return ChosenFiles(files, failures)
 
 
-def _form(name: str) -> Format:
+def _format(name: str) -> Callable[[Planned], Texts]:
     if name not in FORMATS:
         hint = nearest(name, list(FORMATS)) or f"there are {', '.join(FORMATS)}"
         raise TmdError(f"there is no format '{name}'", hint=hint)
