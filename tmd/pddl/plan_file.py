@@ -138,8 +138,7 @@ def _parse_line(code: str, place: Location, source: str) -> _Line:
             raise TmdError(f'"{_shown(word)}" is not a name', location=place, source=source, hint=hint)
     start = Decimal(found[1]) if found[1] else None
     end = start + Decimal(found[3]) if start is not None and found[3] else None
-    at = Location(place.file, place.line, place.column + code.index("("))
-    return _Line(Instruction(words[0], tuple(words[1:])), at, source, start, end)
+    return _Line(Instruction(words[0], tuple(words[1:])), place, source, start, end)
 
 
 def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
