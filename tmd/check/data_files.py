@@ -17,11 +17,11 @@ from tmd.language.lexicon.file import BASES, read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reading.reader import read_domain, read_problem
-from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
+from tmd.pddl.reading.syntax import Report, nearest, read_text
 from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
 from tmd.world.corpus import CHANGED, replay
-from tmd.world.demonstration import Demonstration, in_line, read_demonstration
+from tmd.world.demonstration import Demonstration, in_line, read_demonstrations
 from tmd.world.environment import Environment, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.problem_domain import folder_near
@@ -40,17 +40,8 @@ def check_demonstrations(path: Path, world: Callable[[str], Problem | None], kno
     Raises:
         TmdError: The file cannot be read.
     """
-    seen: dict[str, int] = {}
-    for number, line in enumerate(split_lines(read_text(path)), start=1):
-        if not line.strip():
-            continue
+    for demonstration in read_demonstrations(path, report):
         try:
-            demonstration = read_demonstration(path, number, line)
-            if demonstration.id in seen:
-                message = f"the id '{demonstration.id}' stands in this file twice"
-                hint = f"it is that of line {seen[demonstration.id]} as well"
-                raise TmdError(message, location=demonstration.location, hint=hint, code="duplicate-name")
-            seen[demonstration.id] = number
             _play(demonstration, world, known)
         except TmdError as error:
             report(error)

@@ -31,7 +31,7 @@ from tmd.json_record import expectation, json_value
 from tmd.pddl.model import Formula, Instruction, Problem, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
-from tmd.pddl.reading.syntax import read_text, split_lines
+from tmd.pddl.reading.syntax import Report, read_text, split_lines
 from tmd.pddl.semantics import first_false
 
 _KEYS = ("id", "task", "environment", "text", "segments")
@@ -88,24 +88,28 @@ def demonstration_line(demonstration: Demonstration) -> str:
     return "".join(f"\\u{ord(c):04x}" if c in _ENDS else c for c in line)
 
 
-def read_demonstrations(path: Path) -> list[Demonstration]:
-    """Read a corpus.
+def read_demonstrations(path: Path, report: Report | None = None) -> list[Demonstration]:
+    """Read a corpus; ``report`` takes the faults of its lines.
 
     Raises:
-        TmdError: A line is not a demonstration; with file, line and column.
+        TmdError: The file cannot be read; or, without ``report``, a line is not a demonstration.
     """
-    found: list[Demonstration] = []
-    seen: set[str] = set()
+    found: dict[str, Demonstration] = {}
     for number, line in enumerate(split_lines(read_text(path)), start=1):
-        if not line.strip():
-            continue
-        reader = _Line(path, number, line)
-        demonstration = reader.read()
-        if demonstration.id in seen:
-            raise reader.error(f"the id '{demonstration.id}' stands in this file twice", None, '"id"')
-        seen.add(demonstration.id)
-        found.append(demonstration)
-    return found
+        try:
+            if line.strip():
+                demonstration = read_demonstration(path, number, line)
+                first = found.setdefault(demonstration.id, demonstration)
+                if first is not demonstration:
+                    place = in_line(demonstration.location, line, ['"id"'])
+                    hint = f"it is that of line {first.location.line if first.location else 0} as well"
+                    message = f"the id '{demonstration.id}' stands in this file twice"
+                    raise TmdError(message, location=place, hint=hint, source=line, code="duplicate-name")
+        except TmdError as error:
+            if report is None:
+                raise
+            report(error)
+    return list(found.values())
 
 
 def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
