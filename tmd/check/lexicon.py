@@ -34,7 +34,7 @@ def check_nouns(path: Path, lexicon: Lexicon, names: Collection[str]) -> Iterato
             if target not in names and lexicon.own("nouns", noun):
                 hint = nearest(target, sorted(names))
                 message = f"'{noun}' leads to '{target}', which is no class, part, substance or object of the domain"
-                yield source.error(source.of_key(noun, target), message, hint, "unknown-target")
+                yield source.error(source.in_section("nouns", noun, target), message, hint, "unknown-target")
 
 
 def check_phrases(path: Path, lexicon: Lexicon) -> Iterator[TmdError]:
@@ -113,15 +113,6 @@ class Written:
         source = self.lines[place.line - 1] if place.line <= len(self.lines) else None
         return TmdError(message, location=place, hint=hint, source=source, code=code)
 
-    def of_key(self, key: str, word: str) -> Location:
-        """Return the place of a word on the first line with a key; the beginning of the file without such a line."""
-        found = re.compile(rf"(?<![\w]){re.escape(key)}(?![\w])")
-        for number, line in enumerate(self.lines, start=1):
-            if found.search(line.partition("#")[0]):
-                column = line.find(word, line.find(key) + (len(key) if word != key else 0))
-                return Location(str(self.path), number, max(column, 0) + 1)
-        return Location(str(self.path), 1, 1)
-
     def in_pattern(self, entry: Declared, word: str = "") -> Location:
         """Return the place of a word in an entry's pattern, the last one if there are several."""
         begin = entry.location or Location(str(self.path), 1, 1)
@@ -155,16 +146,13 @@ class Written:
                 if not line[column - 1].isspace():
                     yield number, column
 
-    def in_section(self, section: str, key: str = "", word: str = "") -> Location:
-        """Return the place of a section, of a key in it, or of a word after that key."""
+    def in_section(self, section: str, key: str, word: str) -> Location:
+        """Return the place of a word after a key of a section."""
         inside = False
         for number, line in enumerate(self.lines, start=1):
-            if re.match(rf"{section}\s*:", line):
-                inside = True
-                if not key:
-                    return Location(str(self.path), number, 1)
-            elif inside and re.match(rf"\s+{re.escape(key)}\s*:", line):
-                found = re.search(rf"(?<!\w){re.escape(word or key)}(?!\w)", line)
+            inside |= bool(re.match(rf"{section}\s*:", line))
+            if inside and re.match(rf"\s+[\"']?{re.escape(key)}[\"']?\s*:", line):
+                found = re.search(rf"(?<!\w){re.escape(word)}(?!\w)", line)
                 return Location(str(self.path), number, found.start() + 1 if found else 1)
         return Location(str(self.path), 1, 1)
 
