@@ -40,7 +40,7 @@ class SentenceTest(JsonRecord):
 
     @property
     def location(self) -> Location | None:
-        """Where it was read."""
+        """The place where it was read."""
         return self._location
 
     @property
