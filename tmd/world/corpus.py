@@ -8,10 +8,11 @@ from pathlib import Path
 
 from tmd.diagnostics import TmdError
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.model import Instruction, Problem, State
+from tmd.pddl.reading.formulas import read_only_condition
 from tmd.pddl.reading.reader import read_problem
-from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.semantics import apply, first_broken
+from tmd.pddl.reading.syntax import nearest, parse
+from tmd.pddl.semantics import apply, first_broken, holds
 from tmd.world.compile import compile_problem
 from tmd.world.demonstration import Demonstration, check_goal, read_demonstrations, step_fault
 from tmd.world.environment import load_environment
@@ -149,7 +150,7 @@ def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
             raise step_fault(demonstration, number, wrong)
         states.append(apply(instruction, states[-1], problem))
     for literal in demonstration.end_state:
-        if not _literal_holds(literal, states[-1]):
+        if not holds(read_only_condition(parse(literal, "end_state")), states[-1], problem):
             raise TmdError(f"the stated end {literal} is not reached")
     check_goal(demonstration, problem, states[-1])
     return states
@@ -192,12 +193,3 @@ def _wrong(instruction: Instruction, state: State, problem: Problem) -> TmdError
     except TmdError as error:
         return error
     return None if broken is None else TmdError(f"{broken.text} does not hold")
-
-
-def _literal_holds(literal: str, state: State) -> bool:
-    words = literal.replace("(", " ").replace(")", " ").split()
-    if not words or words == ["not"]:
-        raise TmdError(f"'{literal}' is not a literal", hint="write (predicate name …) or (not (predicate name …))")
-    positive = words[0] != "not"
-    atom = words if positive else words[1:]
-    return (GroundAtom(atom[0], tuple(atom[1:])) in state) == positive
