@@ -20,7 +20,7 @@ from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import Report, nearest, read_text
 from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
-from tmd.world.corpus import CHANGED, replay
+from tmd.world.corpus import replay
 from tmd.world.demonstration import Demonstration, in_line, read_demonstrations
 from tmd.world.environment import Environment, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
@@ -54,18 +54,8 @@ def _play(demonstration: Demonstration, world: Callable[[str], Problem | None], 
         place = in_line(demonstration.location, demonstration.source, [json.dumps(demonstration.environment)])
         raise TmdError(message, location=place, hint=hint, code="unknown-environment")
     problem = world(demonstration.environment)
-    if problem is None:
-        return
-    try:
+    if problem is not None:
         replay(demonstration, problem)
-    except TmdError as error:
-        if error.code not in ("", "not-executable"):
-            raise  # of the goal
-        message = f"'{demonstration.id}' cannot be executed in {demonstration.environment}: {error.message}"
-        place = error.location or demonstration.location
-        raise TmdError(
-            message, location=place, hint=error.hint or CHANGED, source=error.source, code="not-executable"
-        ) from None
 
 
 def check_objects(folder: DomainFolder, report: Report) -> None:

@@ -14,7 +14,7 @@ from tmd.pddl.reading.reader import read_problem
 from tmd.pddl.reading.syntax import nearest, parse
 from tmd.pddl.semantics import apply, first_broken, holds
 from tmd.world.compile import compile_problem
-from tmd.world.demonstration import Demonstration, check_goal, read_demonstrations, step_fault
+from tmd.world.demonstration import Demonstration, check_goal, not_executable, read_demonstrations, step_fault
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 from tmd.world.world import World, make_world, run
@@ -151,7 +151,7 @@ def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
         states.append(apply(instruction, states[-1], problem))
     for literal in demonstration.end_state:
         if not holds(read_only_condition(parse(literal, "end_state")), states[-1], problem):
-            raise TmdError(f"the stated end {literal} is not reached")
+            raise not_executable(demonstration, f"the stated end {literal} is not reached")
     check_goal(demonstration, problem, states[-1])
     return states
 
@@ -159,10 +159,6 @@ def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
 def final_state(demonstration: Demonstration, world: World) -> State:
     """Return the state after all instructions of a demonstration that can be executed."""
     return world.task.decode(run(world, world.task.init, demonstration.instructions))
-
-
-# The hint for a demonstration that cannot be executed.
-CHANGED = "fix the demonstration, or the domain or environment if they are what changed"
 
 
 def check_executable(demonstration: Demonstration, world: World) -> None:
@@ -179,11 +175,7 @@ def check_executable(demonstration: Demonstration, world: World) -> None:
         state = operator.apply(state)
     else:
         return
-    try:
-        replay(replace(demonstration, end_state=(), goal=None), world.task.problem)
-    except TmdError as error:
-        message = f"'{demonstration.id}' cannot be executed in {world.name}: {error.message}"
-        raise TmdError(message, location=error.location, hint=error.hint or CHANGED, source=error.source) from None
+    replay(replace(demonstration, end_state=(), goal=None), world.task.problem)
 
 
 def _wrong(instruction: Instruction, state: State, problem: Problem) -> TmdError | None:

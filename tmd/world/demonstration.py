@@ -222,8 +222,20 @@ def step_fault(demonstration: Demonstration, number: int, fault: TmdError) -> Tm
     text = json.dumps(demonstration.text[segment.start : segment.end], ensure_ascii=False)
     words = (text, '"instructions"', step, *(quoted.groups() if quoted and quoted[1] in step else ()))
     place = in_line(demonstration.location, demonstration.source, words)
-    message = f"segment {at}, step {number}, {step}: {what}"
-    return TmdError(message, location=place, hint=fault.hint, source=demonstration.source, code="not-executable")
+    return not_executable(demonstration, f"segment {at}, step {number}, {step}: {what}", place, fault.hint)
+
+
+def not_executable(
+    demonstration: Demonstration, why: str, place: Location | None = None, hint: str | None = None
+) -> TmdError:
+    """Return the fault of a demonstration that does not work in its environment."""
+    return TmdError(
+        f"'{demonstration.id}' cannot be executed in {demonstration.environment}: {why}",
+        location=place or demonstration.location,
+        hint=hint or "fix the demonstration, or the domain or environment if they are what changed",
+        source=demonstration.source or None,
+        code="not-executable",
+    )
 
 
 # The kind of fault of a goal that does not hold when all instructions are done.
