@@ -46,6 +46,38 @@ def is_variable(term: str) -> bool:
     return term.startswith("?")
 
 
+# Constructs of PDDL outside the supported part: their requirements, sections, parts of actions and other words.
+UNSUPPORTED = {
+    word: feature
+    for feature, words in {
+        "durative actions": ":durative-actions :duration-inequalities :durative-action :duration :condition",
+        "continuous effects": ":continuous-effects",
+        "timed initial literals": ":timed-initial-literals :timed-initial-effects",
+        "processes and events": ":time :process :event :class",
+        "numeric fluents": ":fluents :numeric-fluents decrease scale-up scale-down",
+        "numeric and object fluents": "assign change",
+        "numeric conditions": "< > <= >=",
+        "object fluents": ":object-fluents",
+        "preferences": ":preferences preference",
+        "trajectory constraints": ":constraints always sometime within at-most-once sometime-after sometime-before "
+        "always-within hold-during hold-after",
+        "non-deterministic effects": ":non-deterministic oneof",
+        "probabilistic effects": ":probabilistic-effects :mdp probabilistic",
+        "rewards": ":rewards :goal-reward",
+        "several agents": ":multi-agent :agents :agent",
+        "private facts of agents": ":unfactored-privacy :factored-privacy :private",
+        "hierarchical tasks": ":hierarchy :htn :method-preconditions :task :method",
+        "utilities of goals": ":goal-utilities",
+        "supply and demand": ":supply-demand",
+        "partial observability": ":contingent :observable :sensing-action :observe :sense unknown",
+        "plan length limits": ":length",
+        "axioms of PDDL 1": ":axiom",
+        "variables beside the parameters": ":vars",
+    }.items()
+    for word in words.split()
+}
+
+
 def unsupported(source: Source, what: str, name: str, location: Location, hint: str | None = None) -> TmdError:
     """Return the error for a construct of PDDL that is outside the supported part."""
     return source.error(f'not supported: {what}: "{name}"', location, hint, "not-supported")
@@ -196,33 +228,15 @@ def read_parameters(node: Node, source: Source) -> tuple[TypedName, ...]:
     return read_typed_list(node.parts, source, variables=True, what="a variable")
 
 
-_UNSUPPORTED_CONDITIONS = {
-    "preference": "preferences",
-    "<": "numeric conditions",
-    ">": "numeric conditions",
-    "<=": "numeric conditions",
-    ">=": "numeric conditions",
-    "oneof": "non-deterministic effects",
-    "unknown": "partial observability",
-    **dict.fromkeys(
-        (
-            "always", "sometime", "within", "at-most-once", "sometime-after", "sometime-before", "always-within",
-            "hold-during", "hold-after",
-        ),
-        "trajectory constraints",
-    ),
-}  # fmt: skip
-# The others may be names of predicates as well, and then have no conditions in them.
+# Words that are names of predicates elsewhere in a condition, unless conditions stand in them.
+_CONDITION_WORDS = frozenset(
+    {
+        "oneof", "unknown", "always", "sometime", "within", "at-most-once", "sometime-after", "sometime-before",
+        "always-within", "hold-during", "hold-after",
+    }
+)  # fmt: skip
 _NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
-_UNSUPPORTED_EFFECTS = {
-    "assign": "numeric and object fluents",
-    "change": "numeric and object fluents",
-    "decrease": "numeric fluents",
-    "scale-up": "numeric fluents",
-    "scale-down": "numeric fluents",
-    "oneof": "non-deterministic effects",
-    "probabilistic": "probabilistic effects",
-}
+_EFFECT_WORDS = frozenset({"assign", "change", "decrease", "scale-up", "scale-down", "oneof", "probabilistic"})
 _ONLY_COSTS = "of numeric fluents only total-cost is supported"
 
 
@@ -258,8 +272,8 @@ def read_condition(node: Node, source: Source) -> Formula:
         return Equals(read_term(parts[0], source), read_term(parts[1], source), place)
     if head == "when":
         raise source.error('"when" belongs in effects', place, 'write "imply" in conditions', "when-in-condition")
-    if head in _NEVER_PREDICATES or (head in _UNSUPPORTED_CONDITIONS and any(isinstance(p, Group) for p in parts)):
-        raise unsupported(source, _UNSUPPORTED_CONDITIONS[head], head, place)
+    if head in _NEVER_PREDICATES or (head in _CONDITION_WORDS and any(isinstance(p, Group) for p in parts)):
+        raise unsupported(source, UNSUPPORTED[head], head, place)
     return read_atom(node, source)
 
 
@@ -351,8 +365,8 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
         _read_effect(parts[1], source, inside, found)
     elif head == "increase":
         _read_cost(node, source, around, found)
-    elif head in _UNSUPPORTED_EFFECTS:
-        what = _UNSUPPORTED_EFFECTS[head]
+    elif head in _EFFECT_WORDS:
+        what = UNSUPPORTED[head]
         raise unsupported(source, what, head, node.location, _ONLY_COSTS if "numeric" in what else None)
     elif head in ("or", "exists", "imply", "="):
         hint = "it belongs in conditions"

@@ -32,6 +32,7 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.reading.checking import check_domain, check_problem, undeclared_requirements
 from tmd.pddl.reading.formulas import (
+    UNSUPPORTED,
     Effects,
     read_atom,
     read_condition,
@@ -63,17 +64,16 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
         if isinstance(node, Group) or not node.text.startswith(":"):
             source.fault_at("a requirement begins with a colon", node.location)
             continue
-        if node.text in _UNSUPPORTED_REQUIREMENTS:
-            what = _UNSUPPORTED_REQUIREMENTS[node.text]
+        if node.text in UNSUPPORTED:
             source.warn(
-                f"not supported: {what}: {node.text}",
+                f"not supported: {UNSUPPORTED[node.text]}: {node.text}",
                 node.location,
                 "the requirement is ignored; what uses it is refused",
                 "unsupported-requirement",
             )
         elif node.text not in REQUIREMENTS:
             message = f'"{node.text}" is not a known requirement'
-            hint = nearest(node.text, [*REQUIREMENTS, *_UNSUPPORTED_REQUIREMENTS])
+            hint = nearest(node.text, [*REQUIREMENTS, *UNSUPPORTED])
             source.fault_at(message, node.location, hint, "unknown-requirement")
             continue
         if node.text not in names:
@@ -96,32 +96,6 @@ REQUIREMENTS = (
     ":derived-predicates",
     ":domain-axioms",
 )
-_UNSUPPORTED_REQUIREMENTS = {
-    ":durative-actions": "durative actions",
-    ":duration-inequalities": "durative actions",
-    ":continuous-effects": "continuous effects",
-    ":timed-initial-literals": "timed initial literals",
-    ":timed-initial-effects": "timed initial literals",
-    ":time": "processes and events",
-    ":fluents": "numeric fluents",
-    ":numeric-fluents": "numeric fluents",
-    ":object-fluents": "object fluents",
-    ":preferences": "preferences",
-    ":constraints": "trajectory constraints",
-    ":non-deterministic": "non-deterministic effects",
-    ":probabilistic-effects": "probabilistic effects",
-    ":rewards": "rewards",
-    ":mdp": "probabilistic effects and rewards",
-    ":multi-agent": "several agents",
-    ":unfactored-privacy": "private facts of agents",
-    ":factored-privacy": "private facts of agents",
-    ":hierarchy": "hierarchical tasks",
-    ":htn": "hierarchical tasks",
-    ":method-preconditions": "hierarchical tasks",
-    ":goal-utilities": "utilities of goals",
-    ":supply-demand": "supply and demand",
-    ":contingent": "partial observability",
-}
 
 
 def read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
@@ -211,7 +185,7 @@ def _read_signature(node: Node, document: Document, comment: str = "") -> Predic
     if isinstance(node, Word):
         raise source.error(f'expected (predicate ...), found "{node.text}"', node.location)
     if node.head == ":private":
-        raise unsupported(source, "private facts of agents", node.head, node.location)
+        raise unsupported(source, UNSUPPORTED[node.head], node.head, node.location)
     if not node.parts:
         raise source.error("expected (name ?parameter ...), found ()", node.location)
     name = read_name(node.parts[0], source, "the name of a predicate")
@@ -310,14 +284,6 @@ def _with_declared_types(axiom: Axiom, predicates: Mapping[str, Predicate]) -> A
 
 
 _PARTS_OF_ACTIONS = (":parameters", ":precondition", ":effect")
-_UNSUPPORTED_PARTS = {
-    ":vars": "variables beside the parameters",
-    ":agent": "several agents",
-    ":observe": "partial observability",
-    ":sense": "partial observability",
-    ":duration": "durative actions",
-    ":condition": "durative actions",
-}
 
 
 def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Node]:
@@ -336,13 +302,13 @@ def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Nod
             continue
         source.recover(None, _known_part, keyword, action, parts, source)
         meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # its value is not reported as missing as well
-        parts.setdefault(keyword.text if keyword.text in _UNSUPPORTED_PARTS or not meant else meant[0], nodes.pop(0))
+        parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
     return parts
 
 
 def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Source) -> None:
-    if keyword.text in _UNSUPPORTED_PARTS:
-        raise unsupported(source, _UNSUPPORTED_PARTS[keyword.text], keyword.text, keyword.location)
+    if keyword.text in UNSUPPORTED:
+        raise unsupported(source, UNSUPPORTED[keyword.text], keyword.text, keyword.location)
     if keyword.text not in _PARTS_OF_ACTIONS:
         hint = nearest(keyword.text, _PARTS_OF_ACTIONS, what="parts of an action")
         message = f'"{keyword.text}" is not a part of an action'
@@ -373,25 +339,6 @@ def read_metric(group: Group, source: Source) -> bool:
     raise unsupported(
         source, "other metrics", " ".join(words), group.location, f"write (:metric minimize ({TOTAL_COST}))"
     )
-
-
-_UNSUPPORTED_SECTIONS = {
-    ":durative-action": "durative actions",
-    ":process": "processes",
-    ":event": "events",
-    ":constraints": "trajectory constraints",
-    ":length": "plan length limits",
-    ":task": "hierarchical tasks",
-    ":method": "hierarchical tasks",
-    ":htn": "hierarchical tasks",
-    ":axiom": "axioms of PDDL 1",
-    ":vars": "state variables",
-    ":agents": "several agents",
-    ":goal-reward": "rewards",
-    ":observable": "partial observability",
-    ":sensing-action": "partial observability",
-    ":class": "processes and classes",
-}
 
 
 def read_domain(path: str | Path) -> Domain:
@@ -564,8 +511,8 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
 
 def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source: Source) -> str:
     head = group.head
-    if head in _UNSUPPORTED_SECTIONS:
-        raise unsupported(source, _UNSUPPORTED_SECTIONS[head], head, group.location)
+    if head in UNSUPPORTED:
+        raise unsupported(source, UNSUPPORTED[head], head, group.location)
     if head not in known:
         shown = f'"({head} ...)"' if head else "this group"
         hint = nearest(head, known, what="sections")
