@@ -228,13 +228,7 @@ def read_parameters(node: Node, source: Source) -> tuple[TypedName, ...]:
     return read_typed_list(node.parts, source, variables=True, what="a variable")
 
 
-# Words that are names of predicates elsewhere in a condition, unless conditions stand in them.
-_CONDITION_WORDS = frozenset(
-    {
-        "oneof", "unknown", "always", "sometime", "within", "at-most-once", "sometime-after", "sometime-before",
-        "always-within", "hold-during", "hold-after",
-    }
-)  # fmt: skip
+# The other words that are not supported may be names of predicates, and then have no conditions in them.
 _NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
 _EFFECT_WORDS = frozenset({"assign", "change", "decrease", "scale-up", "scale-down", "oneof", "probabilistic"})
 _ONLY_COSTS = "of numeric fluents only total-cost is supported"
@@ -272,7 +266,7 @@ def read_condition(node: Node, source: Source) -> Formula:
         return Equals(read_term(parts[0], source), read_term(parts[1], source), place)
     if head == "when":
         raise source.error('"when" belongs in effects', place, 'write "imply" in conditions', "when-in-condition")
-    if head in _NEVER_PREDICATES or (head in _CONDITION_WORDS and any(isinstance(p, Group) for p in parts)):
+    if head in UNSUPPORTED and (head in _NEVER_PREDICATES or any(isinstance(p, Group) for p in parts)):
         raise unsupported(source, UNSUPPORTED[head], head, place)
     return read_atom(node, source)
 
