@@ -15,7 +15,7 @@ from tmd.files import real
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import BASES, read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
-from tmd.pddl.model import Domain, Problem
+from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import Report, nearest, read_text
 from tmd.world.classes import SELF, Classes, ObjectsFile
@@ -70,8 +70,9 @@ def check_objects(folder: DomainFolder, report: Report) -> None:
         hint = "a domain with objects.yaml has its instructions there; domain.pddl is compiled"
         place = Location(str(source.path), 1, 1)
         raise TmdError("there is no instructions.pddl beside this", location=place, hint=hint, code="missing-file")
-    domain = _instructions(folder)
-    if domain is None:
+    try:
+        domain = read_domain(folder.instructions_path)
+    except TmdError:  # they are reported where that file is checked
         return
     classes = Classes(source, {t.name: t.parent for t in domain.types})
     arities = {p.name: len(p.parameters) for p in domain.predicates}
@@ -122,15 +123,6 @@ def check_compiled(folder: DomainFolder) -> None:
         )
 
 
-def check_environment(path: Path, folder: DomainFolder, report: Report) -> Problem | None:
-    """Return an environment as a problem of its domain.
-
-    Raises:
-        TmdError: The file cannot be used at all.
-    """
-    return compile_problem(load_environment(path, report), folder)
-
-
 def check_shapes(folder: DomainFolder) -> None:
     """Check the shapes of ``objects.yaml`` and the files that they name.
 
@@ -167,14 +159,6 @@ def check_scene(environment: Environment, folder: DomainFolder) -> None:
 
         with Simulator() as sim:
             Scene(sim, environment, folder, settle=0)
-
-
-def _instructions(folder: DomainFolder) -> Domain | None:
-    """Return the hand-written domain that classes are compiled into; ``None`` where it has faults."""
-    try:
-        return read_domain(folder.instructions_path)
-    except TmdError:
-        return None
 
 
 def _facts(classes: Classes) -> Iterator[tuple[tuple[str | int, ...], str]]:
@@ -362,15 +346,15 @@ class DataFiles:
         if key not in self._worlds:
             self._worlds[key] = None
             faults: list[TmdError] = []
-            said = YamlSource(file).load(Environment)
-            folder = self._domain_of(file, said.domain)
-            problem = check_environment(file, folder, faults.append)
-            scene = faults if faults or problem is None else _scene_faults(file, folder)
+            environment = load_environment(file, faults.append)
+            folder = self._domain_of(file, environment.domain)
+            problem = compile_problem(environment, folder)
+            scene = faults or _scene_faults(file, folder)
             told = {(d.code, d.message) for d in self.checker.findings.sorted() if _is_of(d, folder)}
             for fault in scene:
                 if (fault.code, fault.message) not in told:  # a fault of a class is reported there
                     self.checker.report(fault, file)
-            for fault in lint_cases(problem) if problem is not None and not faults else ():
+            for fault in () if faults else lint_cases(problem):
                 self.checker.report(fault, file)
             self._worlds[key] = None if faults else problem
 
@@ -388,7 +372,6 @@ class DataFiles:
         return self._folders.setdefault(real(found.path), found)
 
     def _demonstrations(self, file: Path) -> None:
-
         directory = file.parent.parent / "environments"
         environments = {p.stem: p for suffix in ("pddl", "yaml") for p in sorted(directory.glob(f"*.{suffix}"))}
 
