@@ -45,8 +45,8 @@ class Possible:
 
     Attributes:
         objects: The objects of the problem by type.
-        actions: The names of the actions that may apply.
-        blocked: For each other action what it lacks: a type without objects, or an atom of its precondition.
+        blocked: For each action that can never apply what it lacks: a type without objects, or an atom of its
+            precondition.
     """
 
     def __init__(self, problem: Problem) -> None:
@@ -76,13 +76,10 @@ class Possible:
         for number, own in enumerate(needs):
             self._reachability.add(Rule((number, -1), [literals for _, literals in own], heads[number]))
         self._reachability.run()
-        self.actions: set[str] = set()
         self.blocked: dict[str, str | Atom] = {}
         for action, own in zip(actions, needs, strict=True):
             lack = next((need for need, literals in own if not self._reached(literals)), None)
-            if lack is None:
-                self.actions.add(action.name)
-            else:
+            if lack is not None:
                 self.blocked[action.name] = lack
 
     def may_hold(self, atom: Atom, scope: Scope) -> bool:
@@ -253,7 +250,7 @@ def lint_together(domain: Domain, problems: Sequence[Problem], source: Source) -
     others: list[TmdError] = []
     for action in domain.actions:
         lack = known[0].blocked.get(action.name) if known else None
-        if lack is None or any(action.name in p.actions for p in known):
+        if lack is None or any(action.name not in p.blocked for p in known):
             continue
         if isinstance(lack, str):
             message = f'no object is of type "{lack}" {every}, so action "{action.name}" never applies'
