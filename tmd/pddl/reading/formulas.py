@@ -95,7 +95,7 @@ def read_name(node: Node, source: Source, what: str) -> Word:
 
 
 def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], hint: str) -> None:
-    """Return a name that PDDL does not have: let pass where planners do.
+    """Warn of a name that PDDL does not have, and planners take.
 
     Raises:
         TmdError: It is none.

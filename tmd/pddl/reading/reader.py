@@ -155,7 +155,7 @@ _ONE_SLIP = 0.85
 
 
 def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> None:
-    """Return some readers want every parent before its children."""
+    """Warn of types that stand before their parents, which some readers refuse."""
     later = {declared.name: place for place, declared in enumerate(found)}
     early = [declared for place, declared in enumerate(found) if later.get(declared.parent, 0) > place]
     if early:

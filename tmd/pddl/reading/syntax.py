@@ -339,7 +339,7 @@ class _Parser:
         self.source.fault_at(message, location, hint, code)
 
     def look_at_indentation(self, token: str, location: Location) -> None:
-        """Return a line that begins left of the group it stands in shows that the group lacks its end."""
+        """Suspect a group that a line stands in although it begins left of it: the group may lack its end."""
         if self.suspect is not None or not self.stack or len(self.stack) == 1:
             return
         opened = self.stack[-1]
@@ -384,7 +384,7 @@ class _Parser:
             self.stack.append(_Open(word.location, [], False))
 
     def reopen_last(self, word: Word) -> bool:
-        """Return a word outside all parentheses: the last group ended too early, if there is one."""
+        """Reopen the last group for a word outside all parentheses; return whether there is one."""
         if self.groups:
             self.closed_too_early(self.groups[-1])
             self.stack.append(self.reopen(self.groups.pop()))
@@ -395,7 +395,7 @@ class _Parser:
         return False
 
     def fix_misplaced(self, word: Word) -> None:
-        """Return a keyword deep inside another group shows which parenthesis was left open, or closed too early."""
+        """Repair what a keyword deep inside another group shows: a parenthesis left open, or closed too early."""
         opened = self.stack[-1]
         if not opened.parts and len(self.stack) == 2 and word.text in _SECTIONS:
             self.suspect = None  # the sections before are closed, with any indentation
