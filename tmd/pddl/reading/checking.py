@@ -138,18 +138,13 @@ class _Check:
                     f"{TOTAL_COST} has no parameters", signature.location, f"write ({TOTAL_COST})", "wrong-arity"
                 )
 
-    def unique(self, declared: Iterable[TypedName | Predicate | ActionSchema | object], what: str) -> None:
+    def unique(self, declared: Iterable[TypeDeclaration | TypedName | Predicate | ActionSchema], what: str) -> None:
         seen: set[str] = set()
         for item in declared:
-            name = str(getattr(item, "name", ""))
-            if name in seen:
-                self.fault(
-                    f'{what} "{name}" is declared twice',
-                    getattr(item, "location", None),
-                    "rename one of them",
-                    "duplicate-name",
-                )
-            seen.add(name)
+            if item.name in seen:
+                message = f'{what} "{item.name}" is declared twice'
+                self.fault(message, item.location, "rename one of them", "duplicate-name")
+            seen.add(item.name)
 
     def type_known(self, name: str, location: Location | None) -> None:
         """Check that a type is declared; ``location`` is that of the name with this type."""

@@ -127,14 +127,8 @@ class Source(Reporting):
 
     def type_of(self, location: Location | None, name: str) -> Location | None:
         """Return the place of the type ``name`` of the typed name at ``location``."""
-        after_dash = False
-        for token, place in self.tokens(location):
-            if after_dash and token.lower() == name:
-                return place
-            if token == ")" or (after_dash and token not in ("(", "either")):
-                break
-            after_dash |= token == "-"
-        return location
+        behind = islice(self.tokens(location), 1, None)
+        return next((place for token, place in behind if token.lower() == name), location)
 
     def tokens(self, location: Location | None) -> Iterator[tuple[str, Location]]:
         """Yield the tokens from ``location`` on, as they are written."""
