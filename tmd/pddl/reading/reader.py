@@ -486,12 +486,7 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     first = document.groups[0]
     document.check_depth()
     if len(document.groups) > 1:
-        source.fault_at(
-            f'this parenthesis closes "({first.head}" too early: more text follows',
-            first.end,
-            'a ")" before it is too many',
-            "extra-parenthesis",
-        )
+        source.closed_too_early(first)
     if first.head != "define" or len(first.parts) < 2:
         raise source.error(f"expected (define ({kind} name) ...)", first.location)
     title, *sections = first.parts[1:]

@@ -111,6 +111,11 @@ class Source(Reporting):
         if self.report is not None:
             self.report(self.error(message, location, hint, code))
 
+    def closed_too_early(self, group: Group) -> None:
+        """Raise or report that more text follows a group, which should be its last part."""
+        message = f'this parenthesis closes "({group.head}" too early: more text follows'
+        self.fault_at(message, group.end, 'a ")" before it is too many', "extra-parenthesis")
+
     def word(self, location: Location | None, number: int) -> Location | None:
         """Return the place of word ``number`` (0 for the head) of the group at ``location``; groups count as one."""
         place = None
@@ -439,9 +444,5 @@ class _Parser:
         self.fault(f"this parenthesis{name} is never closed", opened.location, hint, "unclosed-parenthesis")
 
     def closed_too_early(self, group: Group) -> None:
-        self.fault(
-            f'this parenthesis closes "({group.head}" too early: more text follows',
-            group.end,
-            'a ")" before it is too many',
-            "extra-parenthesis",
-        )
+        self.faults += 1
+        self.source.closed_too_early(group)
