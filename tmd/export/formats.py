@@ -24,7 +24,7 @@ def _adl(source: Planned) -> Texts:
 
 
 def _ipc(source: Planned) -> Texts:
-    return {"plan.plan": format_plan(source.plan, source.cost, unit=source.unit_cost)}
+    return {"plan.plan": format_plan(source.plan, source.cost, unit=not source.problem.minimize_cost)}
 
 
 def _strips(source: Planned) -> Texts:
