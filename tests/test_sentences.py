@@ -109,6 +109,10 @@ def test_a_file_is_read_line_by_line(tmp_path: Path) -> None:
 # ---------------------------------------------------------------- judging
 
 
+def _test(text: str, goal: str | None) -> SentenceTest:
+    return SentenceTest(id="a", domain="02_table", environment="corner1", text=text, goal=goal)
+
+
 @pytest.mark.parametrize(
     ("text", "goal", "outcome"),
     [
@@ -121,7 +125,7 @@ def test_a_file_is_read_line_by_line(tmp_path: Path) -> None:
     ],
 )
 def test_a_test_is_judged_by_the_state_at_the_end(text: str, goal: str | None, outcome: Outcome) -> None:
-    found = result(SentenceTest("a", "02_table", "corner1", text, goal))
+    found = result(_test(text, goal))
     assert found.outcome is outcome
     assert found.outcome.passed == (outcome in (Outcome.RIGHT, Outcome.IMPOSSIBLE_REFUSED))
     assert bool(found.plan) == (outcome in (Outcome.RIGHT, Outcome.WRONG, Outcome.IMPOSSIBLE_PLANNED))
@@ -131,11 +135,11 @@ def test_a_test_is_judged_by_the_state_at_the_end(text: str, goal: str | None, o
 
 def test_a_goal_that_is_none_is_told_with_the_id() -> None:
     with pytest.raises(TmdError, match="the goal of 'a': "):
-        result(SentenceTest("a", "02_table", "corner1", "Hand me the book.", "(holdign pr2 book1)"))
+        result(_test("Hand me the book.", "(holdign pr2 book1)"))
 
 
 def test_the_summary_counts() -> None:
-    test = SentenceTest("a", "02_table", "corner1", "", None)
+    test = _test("", None)
     outcomes = [*Outcome, Outcome.WRONG]
     results = [SentenceResult(test, o, warnings=("w",) if n == 1 else ()) for n, o in enumerate(outcomes)]
     assert summary(results).to_value() == {

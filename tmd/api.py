@@ -16,7 +16,6 @@ from tmd.domain_kit import DomainKit
 from tmd.export.end_goal import asked_problem
 from tmd.export.pddl_package import from_pddl, to_pddl
 from tmd.export.planned_problem import planned
-from tmd.export.strips import restored
 from tmd.export.unified import (
     from_unified_planning,
     plan_from_unified_planning,
@@ -269,18 +268,16 @@ def find_plan(
     raise NoPlanError(f"the planner gave up at {answer.limit}; nothing is proven", proven=False)
 
 
-def read_plan(path: str | Path, problem: Problem | None = None) -> tuple[Instruction, ...]:
+def read_plan(path: str | Path) -> tuple[Instruction, ...]:
     """Return the plan in a file: of the planning competitions, or with times, as VAL, POPF and PlanSys2 have them.
 
     Args:
         path: The file.
-        problem: Where the plan is for plan-resolved STRIPS: the problem that was exported.
 
     Raises:
         TmdError: The file cannot be read, or a line of it is not an instruction.
     """
-    plan = read_plan_file(path).instructions
-    return plan if problem is None else restored(problem, plan)
+    return read_plan_file(path).instructions
 
 
 def export_plan(
@@ -311,12 +308,9 @@ def export_plan(
     from tmd.export.formats import chosen_files
 
     target = Path(directory)
-    written = chosen_files(planned(problem, plan), formats)
-    for failure in written.failures.values():
-        raise failure
-    flat = {path: data for files in written.files.values() for path, data in files.items()}
-    write_directory(target, flat, overwrite=overwrite)
-    return [target / path for path in flat]
+    files = chosen_files(planned(problem, plan), formats)
+    write_directory(target, files, overwrite=overwrite)
+    return [target / path for path in files]
 
 
 def plan_page(problem: Problem, plan: Iterable[Instruction]) -> str:

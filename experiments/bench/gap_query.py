@@ -30,7 +30,7 @@ from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled, Planner
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
-from tmd.world.folder import find_domain, find_root
+from tmd.world.folder import find_domain, find_roots
 
 GOAL = 100
 COLUMNS = ("cold", "warm", "memo", "python")
@@ -51,7 +51,7 @@ def main() -> None:
     folder = find_domain("kitchen")
     rows: list[Row] = []
     different = unsolved = 0
-    environments = sorted((find_root("problems") / "kitchen" / "environments").glob("*.yaml"))
+    environments = sorted((find_roots("problems")[0] / "kitchen" / "environments").glob("*.yaml"))
     for number, path in enumerate(environments):
         task = ground(compile_problem(load_environment(path), folder))
         reference = fast_downward_for_gaps(task, time_limit=10)

@@ -18,7 +18,7 @@ from tmd.inference.config import DEFAULT, PRESETS
 from tmd.library.library import Library, learn
 from tmd.pddl.model import GroundAtom, TypedName
 from tmd.world.corpus import Corpus
-from tmd.world.folder import find_domain, find_root
+from tmd.world.folder import find_domain, find_roots
 from tmd.world.world import World, make_world
 
 SENTENCES = (
@@ -36,7 +36,7 @@ REPEATS = 3
 
 def main() -> None:
     """Print a row for each thing that grows."""
-    corpus = Corpus(find_domain("kitchen"), find_root("problems") / "kitchen")
+    corpus = Corpus(find_domain("kitchen"), find_roots("problems")[0] / "kitchen")
     demonstrations = [d for d in corpus.demonstrations() if d.environment != ENVIRONMENT]
     world = corpus.world(ENVIRONMENT)
     text = " ".join(SENTENCES)

@@ -14,7 +14,7 @@ from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.semantics import apply
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
-from tmd.world.folder import find_domain, find_root
+from tmd.world.folder import find_domain, find_roots
 
 STEPS = 400
 REPEATS = 200
@@ -24,7 +24,7 @@ def main() -> None:
     """Print one line for each kitchen."""
     folder = find_domain("kitchen")
     print(f"{'environment':12} {'bit sets/s':>12} {'semantics/s':>12} {'ratio':>8}")
-    for path in sorted((find_root("problems") / "kitchen" / "environments").glob("*.yaml")):
+    for path in sorted((find_roots("problems")[0] / "kitchen" / "environments").glob("*.yaml")):
         bits, plain = measure(path, folder.name)
         print(f"{path.stem:12} {bits:12.0f} {plain:12.0f} {bits / plain:8.0f}")
 

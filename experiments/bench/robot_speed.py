@@ -24,7 +24,7 @@ from tmd.robot.video.film import Film, open_movie
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
 from tmd.world.environment import load_environment
-from tmd.world.folder import find_domain, find_root
+from tmd.world.folder import find_domain, find_roots
 
 DOMAIN, TASK = "kitchen", "ramen"
 FIRST = "ramen-kitchen4-01"
@@ -34,7 +34,7 @@ BEGINNING = 6
 
 def main(arguments: Sequence[str]) -> None:
     """Print what is measured."""
-    corpus = Corpus(find_domain(DOMAIN), find_root("problems") / DOMAIN)
+    corpus = Corpus(find_domain(DOMAIN), find_roots("problems")[0] / DOMAIN)
     known = {demonstration.id: demonstration for demonstration in corpus.demonstrations()}
     wanted = arguments[0] if arguments else FIRST
     if wanted not in known:

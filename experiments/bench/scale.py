@@ -30,7 +30,7 @@ from tmd.library.library import Library, learn
 from tmd.library.template import Template
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
-from tmd.world.folder import find_domain, find_root
+from tmd.world.folder import find_domain, find_roots
 from tmd.world.world import World
 
 _T = TypeVar("_T")
@@ -44,7 +44,7 @@ REPEATS = 3
 
 def main(copies: int) -> None:
     """Print a line for each measurement."""
-    corpus = Corpus(find_domain("kitchen"), find_root("problems") / "kitchen")
+    corpus = Corpus(find_domain("kitchen"), find_roots("problems")[0] / "kitchen")
     demonstrations = [d for d in corpus.demonstrations() if d.environment != ENVIRONMENT]
     world = corpus.world(ENVIRONMENT)
     small = learn(demonstrations, corpus.world, corpus.lexicon)

@@ -13,9 +13,10 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from tmd.check.pddl_file import check_domain_text, kind_and_name
+from tmd.check.pddl_file import check_domain_text
 from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import Group, Node, parse, read_text, split_lines
+from tmd.world.problem_domain import kind_and_name
 
 
 def groups_in(node: Node) -> Iterator[Group]:

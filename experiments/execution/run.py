@@ -32,7 +32,7 @@ from tmd.robot.skills.performer import RobotPerformer
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.skills.skill_file import Skills, load_skills
 from tmd.world.corpus import Corpus
-from tmd.world.folder import find_domain, find_root
+from tmd.world.folder import find_domain, find_roots
 from tmd.world.roots import Roots
 
 
@@ -47,7 +47,7 @@ def run(case: Case) -> Record:
 @cache
 def corpus(domain: str) -> Corpus:
     """The domain's problems; read once in a process."""
-    return Corpus(find_domain(domain), find_root("problems") / domain)
+    return Corpus(find_domain(domain), find_roots("problems")[0] / domain)
 
 
 def planned(case: Case) -> Case:

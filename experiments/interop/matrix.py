@@ -17,7 +17,7 @@ from tmd.diagnostics import TmdError
 from tmd.export.directory import write_directory
 from tmd.export.formats import FORMATS
 from tmd.export.planned_problem import Planned, planned
-from tmd.export.strips import restored
+from tmd.export.strips import strips
 from tmd.pddl.plan_file import format_plan, parse_plan, read_plan
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.validator import validate
@@ -78,7 +78,7 @@ def prepared(name: str, domain: Path, problem: Path, work: Path) -> Planned:
 def exported(source: Planned, name: str, work: Path) -> Path:
     """The directory in which a problem stands in every format."""
     directory = work / "exports" / name
-    files = {f"{form.name}/{path}": data for form in FORMATS.values() for path, data in form.write(source).items()}
+    files = {f"{name}/{path}": text.encode() for name, make in FORMATS.items() for path, text in make(source).items()}
     write_directory(directory, files, overwrite=True)
     return directory
 
@@ -130,10 +130,11 @@ def _confirmed(source: Planned, text: object) -> tuple[bool | None, str]:
     if not isinstance(text, str):
         return None, ""
     try:
-        plan = restored(source.problem, parse_plan(text, "plan").instructions)
+        read = parse_plan(text, "plan").instructions
     except TmdError as error:
         return False, str(error)
-    verdict = validate(source.problem, plan)
+    made = strips(source).instructions  # the actions of plan-resolved formats are named by their instructions
+    verdict = validate(source.problem, [step if step.args else made.get(step.name, step) for step in read])
     return verdict.valid, verdict.reason
 
 

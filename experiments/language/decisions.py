@@ -21,7 +21,7 @@ import tmd
 from tmd.evaluation.sentence_tests import SentenceResult
 from tmd.goals.clause_goal import Decisions
 from tmd.goals.preferences import ODDS
-from tmd.world.folder import find_root
+from tmd.world.folder import find_roots
 from tmd.world.sentence_file import SUFFIX, SentenceTest, domain_sentences, read_sentences
 
 _CERTAIN = 100.0
@@ -74,7 +74,7 @@ def main() -> None:
     arguments = parser.parse_args()
     tests = [test for path in arguments.cases for test in read_sentences(path)]
     if not tests:
-        folders = sorted(path.parent for path in find_root("problems").glob(f"*/*{SUFFIX}"))
+        folders = sorted(path.parent for path in find_roots("problems")[0].glob(f"*/*{SUFFIX}"))
         tests = [test for folder in dict.fromkeys(folders) for test in domain_sentences(folder)]
     print(f"{'rule':<18}{'changed':>8}{'right':>7}{'wrong':>7}{'odds (ln)':>11}{'used':>7}")
     for name, counts in decisions(tests).items():

@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from tmd.check.checker import Checker
 from tmd.check.diagnostic import Diagnostic
 from tmd.check.pddl_file import check_domain_text, check_problem_text
+from tmd.check.report import check_paths
 from tmd.diagnostics import TmdError
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -131,6 +132,17 @@ def test_several_domains_of_one_name(tmp_path: Path) -> None:
     assert kinds(tmp_path) == set()
     (tmp_path / "a.pddl").unlink()
     assert kinds(tmp_path) == {"domain-not-found"}
+
+
+def test_a_domain_that_is_named_with_the_problem_is_its_domain(tmp_path: Path) -> None:
+    for folder in ("one", "two"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "domain.pddl").write_text(DOMAIN)
+    (tmp_path / "two" / "domain.pddl").write_text(DOMAIN.replace("(at ", "(lies "))
+    problem = tmp_path / "two" / "p.pddl"
+    problem.write_text(PROBLEM)
+    assert check_paths([tmp_path / "one" / "domain.pddl", problem]).diagnostics == ()
+    assert check_paths([problem]).diagnostics != ()
 
 
 def test_of_a_hopeless_file_the_first_problems_are_told(tmp_path: Path) -> None:

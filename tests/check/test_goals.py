@@ -74,8 +74,7 @@ def test_what_cannot_be_executed_is_told_before_its_goal(tmp_path: Path) -> None
 
 
 def test_a_plan_that_was_corrected_need_not_reach_the_goal(tmp_path: Path) -> None:
-    segments = [{"text": TEXT, "instructions": PLAN, "proposed": PLAN[:1]}]
-    assert found(tmp_path, "(on red_block green_block)", segments=segments, proposed=PLAN[:1]) == []
+    assert found(tmp_path, "(on red_block green_block)", proposed=PLAN[:1]) == []
 
 
 def test_goals_in_environments_of_yaml(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from tests.export.conftest import Val, planned_case
 from tmd.export.durative import format_durative_domain, format_durative_problem, format_popf, format_temporal, token
 from tmd.export.formats import FORMATS
 from tmd.export.planned_problem import Planned
-from tmd.export.strips import restored
+from tmd.export.strips import strips
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_plan
 from tmd.pddl.reading.reader import parse_domain
@@ -16,14 +16,14 @@ from tmd.pddl.reading.reader import parse_domain
 
 @pytest.mark.parametrize("name", ["durative", "plansys2"])
 def test_val_reads_it_and_takes_the_plan(source: Planned, name: str, val: Val) -> None:
-    files = {path: data.decode() for path, data in FORMATS[name].write(source).items()}
+    files = FORMATS[name](source)
     assert val.parse(files["domain.pddl"], files["problem.pddl"]) == "Errors: 0, warnings: 0"
     assert val.valid(files["domain.pddl"], files["problem.pddl"], files["plan.plan"])
 
 
 def test_val_refuses_two_things_at_once(val: Val) -> None:
     source = planned_case("blocks")
-    files = {path: data.decode() for path, data in FORMATS["durative"].write(source).items()}
+    files = FORMATS["durative"](source)
     hurried = files["plan.plan"].replace("[1.000]", "[1.000]").replace("1.001:", "0.500:")
     assert hurried != files["plan.plan"]
     assert not val.valid(files["domain.pddl"], files["problem.pddl"], hurried)
@@ -32,9 +32,9 @@ def test_val_refuses_two_things_at_once(val: Val) -> None:
 def test_plans_with_times_come_back(source: Planned) -> None:
     assert parse_plan(format_temporal(source.plan)).instructions == source.plan
     assert parse_plan(format_popf(source.plan)).instructions == source.plan
-    plan = parse_plan(FORMATS["plansys2"].write(source)["plan.plan"].decode())
+    plan = parse_plan(FORMATS["plansys2"](source)["plan.plan"])
     assert plan.overlap is None
-    assert restored(source.problem, plan.instructions) == source.plan
+    assert plan.instructions == strips(source, typed=True).plan
 
 
 def test_a_plan_with_times() -> None:

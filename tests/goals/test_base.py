@@ -266,7 +266,9 @@ def test_a_world_that_only_includes_the_household_is_understood(tmp_path: Path) 
         "Move the spade to the second crate.": "(inside spade1 crate2)",
         "Hand me the spade.": "(lifted spade1)",
     }.items():
-        (result,) = kit.run_sentence_tests([SentenceTest("x", "garden", "plot1", text, goal)])
+        (result,) = kit.run_sentence_tests(
+            [SentenceTest(id="x", domain="garden", environment="plot1", text=text, goal=goal)]
+        )
         assert result.outcome == "right", (text, result)
 
 

@@ -95,9 +95,6 @@ def test_a_fault_has_its_place_in_the_line(
 def test_a_demonstration_that_is_in_no_file_has_no_place(tmp_path: Path, yard: Problem) -> None:
     found = one(tmp_path, line("(on red_block)"))
     assert fault(replace(found, location=None), yard).location is None
-    (tmp_path / "demonstrations.jsonl").unlink()
-    gone = fault(found, yard)
-    assert (gone.location, gone.source) == (found.location, None)
 
 
 @pytest.mark.parametrize("depth", [50, 20_000])

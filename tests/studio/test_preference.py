@@ -40,7 +40,7 @@ def data() -> BundledData:
 def correction(name: str, done: Sequence[Instruction], proposed: Sequence[Instruction] | None) -> Example:
     half = len(TEXT) - 1
     mine = None if proposed is None else tuple(proposed)
-    segments = (Segment(0, half, tuple(done), mine),)
+    segments = (Segment(0, half, tuple(done)),)
     demonstration = Demonstration(name, "own", "kitchen1", TEXT, segments, (), mine)
     return Example(name, "own", "kitchen", "kitchen1", 1, demonstration)
 

@@ -12,7 +12,7 @@ from tmd.pddl.reading.reader import parse_problem
 from tmd.pddl.writer import format_problem
 from tmd.world.compile import compile_domain, compile_problem
 from tmd.world.environment import load_environment
-from tmd.world.folder import DomainFolder, find_domain, find_root
+from tmd.world.folder import DomainFolder, find_domain
 
 ROOT = Path(__file__).parents[2]
 COMPILED = sorted(p.parent for p in ROOT.glob("domains/*/objects.yaml"))
@@ -151,6 +151,6 @@ def test_words_that_yaml_once_took_for_truth_values_stay_words(tmp_path: Path) -
 
 def test_an_unknown_domain_names_the_nearest() -> None:
     with pytest.raises(TmdError, match="kitchen"):
-        find_domain("kichen", find_root("domains", ROOT / "domains"))
+        find_domain("kichen", ROOT / "domains")
     with pytest.raises(TmdError):
         find_domain("../kitchen", ROOT / "domains")

@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
-from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,97 +14,23 @@ from tmd.check.pddl_file import (
     CheckedDomain,
     check_domain_text,
     check_problem_text,
-    domain_name,
-    kind_and_name,
 )
 from tmd.diagnostics import Location, TmdError
 from tmd.files import real
 from tmd.language.lexicon.file import BASES
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import Source, read_text, split_lines
-from tmd.world.folder import find_domain
+from tmd.world.problem_domain import (
+    FoundDomain,
+    domain_in,
+    domain_named_in,
+    domains_in,
+    find_domain_file,
+    kind_and_name,
+)
 
 if TYPE_CHECKING:
     from tmd.check.data_files import DataFiles
-
-
-# Bytes of a file in which its ``define`` is looked for.
-_HEAD = 20_000
-# Directories with more PDDL files than that are not searched for a domain by its name.
-_MOST = 2_000
-
-
-@dataclass(frozen=True, slots=True)
-class FoundDomain:
-    """The file of a domain, if there is one; ``others`` are those that may be meant as well."""
-
-    file: Path | None
-    others: tuple[Path, ...] = ()
-
-
-def find_domain_file(problem: Path, name: str, domains: Path | None) -> FoundDomain:
-    """Return the file of the domain ``name`` for the file ``problem``.
-
-    The first of: a domain of that name beside the problem or one directory above; the known domain of that name;
-    a file ``domain.pddl`` beside the problem, whatever its name.
-    """
-    here = real(problem).parent
-    for directory in (here, here.parent):
-        named = domains_in(directory).get(name, ())
-        if named:
-            best = _best(named, problem)
-            return FoundDomain(_shown(best, problem)) if best else FoundDomain(None, tuple(named))
-    for above in list(here.parents)[:3] if re.fullmatch(r"[\w-]+", name) else ():
-        file = above / "domains" / name / "domain.pddl"
-        if file.is_file():
-            return FoundDomain(file)
-    for above, part in ((above, here.relative_to(above).parts) for above in list(here.parents)[:4]):
-        file = above / "domains" / part[1] / "domain.pddl" if len(part) > 1 and part[0] == "problems" else Path()
-        if file.name and name in domains_in(file.parent):
-            return FoundDomain(file)
-    try:
-        return FoundDomain(find_domain(name, domains).path / "domain.pddl")
-    except TmdError:
-        beside = problem.parent / "domain.pddl"
-        return FoundDomain(beside if beside.is_file() else None)
-
-
-def _best(named: Sequence[Path], problem: Path) -> Path | None:
-    """Choose among domains of one name: ``domain.pddl``, the one of the same number, or of the folder's name."""
-    if len(named) == 1 or named[0].name == "domain.pddl":
-        return named[0]
-    here = real(problem).parent
-    number = re.findall(r"[0-9]+", problem.stem)
-    numbered = [p for p in named if p.parent == here and number and re.findall(r"[0-9]+", p.stem) == number]
-    folders = (here.name, re.sub(r"[_-](test|train|training|validation)$", "", here.name))
-    for fitting in (numbered, *([p for p in named if p.stem == folder] for folder in folders)):
-        if len(fitting) == 1:
-            return fitting[0]
-    return None
-
-
-def _shown(found: Path, problem: Path) -> Path:
-    """Return ``found`` in the way in which the problem's own path was written."""
-    if found.parent == real(problem).parent:
-        return problem.parent / found.name
-    above = problem.parent.parent if problem.parent.name not in ("", "..") else problem.parent / ".."
-    return above / found.name
-
-
-@cache
-def domains_in(directory: Path) -> dict[str, tuple[Path, ...]]:
-    """Return the domains of a directory by name; ``domain.pddl`` goes before others of its name."""
-    files = sorted(directory.glob("*.pddl"), key=lambda path: (path.name != "domain.pddl", path.name))
-    found: dict[str, tuple[Path, ...]] = {}
-    for file in files[:_MOST]:
-        try:
-            with file.open("rb") as opened:
-                kind, name = kind_and_name(opened.read(_HEAD).decode("utf-8", errors="replace"))
-        except OSError:
-            continue
-        if kind == "domain" and name:
-            found[name] = (*found.get(name, ()), file)
-    return found
 
 
 # The files of domains and problems that are not PDDL, beside environments.
@@ -142,9 +66,12 @@ class Checker:
     _problems: dict[Path, list[Problem]] = field(default_factory=dict)
     _read: dict[Path, Problem | None] = field(default_factory=dict)
     _data_files: DataFiles | None = None
+    _given: dict[Path, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         domains_in.cache_clear()
+        domains = ((file, domain_in(file)) for file in self.given if file.suffix == ".pddl")
+        self._given = {file: name for file, name in domains if name is not None}
 
     def check(self, path: Path) -> None:
         """Check a file, or everything in a directory.
@@ -216,10 +143,8 @@ class Checker:
         return self._checked[key]
 
     def _problem(self, file: Path, text: str) -> None:
-        name = domain_name(text)
-        found = FoundDomain(self.domain) if self.domain else find_domain_file(file, name, self.domains)
-        if found.file is None and not found.others:
-            found = FoundDomain(self._meant(name))
+        name = domain_named_in(text)
+        found = FoundDomain(self.domain) if self.domain else self._domain_file(file, name)
         path = found.file
         checked = self._domain(path) if path else None
         result = check_problem_text(text, str(file), checked)
@@ -231,19 +156,15 @@ class Checker:
             self._problems.setdefault(real(path), []).append(result.problem)
         self._read[real(file)] = None if faulty or checked is None else result.problem
 
-    def _meant(self, name: str) -> Path | None:
-        """Return the domain, among the files given, of a problem that names none of them, if only one may be meant."""
-        named: dict[str, Path] = {}
-        for file in self.given:
-            if file.suffix == ".pddl" and file.is_file():
-                with file.open("rb") as opened:
-                    kind, found = kind_and_name(opened.read(_HEAD).decode("utf-8", errors="replace"))
-                if kind == "domain":
-                    named.setdefault(found, file)
-        if name in named or len(named) == 1:
-            return named.get(name) or next(iter(named.values()))
-        close = get_close_matches(name, sorted(named), n=1)
-        return named[close[0]] if close else None
+    def _domain_file(self, problem: Path, name: str) -> FoundDomain:
+        """Return the domain of a problem: of its name among the files given, or as elsewhere, or the only one given."""
+        named = [file for file, domain in self._given.items() if domain == name]
+        if len(named) == 1:
+            return FoundDomain(named[0])
+        found = find_domain_file(problem, name, self.domains)
+        if found.file is None and not found.others and len(self._given) == 1:
+            return FoundDomain(next(iter(self._given)))
+        return found
 
     def problem(self, file: Path) -> Problem | None:
         """Return the problem in ``file``; ``None`` where it or its domain has faults, which are reported."""

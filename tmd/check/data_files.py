@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Protocol
@@ -16,15 +15,16 @@ from tmd.files import real
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import BASES, read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
-from tmd.pddl.model import Domain, Problem, State
+from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import read_domain, read_problem
-from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
+from tmd.pddl.reading.syntax import Report, nearest, read_text
 from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
-from tmd.world.corpus import CHANGED, replay
-from tmd.world.demonstration import Demonstration, check_goal, read_demonstration
-from tmd.world.environment import Environment, EnvironmentFile, load_environment
+from tmd.world.corpus import replay
+from tmd.world.demonstration import Demonstration, in_line, read_demonstrations
+from tmd.world.environment import Environment, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
+from tmd.world.problem_domain import folder_near
 from tmd.world.yaml_positions import YamlSource
 
 
@@ -40,62 +40,22 @@ def check_demonstrations(path: Path, world: Callable[[str], Problem | None], kno
     Raises:
         TmdError: The file cannot be read.
     """
-    seen: dict[str, int] = {}
-    for number, line in enumerate(split_lines(read_text(path)), start=1):
-        if not line.strip():
-            continue
+    for demonstration in read_demonstrations(path, report):
         try:
-            demonstration = read_demonstration(path, number, line)
-            if demonstration.id in seen:
-                message = f"the id '{demonstration.id}' stands in this file twice"
-                hint = f"it is that of line {seen[demonstration.id]} as well"
-                raise TmdError(message, location=demonstration.location, hint=hint, code="duplicate-name")
-            seen[demonstration.id] = number
-            _play(demonstration, line, world, known)
+            _play(demonstration, world, known)
         except TmdError as error:
             report(error)
 
 
-def _play(demonstration: Demonstration, line: str, world: Callable[[str], Problem | None], known: list[str]) -> None:
+def _play(demonstration: Demonstration, world: Callable[[str], Problem | None], known: list[str]) -> None:
     if demonstration.environment not in known:
         message = f"there is no environment '{demonstration.environment}'"
         hint = nearest(demonstration.environment, known, what="environments")
-        raise TmdError(message, location=_place(demonstration, line), hint=hint, code="unknown-environment")
+        place = in_line(demonstration.location, demonstration.source, [json.dumps(demonstration.environment)])
+        raise TmdError(message, location=place, hint=hint, code="unknown-environment")
     problem = world(demonstration.environment)
-    if problem is None:
-        return
-    last = _states(demonstration, problem)[-1]
-    check_goal(demonstration, problem, last)
-
-
-def _states(demonstration: Demonstration, problem: Problem) -> list[State]:
-    """Return the states of a demonstration without its goal; the corrected plan is played as well."""
-    what = f"'{demonstration.id}'"
-    try:
-        states = replay(replace(demonstration, goal=None), problem)
-        if demonstration.proposed is not None:
-            what = f"the plan that '{demonstration.id}' corrects"
-            replay(_as_proposed(demonstration), problem, "proposed")
-    except TmdError as error:
-        message = f"{what} cannot be executed in {demonstration.environment}: {error.message}"
-        place = error.location or demonstration.location
-        raise TmdError(
-            message, location=place, hint=error.hint or CHANGED, source=error.source, code="not-executable"
-        ) from None
-    return states
-
-
-def _as_proposed(demonstration: Demonstration) -> Demonstration:
-    """Return the demonstration without its correction; it need not reach the goal or the stated end."""
-    segments = tuple(replace(segment, instructions=segment.proposed or ()) for segment in demonstration.segments)
-    return replace(demonstration, segments=segments, end_state=(), goal=None)
-
-
-def _place(demonstration: Demonstration, line: str) -> Location | None:
-    """Return the place of the environment's name."""
-    place = demonstration.location
-    column = line.find(json.dumps(demonstration.environment))
-    return Location(place.file, place.line, column + 1) if place and column >= 0 else place
+    if problem is not None:
+        replay(demonstration, problem)
 
 
 def check_objects(folder: DomainFolder, report: Report) -> None:
@@ -110,8 +70,9 @@ def check_objects(folder: DomainFolder, report: Report) -> None:
         hint = "a domain with objects.yaml has its instructions there; domain.pddl is compiled"
         place = Location(str(source.path), 1, 1)
         raise TmdError("there is no instructions.pddl beside this", location=place, hint=hint, code="missing-file")
-    domain = _instructions(folder)
-    if domain is None:
+    try:
+        domain = read_domain(folder.instructions_path)
+    except TmdError:  # they are reported where that file is checked
         return
     classes = Classes(source, {t.name: t.parent for t in domain.types})
     arities = {p.name: len(p.parameters) for p in domain.predicates}
@@ -162,15 +123,6 @@ def check_compiled(folder: DomainFolder) -> None:
         )
 
 
-def check_environment(path: Path, folder: DomainFolder, report: Report) -> Problem | None:
-    """Return an environment as a problem of its domain.
-
-    Raises:
-        TmdError: The file cannot be used at all.
-    """
-    return compile_problem(load_environment(path, report), folder)
-
-
 def check_shapes(folder: DomainFolder) -> None:
     """Check the shapes of ``objects.yaml`` and the files that they name.
 
@@ -207,14 +159,6 @@ def check_scene(environment: Environment, folder: DomainFolder) -> None:
 
         with Simulator() as sim:
             Scene(sim, environment, folder, settle=0)
-
-
-def _instructions(folder: DomainFolder) -> Domain | None:
-    """Return the hand-written domain that classes are compiled into; ``None`` where it has faults."""
-    try:
-        return read_domain(folder.instructions_path)
-    except TmdError:
-        return None
 
 
 def _facts(classes: Classes) -> Iterator[tuple[tuple[str | int, ...], str]]:
@@ -332,24 +276,14 @@ class DataFiles:
             check_shapes(folder)
 
     def _lexicon(self, file: Path) -> None:
-        from tmd.check.lexicon import (
-            check_goals,
-            check_lexicon,
-            check_phrases,
-            declared_verbs,
-            texts_of,
-        )
+        from tmd.check.lexicon import check_goals, check_nouns, check_phrases
         from tmd.goals.tables import faults_of
 
         folder = self._folder(file)
-        actions = [action.name for action in folder.domain.actions]
-        corpora = self._corpora(folder.path)
         lexicon = read_lexicon(file)
-        texts = [text for path in corpora for text in texts_of(path)]
-        meant = declared_verbs(lexicon, folder.domain)
         for fault in (
             *faults_of(lexicon, folder.domain),
-            *check_lexicon(file, lexicon, meant, actions, _names(folder), texts),
+            *check_nouns(file, lexicon, _names(folder)),
             *check_goals(file, lexicon, folder.domain, self._problems_of(folder), lambda: self._nameable(folder)),
             *check_phrases(file, lexicon),
         ):
@@ -362,11 +296,6 @@ class DataFiles:
         lexicon = read_lexicon(file)
         for fault in (*faults_of(lexicon), *check_phrases(file, lexicon)):
             self.checker.report(fault, file)
-
-    def _corpora(self, folder: Path) -> list[Path]:
-        """Return the demonstrations of a domain."""
-        problems = self._beside(folder)
-        return sorted(problems.glob("*/demonstrations.jsonl")) if problems else []
 
     def _beside(self, folder: Path) -> Path | None:
         """Return the problems of a domain: those beside its folder, or the known ones."""
@@ -417,15 +346,15 @@ class DataFiles:
         if key not in self._worlds:
             self._worlds[key] = None
             faults: list[TmdError] = []
-            said = YamlSource(file).load(EnvironmentFile)
-            folder = self._domain_of(file, said.domain)
-            problem = check_environment(file, folder, faults.append)
-            scene = faults if faults or problem is None else _scene_faults(file, folder)
+            environment = load_environment(file, faults.append)
+            folder = self._domain_of(file, environment.domain)
+            problem = compile_problem(environment, folder)
+            scene = faults or _scene_faults(file, folder)
             told = {(d.code, d.message) for d in self.checker.findings.sorted() if _is_of(d, folder)}
             for fault in scene:
                 if (fault.code, fault.message) not in told:  # a fault of a class is reported there
                     self.checker.report(fault, file)
-            for fault in lint_cases(problem) if problem is not None and not faults else ():
+            for fault in () if faults else lint_cases(problem):
                 self.checker.report(fault, file)
             self._worlds[key] = None if faults else problem
 
@@ -433,10 +362,9 @@ class DataFiles:
         """Return the folder of the domain ``name``: near the environment, or the known one."""
         if Path(name).name != name:
             raise YamlSource(file).error(("domain",), f"'{name}' is not a name of a domain", None, "outside-folder")
-        for above in list(real(file).parents)[:4]:
-            path = above / "domains" / name
-            if (path / "domain.pddl").is_file():
-                return self._folders.setdefault(path, DomainFolder(path))
+        near = folder_near(file, name)
+        if near:
+            return self._folders.setdefault(near, DomainFolder(near))
         try:
             found = find_domain(name, self.checker.domains)
         except TmdError as error:
@@ -444,7 +372,6 @@ class DataFiles:
         return self._folders.setdefault(real(found.path), found)
 
     def _demonstrations(self, file: Path) -> None:
-
         directory = file.parent.parent / "environments"
         environments = {p.stem: p for suffix in ("pddl", "yaml") for p in sorted(directory.glob(f"*.{suffix}"))}
 

@@ -14,6 +14,7 @@ from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reading.checking import check_domain, check_problem
 from tmd.pddl.reading.reader import parse_domain_unchecked, parse_problem_unchecked
 from tmd.pddl.reading.syntax import Group, Node, Source, Word, parse, split_lines
+from tmd.world.problem_domain import domain_named_in
 
 _DECLARED_IN = {
     ":types": "unknown-type",
@@ -22,10 +23,6 @@ _DECLARED_IN = {
     ":constants": "unknown-object",
     ":objects": "unknown-object",
 }
-_DEFINE = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\s+([^\s()]*)", re.IGNORECASE)
-_LIKE_A_PROBLEM = re.compile(r"\(\s*(:init|:goal|:objects)\b", re.IGNORECASE)
-_COMMENT = re.compile(r";[^\n\r]*")
-
 # By the code of a fault: names that may well be declared, in a section that could not be read.
 Words = Mapping[str, frozenset[str]]
 
@@ -54,15 +51,6 @@ class CheckedProblem:
     faults: list[TmdError]
 
 
-def kind_and_name(text: str) -> tuple[str, str]:
-    """Return whether ``text`` is a ``domain`` or a ``problem``, and its name in lower case (perhaps empty)."""
-    code = _COMMENT.sub("", text)
-    found = _DEFINE.search(code)
-    if found:
-        return found[1].lower(), found[2].lower()
-    return ("problem" if _LIKE_A_PROBLEM.search(code) else "domain"), ""
-
-
 def check_domain_text(text: str, file: str) -> CheckedDomain:
     """Read a domain as far as it can be read, and list what is wrong with it."""
     faults: list[TmdError] = []
@@ -81,7 +69,7 @@ def check_domain_text(text: str, file: str) -> CheckedDomain:
 def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> CheckedProblem:
     """Return the same for a problem; without its domain only its form is checked."""
     faults: list[TmdError] = []
-    domain = checked.domain if checked else Domain(_domain_named_in(text))
+    domain = checked.domain if checked else Domain(domain_named_in(text))
     try:
         problem, source = parse_problem_unchecked(text, domain, file, faults.append)
     except TmdError as error:
@@ -94,16 +82,6 @@ def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> C
     if checked.sound and not any(_is_error(fault) for fault in faults):
         faults += lint_problem(problem, source)
     return CheckedProblem(problem, source, _without_echoes(faults, checked.faults))
-
-
-def domain_name(text: str) -> str:
-    """Return the domain that a problem says it is of; empty where it says nothing."""
-    return _domain_named_in(text)
-
-
-def _domain_named_in(text: str) -> str:
-    found = re.search(r"\(\s*:domain\s+([^\s()]+)", _COMMENT.sub("", text), re.IGNORECASE)
-    return found[1].lower() if found else ""
 
 
 def _is_error(fault: TmdError) -> bool:

@@ -12,7 +12,6 @@ from tmd.cli.options import ReadingOptions
 from tmd.cli.plans import exit_code, why_invalid, why_none
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
-from tmd.export.strips import restored
 from tmd.json_record import json_value
 from tmd.pddl.model import TRUE, Instruction, Problem
 from tmd.pddl.plan_file import Plan, read_plan
@@ -84,7 +83,7 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned:
     if asked.goal:
         return _planned(with_goal(problem, asked.goal), asked)
     assert asked.plan is not None
-    plan = _read_plan(problem, asked.plan)
+    plan = read_plan(asked.plan)
     _refuse(problem, plan)
     return _checked(problem, plan.instructions, None)
 
@@ -129,19 +128,13 @@ def _checked(problem: Problem, plan: tuple[Instruction, ...], goal: str | None) 
 def _planned(problem: Problem, asked: ExportRequest) -> Planned:
     """Return a problem with the plan in the file that was named, or else with that of a planner."""
     if asked.plan:
-        plan = _read_plan(problem, asked.plan)
+        plan = read_plan(asked.plan)
         _refuse(problem, plan)
         return planned(problem, plan.instructions)
     found = solve(problem, asked.planner or AUTO, seconds=asked.seconds, memory=asked.memory)
     if isinstance(found, Solved):
         return planned(problem, found.plan)
     raise NotPlannedError(why_none(found), exit_code(found))
-
-
-def _read_plan(problem: Problem, path: Path) -> Plan:
-    """Return the plan in a file, which may be one for the exported STRIPS."""
-    read = read_plan(path)
-    return replace(read, instructions=restored(problem, read.instructions))
 
 
 def _refuse(problem: Problem, plan: Plan) -> None:

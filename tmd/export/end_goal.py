@@ -6,7 +6,8 @@ from collections.abc import Collection
 
 from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan
-from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem, conjuncts, universe
+from tmd.pddl.ground_formula import atoms_of
+from tmd.pddl.model import And, Formula, Or, Problem, conjuncts, universe
 from tmd.pddl.reading.reader import aimed_at
 from tmd.pddl.semantics import holds
 from tmd.pddl.task import Task
@@ -59,11 +60,4 @@ def _alternatives(part: Formula) -> tuple[Formula, ...]:
 
 def _objects(formula: Formula) -> set[str]:
     """Return the objects that a condition over ground atoms speaks of."""
-    match formula:
-        case Atom(_, terms):
-            return set(terms)
-        case Not(part):
-            return _objects(part)
-        case And(parts) | Or(parts):
-            return {name for part in parts for name in _objects(part)}
-    raise TypeError(f"not ground: {formula}")
+    return {name for atom in atoms_of(formula) for name in atom.args}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TypeAlias
 
 from tmd.diagnostics import TmdError
@@ -14,29 +13,7 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.writer import format_domain, format_problem
 
 # File names with contents.
-Files: TypeAlias = Mapping[str, bytes]
 Texts: TypeAlias = Mapping[str, str]
-
-
-@dataclass(frozen=True, slots=True)
-class Format:
-    """A format.
-
-    Attributes:
-        name: Its name on the command line.
-        make: Makes its files.
-    """
-
-    name: str
-    make: Callable[[Planned], Texts]
-
-    def write(self, source: Planned) -> Files:
-        """Return its files.
-
-        Raises:
-            TmdError: The format cannot say the problem, or a program for it is missing.
-        """
-        return {name: text.encode("utf-8") for name, text in self.make(source).items()}
 
 
 def _adl(source: Planned) -> Texts:
@@ -45,7 +22,7 @@ def _adl(source: Planned) -> Texts:
 
 
 def _ipc(source: Planned) -> Texts:
-    return {"plan.plan": format_plan(source.plan, source.cost, unit=source.unit_cost)}
+    return {"plan.plan": format_plan(source.plan, source.cost, unit=not source.problem.minimize_cost)}
 
 
 def _strips(source: Planned) -> Texts:
@@ -97,62 +74,35 @@ def _tree(source: Planned) -> Texts:
     return {"tree.xml": format_tree(source)}
 
 
-def _sas(source: Planned) -> Texts:
-    from tmd.planning.fast_downward import translated
-
-    return {"output.sas": translated(source.problem), "sas_plan": _ipc(source)["plan.plan"]}
-
-
 # What is written where no format is asked for.
 DEFAULT = "adl"
 
-# Every format by its name, in the order in which they are documented.
-FORMATS: Mapping[str, Format] = {
-    form.name: form
-    for form in (
-        Format("adl", _adl),
-        Format("ipc", _ipc),
-        Format("strips", _strips),
-        Format("durative", _durative),
-        Format("plansys2", _plansys2),
-        Format("bt", _tree),
-        Format("sas", _sas),
-    )
+# Every format by its name, in the order in which they are documented: it makes the texts of its files.
+FORMATS: Mapping[str, Callable[[Planned], Texts]] = {
+    "adl": _adl,
+    "ipc": _ipc,
+    "strips": _strips,
+    "durative": _durative,
+    "plansys2": _plansys2,
+    "bt": _tree,
 }
 
 
-@dataclass(frozen=True, slots=True)
-class ChosenFiles:
-    """Result of an export.
-
-    Attributes:
-        files: The files of each format that could be written, by path within one directory.
-        failures: Why each other one could not.
-    """
-
-    files: Mapping[str, Files]
-    failures: Mapping[str, TmdError]
-
-
-def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
-    """Return the files of each format, in a directory each if there are several; failures do not stop the others.
+def chosen_files(source: Planned, names: Sequence[str]) -> dict[str, bytes]:
+    """Return the files of each format by path, in a directory each if there are several formats.
 
     Raises:
-        TmdError: There is no such format.
+        TmdError: There is no such format, or one cannot say the problem.
     """
-    forms = [_form(name) for name in dict.fromkeys(names)]
-    prefix = "{}/" if len(forms) > 1 else ""
-    files: dict[str, Files] = {}
-    failures: dict[str, TmdError] = {}
-    for form in forms:
-        try:
-            files[form.name] = {prefix.format(form.name) + path: data for path, data in form.write(source).items()}
-        except TmdError as error:
-            failures[form.name] = error
-    return ChosenFiles(files, failures)
+    wanted = {name: _format(name) for name in names}
+    return {
+        f"{name}/{path}" if len(wanted) > 1 else path: text.encode("utf-8")
+        for name, make in wanted.items()
+        for path, text in make(source).items()
+    }
 
 
-def _form(name: str) -> Format:
+def _format(name: str) -> Callable[[Planned], Texts]:
     if name not in FORMATS:
         hint = nearest(name, list(FORMATS)) or f"there are {', '.join(FORMATS)}"
         raise TmdError(f"there is no format '{name}'", hint=hint)

@@ -39,11 +39,6 @@ class Planned:
         """
         return portable(self.problem)
 
-    @property
-    def unit_cost(self) -> bool:
-        """Return whether each instruction costs 1."""
-        return not self.problem.minimize_cost
-
 
 def planned(problem: Problem, plan: Iterable[Instruction]) -> Planned:
     """Execute ``plan`` in ``problem``.

@@ -13,7 +13,7 @@ never change are compiled away. Predicates and objects keep their names; an acti
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.export.planned_problem import Planned
@@ -30,11 +30,8 @@ from tmd.pddl.model import (
     Predicate,
     Problem,
     State,
-    TypeDeclaration,
-    TypedName,
-    TypeHierarchy,
-    conjuncts,
 )
+from tmd.pddl.normalise import map_typed_names
 from tmd.pddl.task import Bits, Cube, Operator, Task
 
 _NOT = "not_"
@@ -72,15 +69,19 @@ def strips(source: Planned, *, typed: bool = False) -> Strips:
 
     Args:
         source: The problem and its plan.
-        typed: Whether all types of the original are written, and all objects. Otherwise see
-            :mod:`tmd.export.strips`.
+        typed: Whether the types of the original are written; the actions have no parameters and need none.
 
     Raises:
         TmdError: The problem cannot be ground.
     """
     task = ground(source.portable)
     found = _written(task, *_followed(task, source.plan))
-    return found if typed else replace(found, problem=with_flat_types(found.problem))
+    return found if typed else replace(found, problem=_without_types(found.problem))
+
+
+def _without_types(problem: Problem) -> Problem:
+    bare: Problem = map_typed_names(problem, lambda name: replace(name, types=(OBJECT,)))
+    return replace(bare, domain=replace(bare.domain, types=(), requirements=(":strips",)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,94 +246,3 @@ class _Writer:
             other = self.opposite(GroundAtom(predicate.name)).predicate
             found += [replace(plain, name=name) for name in (predicate.name, other) if name in self.used]
         return tuple(found)
-
-
-def restored(problem: Problem, plan: Iterable[Instruction]) -> tuple[Instruction, ...]:
-    """Return ``plan`` with the names of plan-resolved actions replaced by the instructions of ``problem``.
-
-    ``(grasp-cup1)`` and ``(grasp-cup1-7)`` become ``(grasp cup1)``. An instruction that names an action of the
-    problem stays as it is, and so does a name that can be read in no way or in several.
-    """
-    arities = {action.name: len(action.parameters) for action in problem.domain.actions}
-    objects = [o.name for o in problem.all_objects()]
-
-    def one(step: Instruction) -> Instruction:
-        if step.name in arities or step.args:
-            return step
-        head, _, number = step.name.rpartition("-")
-        readings = {
-            Instruction(action, args)
-            for text in (step.name, head if number.isdecimal() else step.name)
-            for action, arity in arities.items()
-            if text.startswith(action)
-            for args in _arguments(text.removeprefix(action), arity, objects)
-        }
-        return readings.pop() if len(readings) == 1 else step
-
-    return tuple(one(step) for step in plan)
-
-
-def _arguments(text: str, count: int, objects: Sequence[str]) -> Iterator[tuple[str, ...]]:
-    """Yield every way to read ``text`` as ``count`` objects, each behind a hyphen."""
-    if not count and not text:
-        yield ()
-    for name in objects if count else ():
-        if text.startswith(f"-{name}"):
-            yield from ((name, *rest) for rest in _arguments(text.removeprefix(f"-{name}"), count - 1, objects))
-
-
-def with_flat_types(problem: Problem) -> Problem:
-    """Return ``problem``, which is ground, with as few types as separate its objects, and without unused objects.
-
-    Objects in the same place of a predicate are of one type: the nearest one that covers them all. Where
-    the problem has no types, or one is enough, there are none.
-    """
-    domain = problem.domain
-    groups, first = _alike(problem)
-    hierarchy, own = TypeHierarchy(domain.types), {o.name: o.types[0] for o in problem.all_objects()}
-    types = {name: _common([own[member] for member in sorted(groups[name])], hierarchy) for name in groups}
-    several = len(set(types.values())) > 1 and bool(domain.types)
-    named = {name: (types[name] if several else OBJECT,) for name in types}
-
-    def signature(predicate: Predicate) -> Predicate:
-        examples = [first[predicate.name, place] for place in range(len(predicate.parameters))]
-        parameters = tuple(TypedName(f"?x{n}", named[name]) for n, name in enumerate(examples, start=1))
-        return replace(predicate, parameters=parameters)
-
-    flat = replace(
-        domain,
-        requirements=(":strips", ":typing") if several else (":strips",),
-        types=tuple(TypeDeclaration(name) for name in sorted(set(types.values()) - {OBJECT})) if several else (),
-        constants=tuple(TypedName(c.name, named[c.name]) for c in domain.constants if c.name in named),
-        predicates=tuple(signature(p) for p in domain.predicates),
-    )
-    return replace(problem, domain=flat)
-
-
-def _alike(problem: Problem) -> tuple[dict[str, set[str]], dict[tuple[str, int], str]]:
-    """Return for each object those that share places of predicates with it, and for each place an object in it."""
-    groups: dict[str, set[str]] = {}
-    first: dict[tuple[str, int], str] = {}
-    for atom in _atoms(problem):
-        for place, name in enumerate(atom.args):
-            other = first.setdefault((atom.predicate, place), name)
-            groups.setdefault(name, {name})
-            if name not in groups[other]:
-                joined = groups[other] | groups[name]
-                groups.update(dict.fromkeys(joined, joined))
-    return groups, first
-
-
-def _common(types: Sequence[str], hierarchy: TypeHierarchy) -> str:
-    """Return the nearest type that covers all of ``types``."""
-    chains = [hierarchy.ancestors(kind) for kind in types]
-    return next(kind for kind in chains[0] if all(kind in chain for chain in chains))
-
-
-def _atoms(problem: Problem) -> Iterator[GroundAtom]:
-    yield from sorted(problem.init)
-    formulas = [problem.goal, *(action.precondition for action in problem.domain.actions)]
-    for formula in formulas:
-        yield from (GroundAtom(a.predicate, a.terms) for a in conjuncts(formula) if isinstance(a, Atom))
-    for action in problem.domain.actions:
-        yield from (GroundAtom(effect.atom.predicate, effect.atom.terms) for effect in action.effects)

@@ -40,11 +40,6 @@ class Rollout:
         """Return whether every step was executable."""
         return not self.failures
 
-    @property
-    def first_failure(self) -> int | None:
-        """The first step that was not executable."""
-        return self.failures[0] if self.failures else None
-
     def decoded(self) -> list[State]:
         """Return the states as sets of atoms."""
         return [self.task.decode(bits) for bits in self.states]

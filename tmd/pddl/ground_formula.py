@@ -8,7 +8,7 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.grounding.ground_action import Tree
 from tmd.pddl.grounding.ground_task import expand_condition, ground_condition
 from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or, signed_subformulas, subformulas
-from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.task import Cube, Task
 
 TRUE, FALSE = And(), Or()
 """The formulas that hold in every state, and in none."""
@@ -52,20 +52,6 @@ def _formula(tree: Tree, task: Task) -> Formula:
     word, parts = tree
     join = conjunction if word == "and" else disjunction
     return join(_formula(part, task) for part in parts)
-
-
-def holds_in(task: Task, formula: Formula, state: Bits) -> bool:
-    """Return whether a ground formula over atoms that may change holds in a state."""
-    match formula:
-        case Atom(predicate, terms):
-            return bool(state >> task.index[GroundAtom(predicate, terms)] & 1)
-        case Not(part):
-            return not holds_in(task, part, state)
-        case And(parts):
-            return all(holds_in(task, part, state) for part in parts)
-        case Or(parts):
-            return any(holds_in(task, part, state) for part in parts)
-    raise TypeError(f"not ground: {formula}")
 
 
 def negation(formula: Formula) -> Formula:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import lru_cache
 from heapq import heappop, heappush
 from typing import NamedTuple, TypeAlias
@@ -290,6 +290,19 @@ def signed_subformulas(formula: Formula, positive: bool = True) -> Iterator[tupl
 def subformulas(formula: Formula) -> Iterator[Formula]:
     """Yield a formula and everything in it, outer formulas first."""
     return (part for part, _ in signed_subformulas(formula))
+
+
+def walk(node: object) -> Iterator[object]:
+    """Yield a part of a domain (an action, a formula, a tuple of parts) and everything in it, outer parts first."""
+    yield node
+    if isinstance(node, tuple):
+        inner = iter(node)
+    elif isinstance(node, TypedName | Location) or not is_dataclass(node):
+        return
+    else:
+        inner = (getattr(node, one.name) for one in fields(node))
+    for part in inner:
+        yield from walk(part)
 
 
 def predicates_of(formula: Formula) -> frozenset[str]:

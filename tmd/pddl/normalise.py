@@ -7,26 +7,12 @@ The ``pddl`` package does not take ``:adl`` for what it stands for, so what is u
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
 
-from tmd.diagnostics import TmdError
-from tmd.pddl.model import (
-    OBJECT,
-    ActionSchema,
-    Domain,
-    Exists,
-    Forall,
-    Formula,
-    Predicate,
-    Problem,
-    TypeDeclaration,
-    TypedName,
-    TypeHierarchy,
-    parents_first,
-    subformulas,
-    with_parts,
-)
+from tmd.diagnostics import Location, TmdError
+from tmd.pddl.model import OBJECT, Problem, TypeDeclaration, TypedName, TypeHierarchy, parents_first, walk
 from tmd.pddl.reading.checking import used_requirements
 
 
@@ -57,19 +43,25 @@ def without_either(problem: Problem) -> Problem:
     """
     domain = problem.domain
     hierarchy = TypeHierarchy(domain.types)
-    wanted: dict[tuple[str, ...], TypedName] = {}
-    for name in _typed_names(problem):
-        types = _reduced(name.types, hierarchy)
-        if len(types) > 1:
-            wanted.setdefault(types, name)
-    if not any(len(name.types) > 1 for name in _typed_names(problem)):
+    several = [part for part in walk((problem.goal, domain)) if isinstance(part, TypedName) and len(part.types) > 1]
+    if not several:
         return problem
+    wanted: dict[tuple[str, ...], TypedName] = {}
+    for name in several:
+        wanted.setdefault(_reduced(name.types, hierarchy), name)
     parents = {t.name: t.parent for t in domain.types}
     new: dict[tuple[str, ...], str] = {}
-    for types in sorted(wanted, key=lambda t: (-len(t), t)):
+    for types in sorted((t for t in wanted if len(t) > 1), key=lambda t: (-len(t), t)):
         new[types] = _join(types, parents, wanted[types])
-    rewriting = _Rewriting(hierarchy, new)
-    return replace(problem, domain=rewriting.domain(domain, parents), goal=rewriting.formula(problem.goal))
+
+    def one_type(name: TypedName) -> TypedName:
+        types = _reduced(name.types, hierarchy)
+        return replace(name, types=(new.get(types, types[0]),))
+
+    plain: Problem = map_typed_names(problem, one_type)
+    places = {t.name: t.location for t in domain.types}
+    declared = [TypeDeclaration(name, parent, places.get(name)) for name, parent in parents.items()]
+    return replace(plain, domain=replace(plain.domain, types=parents_first(declared)))
 
 
 def _reduced(types: tuple[str, ...], hierarchy: TypeHierarchy) -> tuple[str, ...]:
@@ -95,73 +87,12 @@ def _join(types: tuple[str, ...], parents: dict[str, str], example: TypedName) -
     return name
 
 
-def _typed_names(problem: Problem) -> Iterator[TypedName]:
-    domain = problem.domain
-    yield from _quantified(problem.goal)
-    yield from domain.constants
-    for signature in (*domain.predicates, *domain.functions):
-        yield from signature.parameters
-    for axiom in domain.derived:
-        yield from axiom.parameters
-        yield from _quantified(axiom.condition)
-    for action in domain.actions:
-        yield from action.parameters
-        yield from _quantified(action.precondition)
-        for effect in action.effects:
-            yield from effect.parameters
-            yield from _quantified(effect.condition)
-
-
-def _quantified(formula: Formula) -> Iterator[TypedName]:
-    for part in subformulas(formula):
-        if isinstance(part, Forall | Exists):
-            yield from part.parameters
-
-
-class _Rewriting:
-    """Replaces each ``either`` by its new type."""
-
-    def __init__(self, hierarchy: TypeHierarchy, new: dict[tuple[str, ...], str]) -> None:
-        self.hierarchy = hierarchy
-        self.new = new
-
-    def domain(self, domain: Domain, parents: dict[str, str]) -> Domain:
-        places = {t.name: t.location for t in domain.types}
-        declared = [TypeDeclaration(name, parent, places.get(name)) for name, parent in parents.items()]
-        return replace(
-            domain,
-            types=parents_first(declared),
-            constants=self.names(domain.constants),
-            predicates=tuple(self.signature(p) for p in domain.predicates),
-            functions=tuple(self.signature(f) for f in domain.functions),
-            actions=tuple(self.action(a) for a in domain.actions),
-            derived=tuple(
-                replace(a, parameters=self.names(a.parameters), condition=self.formula(a.condition))
-                for a in domain.derived
-            ),
-        )
-
-    def names(self, names: tuple[TypedName, ...]) -> tuple[TypedName, ...]:
-        found = []
-        for name in names:
-            types = _reduced(name.types, self.hierarchy)
-            found.append(replace(name, types=(self.new.get(types, types[0]),)))
-        return tuple(found)
-
-    def signature(self, predicate: Predicate) -> Predicate:
-        return replace(predicate, parameters=self.names(predicate.parameters))
-
-    def action(self, action: ActionSchema) -> ActionSchema:
-        effects = tuple(
-            replace(e, parameters=self.names(e.parameters), condition=self.formula(e.condition)) for e in action.effects
-        )
-        return replace(
-            action,
-            parameters=self.names(action.parameters),
-            precondition=self.formula(action.precondition),
-            effects=effects,
-        )
-
-    def formula(self, formula: Formula) -> Formula:
-        found = with_parts(formula, self.formula)
-        return replace(found, parameters=self.names(found.parameters)) if isinstance(found, Forall | Exists) else found
+def map_typed_names(node: Any, change: Callable[[TypedName], TypedName]) -> Any:  # noqa: ANN401 - any part of a problem
+    """Return a part of a problem with each typed name in it changed."""
+    if isinstance(node, TypedName):
+        return change(node)
+    if isinstance(node, tuple):
+        return tuple(map_typed_names(part, change) for part in node)
+    if not is_dataclass(node) or isinstance(node, type | Location):
+        return node
+    return replace(node, **{field.name: map_typed_names(getattr(node, field.name), change) for field in fields(node)})

@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
 
@@ -20,8 +20,10 @@ from tmd.pddl.reading.syntax import read_text, split_lines
 
 _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
-_STAMP = re.compile(r"([0-9.]+)\s*:\s*")
-_DURATION = re.compile(r"\s*\[\s*(?:D:)?\s*([0-9.]+)[^\]]*\]$", re.IGNORECASE)
+_CALL = re.compile(r"([^(]*)\((.*)\)\s*", re.DOTALL)
+_TIME = r"([0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
+_DURATION = rf"\[\s*(?:D:)?\s*{_TIME}(?:[;\s][^\]]*)?\]"
+_STEP = re.compile(rf"(?:{_TIME}\s*:\s*)?\(([^()]*)\)(?:\s*{_DURATION})?", re.IGNORECASE)
 # What stands before a comment; LPG has a ``;`` within the brackets of a duration.
 _CODE = re.compile(r"[^;\[]*(?:\[[^\]]*\])?[^;]*")
 # Times are printed with three decimals; what overlaps by less does not.
@@ -120,55 +122,23 @@ def _overlap(steps: Sequence[_Line]) -> Location | None:
     return None
 
 
-def _parse_line(code: str, place: Location, line: str) -> _Line:
-    start = end = None
-    column = place.column
-    stamp = _STAMP.match(code)
-    if stamp:
-        start = _seconds(stamp[1], place, line)
-        column += stamp.end()
-        code = code[stamp.end() :]
-        duration = _DURATION.search(code)
-        if duration:
-            code = code[: duration.start()]
-            end = start + _seconds(duration[1], Location(place.file, place.line, column + duration.start(1)), line)
-    instruction = _parse_instruction(code, Location(place.file, place.line, column), line)
-    return _Line(instruction, place, line, start, end)
-
-
-def _seconds(text: str, place: Location, line: str) -> Decimal:
-    try:
-        return Decimal(text)
-    except InvalidOperation:
-        raise TmdError(
-            f'"{_shown(text)}" is no time',
-            location=place,
-            source=line,
-            hint="a plan with times has START: (name argument ...) [DURATION]",
-        ) from None
-
-
-def _parse_instruction(code: str, place: Location, line: str) -> Instruction:
-    if not (code.startswith("(") and code.endswith(")")) or code.count("(") != 1 or code.count(")") != 1:
-        raise TmdError(
-            "a plan has one (name argument ...) a line",
-            location=place,
-            source=line,
-            hint=f'found "{_shown(code)}"',
-        )
-    words = code[1:-1].lower().split()
+def _parse_line(code: str, place: Location, source: str) -> _Line:
+    """Read ``(name argument ...)``, or with times ``START: (name argument ...) [DURATION]``."""
+    found = _STEP.fullmatch(code)
+    if found is None:
+        hint = f'found "{_shown(code)}"; with times, START: (name argument ...) [DURATION]'
+        raise TmdError("a plan has one (name argument ...) a line", location=place, source=source, hint=hint)
+    words = found[2].lower().split()
     if not words:
-        raise TmdError("() is not an instruction", location=place, source=line, hint="write (name argument ...)")
+        raise TmdError("() is not an instruction", location=place, source=source, hint="write (name argument ...)")
     for word in words:
         if not _NAME.fullmatch(word):
-            column = place.column + code.lower().find(word)
-            raise TmdError(
-                f'"{_shown(word)}" is not a name',
-                location=Location(place.file, place.line, column),
-                source=line,
-                hint="a name has letters, digits, _ and -, a letter first",
-            )
-    return Instruction(words[0], tuple(words[1:]))
+            place = Location(place.file, place.line, place.column + code.lower().find(word))
+            hint = "a name has letters, digits, _ and -, a letter first"
+            raise TmdError(f'"{_shown(word)}" is not a name', location=place, source=source, hint=hint)
+    start = Decimal(found[1]) if found[1] else None
+    end = start + Decimal(found[3]) if start is not None and found[3] else None
+    return _Line(Instruction(words[0], tuple(words[1:])), place, source, start, end)
 
 
 def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
@@ -185,41 +155,21 @@ def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *,
     return "\n".join(lines) + "\n"
 
 
-def parse_instruction(text: str, *, file: str = "<text>", line: int = 1) -> Instruction:
+def parse_instruction(text: str) -> Instruction:
     """Return the instruction written as ``keep(mug1, counter1, on)``; ``str`` of it gives the text back.
-
-    Args:
-        text: What to read.
-        file: Names the text in errors.
-        line: The line on which ``text`` stands, for errors.
 
     Raises:
         TmdError: It is not an instruction.
     """
-
-    def error(message: str, offset: int, hint: str = "write name(argument, ...)") -> TmdError:
-        return TmdError(message, location=Location(file, line, 1 + offset), source=text, hint=hint)
-
-    body = text.rstrip()
-    start = len(body) - len(body.lstrip())
-    opening = body.find("(")
-    if opening < 0:
-        raise error(f'"{_shown(body.strip())}" has no parentheses', start)
-    if not body.endswith(")"):
-        raise error('the closing ")" is missing', len(body))
-    pieces = body[opening + 1 : -1].split(",")
-    if pieces == [""] or (len(pieces) == 1 and not pieces[0].strip()):
-        pieces = []
-    words: list[str] = []
-    offset = start
-    for number, piece in enumerate((body[start:opening], *pieces)):
-        if number:
-            offset = opening + 1 if number == 1 else offset + len(pieces[number - 2]) + 1
-        word = piece.strip().lower()
+    hint = "write name(argument, ...)"
+    call = _CALL.fullmatch(text)
+    if call is None:
+        raise TmdError(f'"{_shown(text.strip())}" is not an instruction', hint=hint)
+    arguments = call[2].split(",") if call[2].strip() else []
+    words = [word.strip().lower() for word in (call[1], *arguments)]
+    for word in words:
         if not _NAME.fullmatch(word):
-            at = offset + len(piece) - len(piece.lstrip())
-            raise error(f'"{_shown(word)}" is not a name' if word else "a name is missing here", at)
-        words.append(word)
+            raise TmdError(f'"{_shown(word)}" is not a name' if word else "a name is missing", hint=hint)
     return Instruction(words[0], tuple(words[1:]))
 
 

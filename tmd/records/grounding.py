@@ -10,7 +10,7 @@ from tmd.diagnostics import TmdError
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan, RejectedProposal, StepGoal
 from tmd.json_record import JsonRecord
 from tmd.pddl.model import Formula, Instruction
-from tmd.pddl.reading.formulas import read_condition
+from tmd.pddl.reading.formulas import read_only_condition
 from tmd.pddl.reading.syntax import parse
 from tmd.readers.interface import Usage
 from tmd.records.clauses import ParsedRecord
@@ -87,13 +87,9 @@ def _condition(text: str) -> Formula:
         ValueError: It is not a condition.
     """
     try:
-        document = parse(text, "pddl")
-        document.check_depth()
-        if len(document.groups) == 1:
-            return read_condition(document.groups[0], document.source)
+        return read_only_condition(parse(text, "pddl"))
     except TmdError as error:
         raise ValueError(error.message) from None
-    raise ValueError("a goal is one condition")
 
 
 class RankedPlanRecord(JsonRecord):

@@ -30,7 +30,7 @@ from tmd.robot.video.movie_file import MovieFile
 from tmd.robot_trials.plan_runner import StepRecorder
 from tmd.world.corpus import Corpus
 from tmd.world.environment import load_environment
-from tmd.world.folder import DomainFolder, find_domain, find_root
+from tmd.world.folder import DomainFolder, find_domain, find_roots
 
 
 @dataclass(frozen=True, slots=True)
@@ -204,7 +204,7 @@ def _hindrance(config: ExperimentConfig) -> str:
 def _perform_all(config: ExperimentConfig, mode: Mode, folder: Path, progress: Progress | None) -> None:
     # absolute paths, since other processes may work elsewhere
     domain = find_domain(config.domain, config.domains).path.resolve()
-    problems = (find_root("problems", config.problems) / config.domain).resolve()
+    problems = (find_roots("problems", config.problems)[0] / config.domain).resolve()
     chosen = choices(read_run(config.out))
     jobs = [Job(_asked(each, config, mode), each.line, domain, problems, folder.resolve()) for each in chosen]
     for path in folder.glob("*.json"):  # of environments that this run does not test in

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from tmd.diagnostics import ExitCode, Location, OptionError, TmdError
-from tmd.export.strips import restored
 from tmd.files import read_bytes
 from tmd.grounded import why_refused
 from tmd.json_record import json_value
@@ -263,7 +262,7 @@ def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     else:
         problem = roots.world(asked.environment or "", asked.domain)[1].task.problem
     where = {"problem": asked.problem, "environment": asked.environment or problem.name, "domain": problem.domain.name}
-    steps = tuple(PlannedStep(instruction) for instruction in restored(problem, plan.instructions))
+    steps = tuple(PlannedStep(instruction) for instruction in plan.instructions)
     subject = Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where))
     told = f"warning: {plan.overlap}: instructions overlap in time; they are taken one after the other\n"
     return FoundSubject(subject, asked.beside, (told,) if plan.overlap else (), plan.locations)

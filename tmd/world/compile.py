@@ -10,12 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import TmdError
 from tmd.files import write_text
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
-    Domain,
     GroundAtom,
     Instruction,
     Problem,
@@ -238,36 +237,29 @@ def derive(problem: Problem, folder: DomainFolder, state: State) -> State:
     Raises:
         TmdError: A rule is wrong; with its place.
     """
-    for schema, location, rule in derive_rules(folder):
-        try:
-            state = apply(Instruction(_DERIVE), state, _with_action(problem, schema))
-        except TmdError as error:
-            raise TmdError(f"derive: {rule}: {error.message}", location=location, hint=error.hint or _RULE) from error
+    for schema in derive_rules(folder):
+        domain = replace(problem.domain, actions=(schema,))
+        state = apply(Instruction(_DERIVE), state, replace(problem, domain=domain))
     return state
 
 
-def derive_rules(folder: DomainFolder) -> Iterable[tuple[ActionSchema, Location, str]]:
-    """Return the ``derive`` rules of ``objects.yaml`` as actions without parameters, each with its place and its text.
+def derive_rules(folder: DomainFolder) -> Iterable[ActionSchema]:
+    """Return the ``derive`` rules of ``objects.yaml`` as actions without parameters.
 
     Raises:
         TmdError: A rule is wrong; with its place.
     """
-    classes = folder.classes
-    for index, rule in enumerate(classes.entries.derive):
-        location = classes.source.locate(("derive", index))
-        document = parse(rule, str(classes.source.path))
+    source = folder.classes.source
+    for index, rule in enumerate(folder.classes.entries.derive):
+        document = parse(rule, str(source.path))
         try:
             effects = tuple(read_effects(document.groups[0], document.source).flat)
         except TmdError as error:
-            raise TmdError(f"derive: {rule}: {error.message}", location=location, hint=error.hint or _RULE) from error
+            message, hint = f"derive: {rule}: {error.message}", error.hint or _RULE
+            raise TmdError(message, location=source.locate(("derive", index)), hint=hint) from error
         except IndexError:
-            raise TmdError("derive: the rule is empty", location=location, hint=_RULE) from None
-        yield ActionSchema(_DERIVE, (), TRUE, effects), location, rule
-
-
-def _with_action(problem: Problem, schema: ActionSchema) -> Problem:
-    domain: Domain = replace(problem.domain, actions=(schema,))
-    return replace(problem, domain=domain)
+            raise source.error(("derive", index), "derive: the rule is empty", _RULE, "") from None
+        yield ActionSchema(_DERIVE, (), TRUE, effects)
 
 
 def _vertex(name: str, part: str) -> str:

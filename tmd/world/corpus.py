@@ -8,12 +8,13 @@ from pathlib import Path
 
 from tmd.diagnostics import TmdError
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.model import Instruction, Problem, State
+from tmd.pddl.reading.formulas import read_only_condition
 from tmd.pddl.reading.reader import read_problem
-from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.semantics import apply, first_broken
+from tmd.pddl.reading.syntax import nearest, parse
+from tmd.pddl.semantics import apply, first_broken, holds
 from tmd.world.compile import compile_problem
-from tmd.world.demonstration import Demonstration, check_goal, read_demonstrations, step_fault
+from tmd.world.demonstration import Demonstration, check_goal, not_executable, read_demonstrations, step_fault
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 from tmd.world.world import World, make_world, run
@@ -135,10 +136,8 @@ def is_environment_file(environment: str | Path) -> bool:
     return Path(environment).suffix in (".yaml", ".yml", ".pddl")
 
 
-def replay(demonstration: Demonstration, problem: Problem, key: str = "instructions") -> list[State]:
+def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
     """Return the states before the first and after each instruction.
-
-    ``key`` is where the file has them: "instructions", or "proposed" for those of the plan that was corrected.
 
     Raises:
         TmdError: An instruction is not executable (with its place and the first broken precondition), or a
@@ -148,11 +147,11 @@ def replay(demonstration: Demonstration, problem: Problem, key: str = "instructi
     for number, instruction in enumerate(demonstration.instructions, start=1):
         wrong = _wrong(instruction, states[-1], problem)
         if wrong is not None:
-            raise step_fault(demonstration, number, wrong, key)
+            raise step_fault(demonstration, number, wrong)
         states.append(apply(instruction, states[-1], problem))
     for literal in demonstration.end_state:
-        if not _literal_holds(literal, states[-1]):
-            raise TmdError(f"the stated end {literal} is not reached")
+        if not holds(read_only_condition(parse(literal, "end_state")), states[-1], problem):
+            raise not_executable(demonstration, f"the stated end {literal} is not reached")
     check_goal(demonstration, problem, states[-1])
     return states
 
@@ -160,10 +159,6 @@ def replay(demonstration: Demonstration, problem: Problem, key: str = "instructi
 def final_state(demonstration: Demonstration, world: World) -> State:
     """Return the state after all instructions of a demonstration that can be executed."""
     return world.task.decode(run(world, world.task.init, demonstration.instructions))
-
-
-# The hint for a demonstration that cannot be executed.
-CHANGED = "fix the demonstration, or the domain or environment if they are what changed"
 
 
 def check_executable(demonstration: Demonstration, world: World) -> None:
@@ -180,11 +175,7 @@ def check_executable(demonstration: Demonstration, world: World) -> None:
         state = operator.apply(state)
     else:
         return
-    try:
-        replay(replace(demonstration, end_state=(), goal=None), world.task.problem)
-    except TmdError as error:
-        message = f"'{demonstration.id}' cannot be executed in {world.name}: {error.message}"
-        raise TmdError(message, location=error.location, hint=error.hint or CHANGED, source=error.source) from None
+    replay(replace(demonstration, end_state=(), goal=None), world.task.problem)
 
 
 def _wrong(instruction: Instruction, state: State, problem: Problem) -> TmdError | None:
@@ -194,12 +185,3 @@ def _wrong(instruction: Instruction, state: State, problem: Problem) -> TmdError
     except TmdError as error:
         return error
     return None if broken is None else TmdError(f"{broken.text} does not hold")
-
-
-def _literal_holds(literal: str, state: State) -> bool:
-    words = literal.replace("(", " ").replace(")", " ").split()
-    if not words or words == ["not"]:
-        raise TmdError(f"'{literal}' is not a literal", hint="write (predicate name …) or (not (predicate name …))")
-    positive = words[0] != "not"
-    atom = words if positive else words[1:]
-    return (GroundAtom(atom[0], tuple(atom[1:])) in state) == positive

@@ -13,8 +13,7 @@ Segments are pieces of the text, in order and without overlap; each carries the 
 condition: what the text asks for, written from the text alone, with ``exists`` for what it leaves open.
 
 These two may be left out, and three keys may be added. ``who`` and ``when`` are texts. ``proposed`` stands
-where somebody corrected a plan: it lists the instructions of that plan, and each segment has those of its own as
-``proposed``.
+where somebody corrected a plan: it lists the instructions of that plan.
 """
 
 from __future__ import annotations
@@ -25,7 +24,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-import yaml
 from pydantic import BaseModel, ValidationError
 
 from tmd.diagnostics import Location, TmdError
@@ -33,7 +31,7 @@ from tmd.json_record import expectation, json_value
 from tmd.pddl.model import Formula, Instruction, Problem, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
-from tmd.pddl.reading.syntax import read_text, split_lines
+from tmd.pddl.reading.syntax import Report, read_text, split_lines
 from tmd.pddl.semantics import first_false
 
 _KEYS = ("id", "task", "environment", "text", "segments")
@@ -44,20 +42,16 @@ _ENDS = "\x85\u2028\u2029"
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A piece ``text[start:end]`` of a demonstration's text, and the instructions that serve it.
-
-    ``proposed`` are those that a plan had for it which was corrected; ``None`` where there was none.
-    """
+    """A piece ``text[start:end]`` of a demonstration's text, and the instructions that serve it."""
 
     start: int
     end: int
     instructions: tuple[Instruction, ...]
-    proposed: tuple[Instruction, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Demonstration:
-    """One demonstration, as described in the module's docstring; ``location`` is where it was read."""
+    """One demonstration, as described in the module's docstring; ``source`` is its line, ``location`` where that is."""
 
     id: str
     task: str
@@ -70,6 +64,7 @@ class Demonstration:
     when: str | None = None
     goal: str | None = None
     location: Location | None = field(default=None, compare=False, repr=False)
+    source: str = field(default="", compare=False, repr=False)
 
     @property
     def instructions(self) -> tuple[Instruction, ...]:
@@ -82,39 +77,39 @@ def demonstration_line(demonstration: Demonstration) -> str:
     text = demonstration.text
     data: dict[str, object] = {key: getattr(demonstration, key) for key in _KEYS[:4]}
     data["segments"] = [
-        {"text": text[s.start : s.end], "instructions": list(map(str, s.instructions)), **_proposed(s.proposed)}
-        for s in demonstration.segments
+        {"text": text[s.start : s.end], "instructions": list(map(str, s.instructions))} for s in demonstration.segments
     ]
     data["end_state"] = list(demonstration.end_state)
-    data |= _proposed(demonstration.proposed)
+    if demonstration.proposed is not None:
+        data["proposed"] = list(map(str, demonstration.proposed))
     data |= {key: value for key in ("goal", "who", "when") if (value := getattr(demonstration, key)) is not None}
     line = json.dumps(data, ensure_ascii=False)
     # other programs may take these for ends of lines
     return "".join(f"\\u{ord(c):04x}" if c in _ENDS else c for c in line)
 
 
-def _proposed(instructions: tuple[Instruction, ...] | None) -> dict[str, list[str]]:
-    return {} if instructions is None else {"proposed": list(map(str, instructions))}
-
-
-def read_demonstrations(path: Path) -> list[Demonstration]:
-    """Read a corpus.
+def read_demonstrations(path: Path, report: Report | None = None) -> list[Demonstration]:
+    """Read a corpus; ``report`` takes the faults of its lines.
 
     Raises:
-        TmdError: A line is not a demonstration; with file, line and column.
+        TmdError: The file cannot be read; or, without ``report``, a line is not a demonstration.
     """
-    found: list[Demonstration] = []
-    seen: set[str] = set()
+    found: dict[str, Demonstration] = {}
     for number, line in enumerate(split_lines(read_text(path)), start=1):
-        if not line.strip():
-            continue
-        reader = _Line(path, number, line)
-        demonstration = reader.read()
-        if demonstration.id in seen:
-            raise reader.error(f"the id '{demonstration.id}' stands in this file twice", None, ("id",))
-        seen.add(demonstration.id)
-        found.append(demonstration)
-    return found
+        try:
+            if line.strip():
+                demonstration = read_demonstration(path, number, line)
+                first = found.setdefault(demonstration.id, demonstration)
+                if first is not demonstration:
+                    place = in_line(demonstration.location, line, ['"id"'])
+                    hint = f"it is that of line {first.location.line if first.location else 0} as well"
+                    message = f"the id '{demonstration.id}' stands in this file twice"
+                    raise TmdError(message, location=place, hint=hint, source=line, code="duplicate-name")
+        except TmdError as error:
+            if report is None:
+                raise
+            report(error)
+    return list(found.values())
 
 
 def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
@@ -126,16 +121,11 @@ def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
     return _Line(path, number, line).read()
 
 
-# Keys and indices that lead from a demonstration as JSON to a value in it.
-_Path = tuple[str | int, ...]
-
-
 class _Segment(BaseModel):
     """A segment as the file has it."""
 
     text: str
     instructions: list[str]
-    proposed: list[str] | None = None
 
 
 class _Entry(BaseModel):
@@ -161,9 +151,9 @@ class _Line:
     number: int
     line: str
 
-    def error(self, message: str, hint: str | None = None, at: _Path = ()) -> TmdError:
-        """Return a fault of the value that ``at`` leads to."""
-        place = Location(str(self.path), self.number, _column(self.line, at))
+    def error(self, message: str, hint: str | None = None, *words: str) -> TmdError:
+        """Return a fault of the last of ``words``."""
+        place = in_line(Location(str(self.path), self.number, 1), self.line, words)
         return TmdError(message, location=place, hint=hint, source=self.line, code="bad-demonstration")
 
     def read(self) -> Demonstration:
@@ -175,92 +165,81 @@ class _Line:
             key = ".".join(map(str, fault["loc"]))
             said = f"{f'{key}: ' if key else ''}{expectation(fault, 'a JSON object')}"
             hint = _SEGMENT if key.startswith("segments") else _LINE
-            raise self.error(f"this is not a demonstration: {said}", hint, fault["loc"]) from None
-        segments = tuple(self._segments(entry))
+            words = (f'"{part}"' for part in fault["loc"] if isinstance(part, str))
+            raise self.error(f"this is not a demonstration: {said}", hint, *words) from None
         return Demonstration(
             entry.id,
             entry.task,
             entry.environment,
             entry.text,
-            segments,
+            tuple(self._segments(entry)),
             tuple(entry.end_state),
-            self._corrected(entry, segments),
+            None if entry.proposed is None else self._instructions(entry.proposed),
             entry.who,
             entry.when,
             entry.goal,
             Location(str(self.path), self.number, 1),
+            self.line,
         )
-
-    def _corrected(self, entry: _Entry, segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
-        """Return the plan that was corrected; its segments must be that plan as well."""
-        parts = [segment.proposed for segment in segments]
-        if entry.proposed is None:
-            if any(part is not None for part in parts):
-                raise self.error("a segment has 'proposed', and the demonstration has not", "give the whole plan")
-            return None
-        whole = self._instructions(entry.proposed, ("proposed",))
-        if any(part is None for part in parts) or whole != tuple(i for part in parts for i in part or ()):
-            raise self.error(
-                "'proposed' is not what its segments have one after the other",
-                "each segment has the part of the plan that was to serve it",
-                ("proposed",),
-            )
-        return whole
 
     def _segments(self, entry: _Entry) -> Iterator[Segment]:
         end = 0
         for index, segment in enumerate(entry.segments):
-            at = ("segments", index)
             start = entry.text.find(segment.text, end)
             if start < 0:
                 raise self.error(
                     f"segment {index + 1}: '{segment.text}' does not stand in the text after the segment before it",
                     "segments are pieces of the text, letter by letter and in its order",
-                    (*at, "text"),
+                    '"segments"',
+                    json.dumps(segment.text, ensure_ascii=False),
                 )
             end = start + len(segment.text)
-            proposed = None
-            if segment.proposed is not None:
-                proposed = self._instructions(segment.proposed, (*at, "proposed"))
-            yield Segment(start, end, self._instructions(segment.instructions, (*at, "instructions")), proposed)
+            yield Segment(start, end, self._instructions(segment.instructions))
 
-    def _instructions(self, lines: Sequence[str], at: _Path) -> tuple[Instruction, ...]:
+    def _instructions(self, lines: Sequence[str]) -> tuple[Instruction, ...]:
         found = []
-        for number, line in enumerate(lines):
+        for line in lines:
             try:
                 found.append(parse_instruction(line))
             except TmdError as error:
-                raise self.error(f"'{line}': {error.message}", error.hint, (*at, number)) from None
+                raise self.error(f"'{line}': {error.message}", error.hint, line) from None
         return tuple(found)
 
 
-def step_fault(demonstration: Demonstration, number: int, fault: TmdError, key: str = "instructions") -> TmdError:
+def step_fault(demonstration: Demonstration, number: int, fault: TmdError) -> TmdError:
     """Return the fault of step ``number`` (the first is 1), with its segment, and its place in the file.
 
     Args:
         demonstration: The demonstration.
         number: Which of its instructions, over all segments.
         fault: What is wrong; the place is that of the first name that it quotes, where the step has it.
-        key: "instructions", or "proposed" for those of the plan that was corrected.
     """
-    places = [(s, i) for s, segment in enumerate(demonstration.segments) for i in range(len(segment.instructions))]
-    at, index = places[number - 1]
+    owners = [segment for segment in demonstration.segments for _ in segment.instructions]
+    at, segment = demonstration.segments.index(owners[number - 1]) + 1, owners[number - 1]
     step = str(demonstration.instructions[number - 1])
     what = fault.message.removesuffix(f" in {step}").replace(f" in {step} ", " ")
     quoted = re.search(r'"([^"]+)"', what)
-    offset = step.find(quoted[1]) if quoted else 0
-    message = f"segment {at + 1}, step {number}, {step}: {what}"
-    place, line = _in_file(demonstration, ("segments", at, key, index), max(offset, 0))
-    return TmdError(message, location=place, hint=fault.hint, source=line, code="not-executable")
+    text = json.dumps(demonstration.text[segment.start : segment.end], ensure_ascii=False)
+    words = (text, '"instructions"', step, *(quoted.groups() if quoted and quoted[1] in step else ()))
+    place = in_line(demonstration.location, demonstration.source, words)
+    return not_executable(demonstration, f"segment {at}, step {number}, {step}: {what}", place, fault.hint)
+
+
+def not_executable(
+    demonstration: Demonstration, why: str, place: Location | None = None, hint: str | None = None
+) -> TmdError:
+    """Return the fault of a demonstration that does not work in its environment."""
+    return TmdError(
+        f"'{demonstration.id}' cannot be executed in {demonstration.environment}: {why}",
+        location=place or demonstration.location,
+        hint=hint or "fix the demonstration, or the domain or environment if they are what changed",
+        source=demonstration.source or None,
+        code="not-executable",
+    )
 
 
 # The kind of fault of a goal that does not hold when all instructions are done.
 NOT_REACHED = "goal-not-reached"
-_TEXT = "goal"
-_HIGH, _LOW = r"\\u[dD][89abAB][\da-fA-F]{2}", r"\\u[dD][c-fC-F][\da-fA-F]{2}"
-_CHARACTER = re.compile(rf"{_HIGH}{_LOW}|\\u[\da-fA-F]{{4}}|\\.|.", re.DOTALL)
-_SURROGATE = re.compile(r"\\u[dD][89abAB][\da-fA-F]{2}|\\u[dD][c-fC-F][\da-fA-F]{2}")
-_END_OF_LINE = re.compile(r"\r\n|\r|\n")
 
 
 def read_goal(demonstration: Demonstration, problem: Problem) -> Formula | None:
@@ -277,9 +256,9 @@ def read_goal(demonstration: Demonstration, problem: Problem) -> Formula | None:
         return None
     try:
         # the goal alone is looked at: to check every fact of the environment again takes long
-        return with_goal(replace(problem, init=frozenset()), demonstration.goal, _TEXT).goal
+        return with_goal(replace(problem, init=frozenset()), demonstration.goal, "goal").goal
     except TmdError as fault:
-        raise _placed(demonstration, fault, f"the goal of '{demonstration.id}': {fault.message}") from None
+        raise _goal_fault(demonstration, fault, f"the goal of '{demonstration.id}': {fault.message}") from None
 
 
 def check_goal(demonstration: Demonstration, problem: Problem, state: State) -> None:
@@ -293,51 +272,29 @@ def check_goal(demonstration: Demonstration, problem: Problem, state: State) -> 
     if missing is not None:
         message = f"the goal of '{demonstration.id}' is not reached: {missing.text} does not hold at the end"
         hint = "fix the goal, or the instructions if it is what the text asks for"
-        fault = TmdError(message, location=Location(_TEXT, 1, 1), hint=hint, code=NOT_REACHED)
-        raise _placed(demonstration, fault, message)
+        fault = TmdError(message, location=Location("goal", 1, 1), hint=hint, code=NOT_REACHED)
+        raise _goal_fault(demonstration, fault, message)
 
 
-def _placed(demonstration: Demonstration, fault: TmdError, message: str) -> TmdError:
+def _goal_fault(demonstration: Demonstration, fault: TmdError, message: str) -> TmdError:
     """Return the fault with its place in the file of the demonstration instead of that in the goal's own text."""
-    place, line = demonstration.location, None
-    if fault.location is not None:
-        goal = demonstration.goal or ""
-        starts = [0, *(match.end() for match in _END_OF_LINE.finditer(goal))]
-        offset = starts[fault.location.line - 1] + fault.location.column - 1
-        place, line = _in_file(demonstration, ("goal",), offset)
-    return TmdError(message, location=place, hint=fault.hint, source=line, code=fault.code)
+    place, line, goal = demonstration.location, demonstration.source, demonstration.goal or ""
+    if place is not None and fault.location is not None:
+        starts = [0, *(end.end() for end in re.finditer(r"\r\n|\r|\n", goal))]
+        before = goal[: starts[fault.location.line - 1] + fault.location.column - 1]
+        start = line.rfind('"goal":') + len('"goal":')
+        for escaped in (False, True):
+            written = json.dumps(before, ensure_ascii=escaped)[:-1]
+            found = line.find(written, start)
+            if found >= 0:
+                place = replace(place, column=found + len(written) + 1)
+                break
+    return TmdError(message, location=place, hint=fault.hint, source=line or None, code=fault.code)
 
 
-def _in_file(demonstration: Demonstration, at: _Path, offset: int = 0) -> tuple[Location | None, str | None]:
-    """Return the place of a value of a demonstration, and its line, which is read again."""
-    place = demonstration.location
-    if place is None:
-        return None, None
-    try:
-        line = split_lines(read_text(place.file))[place.line - 1]
-    except (TmdError, IndexError):  # it is there no more
-        return place, None
-    return replace(place, column=_column(line, at, offset)), line
-
-
-def _column(line: str, at: _Path, offset: int = 0) -> int:
-    """Return the column in ``line``, which is JSON, of the value that ``at`` leads to; of a string, of its ``offset``.
-
-    JSON is YAML, whose nodes know their places; only halves of characters (surrogates) YAML does not have.
-    """
-    try:
-        node = yaml.compose(_SURROGATE.sub(r"\\u0041", line), Loader=yaml.CSafeLoader)
-    except (yaml.YAMLError, RecursionError):
-        return 1
-    for step in at:
-        if isinstance(node, yaml.MappingNode):
-            node = next((value for key, value in reversed(node.value) if key.value == step), node)
-        elif isinstance(node, yaml.SequenceNode) and isinstance(step, int) and step < len(node.value):
-            node = node.value[step]
-    if node is None:
-        return 1
-    first, end = node.start_mark.index, node.end_mark.index
-    if not isinstance(node, yaml.ScalarNode) or node.style != '"':
-        return int(first) + 1
-    columns = [match.start() + 1 for match in _CHARACTER.finditer(line, first + 1, end - 1)]
-    return [*columns, int(end)][min(offset, len(columns))]
+def in_line(place: Location | None, line: str, words: Sequence[str]) -> Location | None:
+    """Return the place of the last of ``words`` in ``line``, each looked for behind the one before."""
+    column = 0
+    for word in words:
+        column = max(column, line.find(word, column))
+    return place and replace(place, column=column + 1)

@@ -23,12 +23,10 @@ named ``stove1_knob2``.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import Report
@@ -53,8 +51,11 @@ class ObjectEntry(BaseModel):
     yaw: float | None = Field(default=None, ge=-360.0, le=360.0)
 
 
-class EnvironmentFile(BaseModel):
-    """The content of an environment file."""
+class Environment(BaseModel):
+    """An environment as its file has it; :func:`tmd.world.compile.compile_problem` gives it its meaning.
+
+    ``room`` has the corners of the walls, in order.
+    """
 
     model_config = ConfigDict(defer_build=True, extra="forbid")
     name: str = Field(pattern=NAME)
@@ -62,23 +63,13 @@ class EnvironmentFile(BaseModel):
     about: str = ""
     objects: dict[str, ObjectEntry]
     facts: list[str] = []
-    room: list[Corner] | None = Field(default=None, min_length=3, max_length=100)
+    room: list[Corner] = Field(default=[], min_length=3, max_length=100)
+    _source: YamlSource = PrivateAttr()
 
-
-@dataclass(frozen=True, slots=True)
-class Environment:
-    """An environment as it was read; :func:`tmd.world.compile.compile_problem` gives it its meaning.
-
-    ``room`` has the corners of the walls, in order.
-    """
-
-    name: str
-    domain: str
-    about: str
-    objects: Mapping[str, ObjectEntry]
-    facts: tuple[str, ...]
-    source: YamlSource
-    room: tuple[Corner, ...] = ()
+    @property
+    def source(self) -> YamlSource:
+        """The file."""
+        return self._source
 
 
 def load_room(path: Path) -> Environment:
@@ -102,11 +93,10 @@ def load_environment(path: Path, report: Report | None = None) -> Environment:
         TmdError: It cannot be read or is not an environment; with file, line and column.
     """
     source = YamlSource(path, report)
-    said = source.load(EnvironmentFile)
-    for name in said.objects:
+    environment = source.load(Environment)
+    environment._source = source
+    for name in environment.objects:
         if not re.match(NAME, name):
             hint = "use lower-case letters, digits and _"
             source.fault(source.error(("objects", name), f"'{name}' cannot name an object", hint, "bad-name"))
-    return Environment(
-        said.name, said.domain, said.about, said.objects, tuple(said.facts), source, room=tuple(said.room or ())
-    )
+    return environment

@@ -117,15 +117,6 @@ def find_roots(kind: str, given: Path | None = None) -> list[Path]:
     return list(found.values())
 
 
-def find_root(kind: str, given: Path | None = None) -> Path:
-    """Return the first of :func:`find_roots`.
-
-    Raises:
-        TmdError: There is none.
-    """
-    return find_roots(kind, given)[0]
-
-
 def find_domain(name: str, domains: Path | None = None) -> DomainFolder:
     """Return the folder of domain ``name``: your own hides a bundled one of the same name.
 

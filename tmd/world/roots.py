@@ -5,7 +5,6 @@ Every command imports this module, so functions import what is slow to load.
 
 from __future__ import annotations
 
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,11 +12,11 @@ from typing import TYPE_CHECKING
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reading.reader import read_domain, read_problem
-from tmd.pddl.reading.syntax import Group, Word, nearest, parse, read_text
+from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.world.folder import DomainFolder, find_domain, find_problems, find_roots
+from tmd.world.problem_domain import domain_named_in, find_domain_file
 
 if TYPE_CHECKING:
-    from tmd.language.lexicon.lexicon import Lexicon
     from tmd.world.corpus import Corpus
     from tmd.world.environment import Environment
     from tmd.world.world import World
@@ -67,14 +66,6 @@ class Roots:
 
         return Corpus(folder, find_problems(folder.name, self.problems))
 
-    def lexicon(self, name: str) -> Lexicon:
-        """Return the words of a domain.
-
-        Raises:
-            TmdError: There is no such domain, or its file of words is wrong.
-        """
-        return self.folder(name).lexicon
-
     def domain(self, name: str) -> Domain:
         """Return the PDDL domain in a file, in a directory, or of a bundled name.
 
@@ -86,26 +77,23 @@ class Roots:
     def problem(self, path: Path, domain: str | None = None) -> Problem:
         """Return a PDDL problem with its domain.
 
-        That is the one that was asked for, else ``domain.pddl`` beside the problem, else the domain whose folder has
-        the name of the directory in which the problem lies (``problems/02_table/``), else the one that the problem
-        names.
+        That is the one that was asked for, or else that of :func:`tmd.world.problem_domain.find_domain_file`.
 
         Raises:
             TmdError: One of them is missing or wrong.
         """
         if domain is not None:
             return read_problem(path, self.domain(domain))
-        text = read_text(path)
-        beside = path.parent / "domain.pddl"
-        if beside.is_file():
-            return read_problem(path, self.domain(str(beside)))
-        named = _domain_name(text, path)
-        found = None
-        with suppress(TmdError):
-            found = self.folder(path.resolve().parent.name).domain
-        if found is None or found.name != named:
-            found = self.folder(named).domain
-        return read_problem(path, found)
+        name = domain_named_in(read_text(path))
+        found = find_domain_file(path, name, self.domains)
+        if found.others or not name:
+            message = f'the domain "{name}" stands in several files'
+            raise TmdError(
+                message if name else "this problem does not say of which domain it is",
+                location=Location(str(path), 1, 1),
+                hint="give --domain NAME or FILE, or write (:domain NAME)",
+            )
+        return read_problem(path, read_domain(found.file) if found.file else self.folder(name).domain)
 
     def path(self, name: str) -> Path:
         """Return the file or directory of that name; where there is none, the folder of the domain of that name.
@@ -138,10 +126,10 @@ class Roots:
         path = Path(name)
         if _is_file(name):
             return path
-        places: dict[str, Path] = {}
-        for root in find_roots("problems", self.problems):
-            for directory in sorted(root.glob(f"{domain or '*'}/environments")):
-                places.setdefault(directory.parent.name, directory)
+        if domain:
+            return self.corpus(self.folder(domain)).file(name)
+        roots = find_roots("problems", self.problems)
+        places = {place.parent.name: place for root in reversed(roots) for place in root.glob("*/environments")}
         files = [f for _, d in sorted(places.items()) for f in sorted(d.iterdir()) if f.suffix in (".yaml", ".pddl")]
         found = [file for file in files if file.stem == name]
         if len(found) == 1:
@@ -149,11 +137,6 @@ class Roots:
         if found:
             domains = ", ".join(file.parent.parent.name for file in found)
             raise TmdError(f"several domains have an environment '{name}'", hint=f"give --domain: {domains}")
-        if domain and not files:
-            folders = sorted({d.name for root in find_roots("problems", self.problems) for d in root.iterdir()})
-            raise TmdError(
-                f"there is no environment '{name}' of '{domain}'", hint=nearest(domain, folders, what="domains")
-            )
         known = sorted({file.stem for file in files})
         hint = nearest(name, known, what="environments")
         raise TmdError(f"there is no environment '{name}'", hint=hint or f"give a file, or one of {', '.join(known)}")
@@ -168,27 +151,18 @@ class Roots:
         Raises:
             TmdError: One of them is missing or wrong.
         """
-        from tmd.world.compile import compile_problem
         from tmd.world.environment import load_environment
-        from tmd.world.world import make_world
 
         path = self.environment(environment, domain)
-        if path.suffix == ".xml":
-            raise TmdError(
-                f"{path}: texts are not grounded in single rooms of VEIL-500",
-                hint="tmd experiment --data veil500 grounds all of its texts",
-            )
-        if path.suffix == ".pddl":
-            if domain is None and path.parent.name != "environments":
+        if domain is None:
+            if path.suffix != ".pddl":
+                domain = load_environment(path).domain
+            elif path.parent.name == "environments":
+                domain = path.parent.parent.name
+            else:
                 raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
-            corpus = self.corpus(self.folder(domain or path.parent.parent.name))
-            problem = corpus.read(path)
-            return corpus, make_world(path.stem if domain is None else problem.name, problem, corpus.lexicon)
-        read = load_environment(path)
-        corpus = self.corpus(self.folder(domain or read.domain))
-        if path == corpus.directory / "environments" / f"{read.name}.yaml":
-            return corpus, corpus.world(read.name)
-        return corpus, make_world(read.name, compile_problem(read, corpus.folder), corpus.lexicon)
+        corpus = self.corpus(self.folder(domain))
+        return corpus, corpus.world(path.stem if path == corpus.directory / "environments" / path.name else path)
 
     def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:
         """Return an environment of which the robot's scene can be built, and its domain.
@@ -210,16 +184,3 @@ def _is_file(name: str) -> bool:
     """Return whether a name is that of a file, there or not, and not that of something bundled."""
     path = Path(name)
     return path.is_file() or bool(path.suffix) or _is_path(name)
-
-
-def _domain_name(text: str, path: Path) -> str:
-    """Return the name of the domain of a problem."""
-    parts = (part for group in parse(text, str(path)).groups for part in group.parts if isinstance(part, Group))
-    for part in parts:
-        if part.head == ":domain" and len(part.parts) == 2 and isinstance(part.parts[1], Word):
-            return part.parts[1].text
-    raise TmdError(
-        "this problem does not say of which domain it is",
-        location=Location(str(path), 1, 1),
-        hint="give --domain NAME, or write (:domain NAME)",
-    )

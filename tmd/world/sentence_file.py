@@ -10,7 +10,6 @@ A file of them is JSON Lines, ``*.sentences.jsonl`` beside the problems of a dom
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -23,17 +22,31 @@ from tmd.pddl.reading.syntax import read_text, split_lines
 SUFFIX = ".sentences.jsonl"
 
 
-@dataclass(frozen=True, slots=True)
-class SentenceTest:
+class SentenceTest(JsonRecord):
     """A request with the condition that must hold in the end; ``None`` where it must be refused."""
+
+    model_config = ConfigDict(extra="ignore")
+    WHAT = "a sentence test"
+    REMAKE = ""
+    REPAIR = 'write {"id": …, "domain": …, "environment": …, "text": …, "goal": "(…)" or null}'
 
     id: str
     domain: str
     environment: str
     text: str
     goal: str | None
-    kinds: tuple[str, ...] = ()
-    location: Location | None = None
+    kind: Any = None
+    _location: Location | None = None
+
+    @property
+    def location(self) -> Location | None:
+        """The place where it was read."""
+        return self._location
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The words of ``kind``, by which results are counted."""
+        return tuple(k for k in self.kind if isinstance(k, str)) if isinstance(self.kind, list) else ()
 
 
 def read_sentences(path: Path) -> list[SentenceTest]:
@@ -46,7 +59,8 @@ def read_sentences(path: Path) -> list[SentenceTest]:
     for number, line in enumerate(split_lines(read_text(path)), start=1):
         if not line.strip():
             continue
-        test = _read_line(line, Location(str(path), number, 1))
+        test = SentenceTest.from_text(line, str(path), number)
+        test._location = Location(str(path), number, 1)
         if test.id in found:
             raise TmdError(
                 f"the id '{test.id}' stands in this file twice",
@@ -69,25 +83,3 @@ def domain_sentences(directory: Path) -> list[SentenceTest]:
             f"there are no sentence tests in {directory}", hint=f"write one, such as my{SUFFIX}; see docs/goals.md"
         )
     return [test for path in paths for test in read_sentences(path)]
-
-
-class _Line(JsonRecord):
-    """A sentence test as the file has it; other keys are ignored."""
-
-    model_config = ConfigDict(extra="ignore")
-    WHAT = "a sentence test"
-    REMAKE = ""
-    REPAIR = 'write {"id": …, "domain": …, "environment": …, "text": …, "goal": "(…)" or null}'
-
-    id: str
-    domain: str
-    environment: str
-    text: str
-    goal: str | None
-    kind: Any = None
-
-
-def _read_line(line: str, place: Location) -> SentenceTest:
-    said = _Line.from_text(line, place.file, place.line)
-    kinds = tuple(k for k in said.kind if isinstance(k, str)) if isinstance(said.kind, list) else ()
-    return SentenceTest(said.id, said.domain, said.environment, said.text, said.goal, kinds, place)

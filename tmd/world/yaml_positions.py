@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import ParamSpec, TypeVar
+from typing import TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
@@ -15,16 +15,13 @@ from pydantic_core import ErrorDetails
 
 from tmd.diagnostics import Location, TmdError
 from tmd.json_record import expectation
-from tmd.pddl.reading.syntax import Report, nearest, read_text
+from tmd.pddl.reading.syntax import Report, Reporting, nearest, read_text
 from tmd.yaml_nodes import Loader, compose, from_yaml
 
-P = ParamSpec("P")
-S = TypeVar("S")
-T = TypeVar("T")
 Model = TypeVar("Model", bound=BaseModel)
 
 
-class YamlSource:
+class YamlSource(Reporting):
     """One YAML file: its text, its data and the place of every node.
 
     Args:
@@ -72,22 +69,6 @@ class YamlSource:
         location = self.locate(path)
         source = self._lines[location.line - 1] if location.line <= len(self._lines) else None
         return TmdError(message, location=location, hint=hint, source=source, code=code)
-
-    def fault(self, error: TmdError) -> None:
-        """Raise ``error``, or report it and return."""
-        if self.report is None:
-            raise error
-        self.report(error)
-
-    def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
-        """Return the result of ``read``, or ``otherwise`` where it fails and faults are reported."""
-        if self.report is None:
-            return read(*arguments, **named)
-        try:
-            return read(*arguments, **named)
-        except TmdError as error:
-            self.report(error)
-            return otherwise
 
     def locate(self, path: Sequence[str | int]) -> Location:
         """Return the place of the node that ``path`` leads to, or of the deepest node that exists."""

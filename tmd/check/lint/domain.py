@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.derived import as_actions
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
@@ -18,7 +17,7 @@ from tmd.pddl.model import (
     Or,
     conjuncts,
     free_variables,
-    predicates_of,
+    walk,
 )
 from tmd.pddl.reading.syntax import Source
 from tmd.pddl.writer import format_formula
@@ -39,18 +38,8 @@ def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
     return found
 
 
-def spoken_of(domain: Domain) -> frozenset[str]:
-    """Return the predicates that some action reads or changes."""
-    found: set[str] = set()
-    for action in as_actions(domain).actions:
-        found |= predicates_of(action.precondition)
-        for effect in action.effects:
-            found |= {effect.atom.predicate} | predicates_of(effect.condition)
-    return frozenset(found)
-
-
 def _unused_predicates(domain: Domain, source: Source) -> Iterator[TmdError]:
-    used = spoken_of(domain)
+    used = {part.predicate for part in walk((domain.actions, domain.derived)) if isinstance(part, Atom)}
     for predicate in domain.predicates:
         if predicate.name not in used and domain.actions and predicate.name != "=":
             yield source.error(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from math import prod
 from pathlib import Path
@@ -10,7 +10,7 @@ from pathlib import Path
 from tmd.check.lint.domain import said_twice
 from tmd.diagnostics import TmdError
 from tmd.pddl.derived import as_actions
-from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, Reachability, Rule, may_be_too_large
+from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, Reachability, Rule
 from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import (
     ActionSchema,
@@ -42,17 +42,15 @@ class Possible:
 
     Args:
         problem: A sound problem.
-        assumed: Predicates whose atoms are taken to be possible.
 
     Attributes:
         objects: The objects of the problem by type.
-        actions: The names of the actions that may apply.
-        blocked: For each other action what it lacks: a type without objects, or an atom of its precondition.
+        blocked: For each action that can never apply what it lacks: a type without objects, or an atom of its
+            precondition.
     """
 
-    def __init__(self, problem: Problem, assumed: Iterable[str] = ()) -> None:
+    def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        self.assumed = frozenset(assumed)
         self.objects = universe(problem)
         self._fits = cache(self._starts_with)
         self._columns: dict[str, list[dict[str, None]]] = {}
@@ -78,24 +76,11 @@ class Possible:
         for number, own in enumerate(needs):
             self._reachability.add(Rule((number, -1), [literals for _, literals in own], heads[number]))
         self._reachability.run()
-        self.actions: set[str] = set()
         self.blocked: dict[str, str | Atom] = {}
         for action, own in zip(actions, needs, strict=True):
             lack = next((need for need, literals in own if not self._reached(literals)), None)
-            if lack is None:
-                self.actions.add(action.name)
-            else:
+            if lack is not None:
                 self.blocked[action.name] = lack
-
-    def adds(self, predicate: str) -> bool:
-        """Return whether some possible action adds an atom of ``predicate``."""
-        return self._reached(self._adding.get(predicate, ()))
-
-    def reaches(self, atom: GroundAtom) -> bool:
-        """Return whether ``atom`` holds at the start, or some possible action may add it."""
-        if atom in self.problem.init or atom.predicate in self.assumed:
-            return True
-        return self._reached(self._makers(Atom(atom.predicate, atom.args), {}))
 
     def may_hold(self, atom: Atom, scope: Scope) -> bool:
         """Return whether some atom of this form holds at the start or may be added."""
@@ -114,8 +99,6 @@ class Possible:
         return [(atom, self._makers(atom, scope)) for atom in atoms if not self._holds_at_start(atom, scope)]
 
     def _holds_at_start(self, atom: Atom, scope: Scope) -> bool:
-        if atom.predicate in self.assumed:
-            return True
         columns = self._columns.get(atom.predicate)
         if columns is None:
             return False
@@ -163,33 +146,26 @@ def types_of(parameters: Iterable[TypedName]) -> dict[str, tuple[str, ...]]:
 
 def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
     """Return the warnings for a problem that has no faults."""
-    found = Possible(problem)
-    unreachable = list(_unreachable_goals(found, source))
-    if len(unreachable) > 1:
-        unreachable[0].message += f", and {len(unreachable) - 1} more of its parts cannot be reached either"
-    faults = [
+    return [
         *said_twice(problem.goal, "the goal", source),
-        *_contradictory_goal(problem, source),
-        *unreachable[:1],
         *lint_cases(problem),
+        *(_contradictory_goal(problem, source) or _goal_holds(problem, source) or _unreachable(problem, source)),
     ]
-    if not any(fault.code == "unreachable-goal" for fault in faults):
-        faults += _goal_holds(problem, source) or _provably_unreachable(problem, source)
-    return faults
 
 
-def _contradictory_goal(problem: Problem, source: Source) -> Iterator[TmdError]:
+def _contradictory_goal(problem: Problem, source: Source) -> list[TmdError]:
     parts = conjuncts(problem.goal)
     stated = set(parts)
-    for part in parts:
-        if isinstance(part, Not) and part.part in stated:
-            text = format_formula(part.part)
-            yield source.error(
-                f"the goal contradicts itself: {text} would have to hold and not to hold",
-                part.location or problem.location,
-                "remove one of the two",
-                "unreachable-goal",
-            )
+    return [
+        source.error(
+            f"the goal contradicts itself: {format_formula(part.part)} would have to hold and not to hold",
+            part.location or problem.location,
+            "remove one of the two",
+            "unreachable-goal",
+        )
+        for part in parts
+        if isinstance(part, Not) and part.part in stated
+    ]
 
 
 # Problems with more instances of actions are not ground while they are checked: that takes over half a second.
@@ -198,15 +174,13 @@ _MOST_GROUND = 10_000
 
 def lint_cases(problem: Problem) -> list[TmdError]:
     """Return the condition that keeps ``problem`` from being ground, if there is one; with its place in the domain."""
-    objects = universe(problem)
-    actions = [a for a in problem.domain.actions if may_be_too_large(a.precondition, objects)]
-    if not actions or _instances(problem) > _MOST_GROUND:
+    if _instances(problem) > _MOST_GROUND:
         return []
     try:
         ground(problem)
     except TmdError as error:
         place = error.location
-        found = [a for a in actions if any(part.location == place for part in conjuncts(a.precondition))]
+        found = [a for a in problem.domain.actions for part in conjuncts(a.precondition) if part.location == place]
         if error.code == TOO_MANY_CASES and place is not None and found:
             message = f'this condition of action "{found[0].name}" is too large to be written out in "{problem.name}"'
             line = split_lines(read_text(place.file))[place.line - 1] if Path(place.file).is_file() else None
@@ -220,7 +194,7 @@ def _instances(problem: Problem) -> int:
     return sum(prod(len(objects.of(p.types)) for p in action.parameters) for action in problem.domain.actions)
 
 
-def _provably_unreachable(problem: Problem, source: Source) -> list[TmdError]:
+def _unreachable(problem: Problem, source: Source) -> list[TmdError]:
     """Return the proof that ``tmd plan`` gives: what relaxed reachability from the initial state never reaches."""
     if _instances(problem) > _MOST_GROUND:
         return []
@@ -235,51 +209,15 @@ def _provably_unreachable(problem: Problem, source: Source) -> list[TmdError]:
 
     if reaches(task.goal):
         return []
-    hint = "look at :init, and at the preconditions of the actions"
-    for part in conjuncts(problem.goal):
-        if not reaches(ground_condition(task, part)):
-            message = f"the goal {format_formula(part)} cannot be reached: no action that leads to it can ever apply"
-            return [source.error(message, part.location or problem.location, hint, "unreachable-goal")]
-    place = problem.goal.location or problem.location
+    lost = [part for part in conjuncts(problem.goal) if not reaches(ground_condition(task, part))]
+    place = (lost[0].location if lost else problem.goal.location) or problem.location
     message = f"no plan reaches the goal: {unreachable_reason(task, task.init, task.goal)}"
+    if lost:
+        message = f"the goal {format_formula(lost[0])} cannot be reached: no action that leads to it can ever apply"
+    if len(lost) > 1:
+        message += f", and {len(lost) - 1} more of its parts cannot be reached either"
+    hint = "look at :init, and at the preconditions and effects of the actions"
     return [source.error(message, place, hint, "unreachable-goal")]
-
-
-def _unreachable_goals(found: Possible, source: Source) -> Iterator[TmdError]:
-    actions = as_actions(found.problem.domain).actions
-    changed = {effect.atom.predicate for action in actions for effect in action.effects}
-    for part in conjuncts(found.problem.goal):
-        if isinstance(part, Atom):
-            atom = GroundAtom(part.predicate, part.terms)
-            if not found.reaches(atom):
-                why = "no action adds it" if atom.predicate in changed else f'no action changes "{atom.predicate}"'
-                yield source.error(
-                    f"the goal {atom} cannot be reached: it does not hold at the start, and {why}",
-                    part.location,
-                    "look at the effects of the actions, at the types of the objects, and at :init",
-                    "unreachable-goal",
-                )
-        elif isinstance(part, Not) and isinstance(part.part, Atom):
-            atom = GroundAtom(part.part.predicate, part.part.terms)
-            if atom in found.problem.init and not _may_be_deleted(found, atom):
-                yield source.error(
-                    f"the goal (not {atom}) cannot be reached: it holds at the start, and no action deletes it",
-                    part.location,
-                    "look at the effects of the actions",
-                    "unreachable-goal",
-                )
-
-
-def _may_be_deleted(found: Possible, atom: GroundAtom) -> bool:
-    names = {
-        effect.atom.predicate
-        for action in found.problem.domain.actions
-        if action.name in found.actions
-        for effect in action.effects
-        if not effect.positive
-    }
-    names |= {axiom.head.predicate for axiom in found.problem.domain.derived}
-    return atom.predicate in names
 
 
 def _goal_holds(problem: Problem, source: Source) -> list[TmdError]:
@@ -298,69 +236,35 @@ def _goal_holds(problem: Problem, source: Source) -> list[TmdError]:
     return []
 
 
-def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -> list[TmdError]:
-    """Return warnings on actions of ``domain`` that never apply in any of the ``problems``, and why."""
+def lint_together(domain: Domain, problems: Sequence[Problem], source: Source) -> list[TmdError]:
+    """Return warnings on actions of ``domain`` that never apply in any of the ``problems``, and why.
+
+    Where nothing makes a predicate true or a type has no objects, other actions that never apply follow from that, and
+    are not reported.
+    """
     known = [Possible(problem) for problem in problems]
-    if not known:
-        return []
     every = "in this problem" if len(known) == 1 else f"in none of the {len(known)} problems"
-    found: list[TmdError] = []
-    told: set[str] = set()
-    while True:
-        lacking = _never_made(domain, known)
-        if not lacking:
-            break
-        action, lack = _that_frees_most(lacking, known)
-        hint = f'add "{lack.predicate}" to an effect or to :init'
-        message = f'nothing makes "{lack.predicate}" true {every}, and action "{action.name}" needs it'
-        message = message.replace("true in none", "true, in none")
-        found.append(source.error(message, lack.location or action.location, hint, "never-produced"))
-        known = [_assuming(p, lack.predicate) for p in known]  # consequences of this are not reported
+    made = {effect.atom.predicate for a in as_actions(domain).actions for effect in a.effects if effect.positive}
+    made |= {atom.predicate for problem in problems for atom in problem.init}
+    causes: dict[str, TmdError] = {}
+    others: list[TmdError] = []
     for action in domain.actions:
-        blocks = [p.blocked.get(action.name) for p in known]
-        if any(block is None for block in blocks):
+        lack = known[0].blocked.get(action.name) if known else None
+        if lack is None or any(action.name not in p.blocked for p in known):
             continue
-        block = blocks[0]
-        if isinstance(block, Atom):
-            atom = " ".join((block.predicate, *block.terms))
-            message = f'action "{action.name}" can never apply {every}: ({atom}) never holds'
+        if isinstance(lack, str):
+            message = f'no object is of type "{lack}" {every}, so action "{action.name}" never applies'
+            hint = f'declare an object of type "{lack}"'
+            causes.setdefault(lack, source.error(message, action.location, hint, "type-without-objects"))
+            continue
+        place, name = lack.location or action.location, lack.predicate
+        if name in made:
+            message = f'action "{action.name}" can never apply {every}: {format_formula(lack)} never holds'
             hint = "look at the types and constants here and in :init"
-            found.append(source.error(message, block.location or action.location, hint, "never-applies"))
-        elif block not in told:
-            told.add(str(block))
-            message = f'no object is of type "{block}" {every}, so action "{action.name}" never applies'
-            found.append(
-                source.error(message, action.location, f'declare an object of type "{block}"', "type-without-objects")
-            )
-    return found
-
-
-def _never_made(domain: Domain, known: Sequence[Possible]) -> list[tuple[ActionSchema, Atom]]:
-    """Return the actions that never apply for lack of a predicate that nothing makes true, each with that atom."""
-    found = []
-    for action in domain.actions:
-        lacks = [p.blocked.get(action.name) for p in known]
-        if isinstance(lacks[0], Atom) and None not in lacks and not _ever_holds(lacks[0].predicate, known):
-            found.append((action, lacks[0]))
-    return found
-
-
-def _that_frees_most(
-    lacking: Sequence[tuple[ActionSchema, Atom]], known: Sequence[Possible]
-) -> tuple[ActionSchema, Atom]:
-    """Return the one that lets most other actions apply once it may hold: the others only follow from it."""
-    first = {lack.predicate: (action, lack) for action, lack in reversed(lacking)}
-    if len(first) == 1:
-        return lacking[0]
-    return max(
-        (pair for pair in lacking if first[pair[1].predicate] == pair),
-        key=lambda pair: -len(_assuming(known[0], pair[1].predicate).blocked),
-    )
-
-
-def _assuming(found: Possible, predicate: str) -> Possible:
-    return Possible(found.problem, (*found.assumed, predicate))
-
-
-def _ever_holds(predicate: str, known: Iterable[Possible]) -> bool:
-    return any(p.adds(predicate) or any(atom.predicate == predicate for atom in p.problem.init) for p in known)
+            others.append(source.error(message, place, hint, "never-applies"))
+        else:
+            true = "true" if len(known) == 1 else "true,"
+            message = f'nothing makes "{name}" {true} {every}, and action "{action.name}" needs it'
+            hint = f'add "{name}" to an effect or to :init'
+            causes.setdefault(f"({name})", source.error(message, place, hint, "never-produced"))
+    return list(causes.values()) or others

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -136,9 +135,12 @@ def check(
     With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
     """
     if explain is not None:
-        if any((domain, strict, fix)):
-            raise click.UsageError("--explain takes domains and --json only")
-        return _explain(roots, explain, paths, as_json)
+        if any((domain, strict, fix, as_json)):
+            raise click.UsageError("--explain takes domains only")
+        from tmd.check.explain import explain as explained
+
+        emit(explained(explain, [roots.corpus(roots.folder(name)) for name in paths]))
+        return ExitCode.OK
     if not paths:
         raise click.UsageError("Missing argument 'PATH...'.")
     given = roots.pddl_file(domain) if domain else None
@@ -162,15 +164,6 @@ def _print_report(report: CheckReport, *, strict: bool, as_json: bool) -> ExitCo
         emit("".join(f"{file}: fixed\n" for file in report.fixed))
         emit(f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)\n")
     return ExitCode.FAULTS_FOUND if errors or (strict and warnings) else ExitCode.OK
-
-
-def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> ExitCode:
-    """Print what is known of a verb, in English and in each of the domains."""
-    from tmd.check.explain import explain, explanation_text
-
-    found = explain(verb, [roots.corpus(roots.folder(name)) for name in names])
-    emit(found.to_value() if as_json else explanation_text(found))
-    return ExitCode.OK
 
 
 def _all_json(report: CheckReport) -> dict[str, object]:

@@ -42,7 +42,7 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
     from tmd.language import parse
     from tmd.records.clauses import ParsedRecord
 
-    parsed = parse(spoken.read(), roots.lexicon(domain_name) if domain_name else None)
+    parsed = parse(spoken.read(), roots.folder(domain_name).lexicon if domain_name else None)
     emit(ParsedRecord.of(parsed).to_value() if as_json else parsed_text(parsed))
 
 

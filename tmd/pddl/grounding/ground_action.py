@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby, product
-from math import prod
 from typing import NamedTuple, TypeAlias
 
 from tmd.diagnostics import LimitError, TmdError
@@ -26,40 +25,6 @@ Literals: TypeAlias = frozenset[int]
 _MOST = 3_000
 TOO_MANY_CASES = "too-many-cases"
 """The code of the error that a condition is too large to be written out."""
-
-
-def cases(formula: Formula, objects: Universe, positive: bool = True) -> tuple[int, int]:
-    """Return upper bounds of the clauses and cubes of ``formula`` (or its negation) when written out."""
-    match formula:
-        case Not(part):
-            return cases(part, objects, not positive)
-        case Imply(left, right):
-            return cases(Or((Not(left), right)), objects, positive)
-        case And(parts) | Or(parts):
-            found = [cases(part, objects, positive) for part in parts]
-        case Forall(parameters, part) | Exists(parameters, part):
-            many = prod(len(objects.of(p.types)) for p in parameters)
-            clauses, cubes = cases(part, objects, positive)
-            if isinstance(formula, Forall) == positive:
-                return clauses * many, _capped(cubes, many)
-            return _capped(clauses, many), cubes * many
-        case _:
-            return 1, 1
-    all_clauses = [clauses for clauses, _ in found]
-    all_cubes = [cubes for _, cubes in found]
-    if isinstance(formula, And) == positive:
-        return sum(all_clauses), prod(all_cubes)
-    return prod(all_clauses), sum(all_cubes)
-
-
-def _capped(base: int, exponent: int) -> int:
-    """Return the power, or a number beyond :data:`_MOST` that it exceeds."""
-    return base**exponent if base < 2 or exponent * base.bit_length() < 64 else _MOST + 1
-
-
-def may_be_too_large(formula: Formula, objects: Universe) -> bool:
-    """Return whether writing ``formula`` out as clauses might fail; it does if nothing in it is static."""
-    return cases(formula, objects)[0] > _MOST
 
 
 MOST_WORK = 5_000_000
@@ -151,7 +116,7 @@ def _normal(tree: Tree, outer: str, what: str) -> list[Literals]:
         return [frozenset((tree,))]
     word, parts = tree
     if word == outer:
-        return _absorb({clause for part in parts for clause in _normal(part, outer, what)})
+        return absorb({clause for part in parts for clause in _normal(part, outer, what)})
     if all(isinstance(p, int) for p in parts):
         literals = frozenset(p for p in parts if isinstance(p, int))
         return [] if any(p ^ 1 in literals for p in literals) else [literals]
@@ -165,11 +130,11 @@ def _normal(tree: Tree, outer: str, what: str) -> list[Literals]:
                 code=TOO_MANY_CASES,
             )
         joined = {a | b for a, b in product(found, choices)}
-        found = _absorb({c for c in joined if not any(literal ^ 1 in c for literal in c)})
+        found = absorb({c for c in joined if not any(literal ^ 1 in c for literal in c)})
     return found
 
 
-def _absorb(clauses: set[Literals]) -> list[Literals]:
+def absorb(clauses: set[Literals]) -> list[Literals]:
     """Return clauses without those that contain another one, sorted."""
     if len(clauses) < 2:
         return list(clauses)

@@ -20,11 +20,11 @@ from tmd.pddl.grounding.ground_action import (
     Reachability,
     Tree,
     Work,
+    absorb,
     conjunctive,
     disjunctive,
     expand,
     grouped,
-    may_be_too_large,
 )
 from tmd.pddl.model import (
     ActionSchema,
@@ -413,14 +413,14 @@ class _Instantiation:
         Raises:
             TmdError: It has too many; with the place of the part that has.
         """
-        try:
-            return conjunctive(expand(precondition, binding, self.objects, self.lookup), what)
-        except TmdError as error:
-            for part in conjuncts(precondition):
+        found: set[Literals] = set()
+        for part in conjuncts(precondition):
+            try:
+                found.update(conjunctive(expand(part, binding, self.objects, self.lookup), what))
+            except TmdError as error:
                 error.location = part.location
-                if may_be_too_large(part, self.objects):
-                    break
-            raise
+                raise
+        return absorb(found)
 
     def effects(self, plan: _EffectPlan, outer: Binding, what: str) -> Iterable[GroundEffect]:
         rows: Iterable[Binding] = (outer,)

@@ -17,6 +17,7 @@ from tmd.pddl.model import (
     TRUE,
     ActionSchema,
     Atom,
+    Axiom,
     Domain,
     Effect,
     Equals,
@@ -28,11 +29,12 @@ from tmd.pddl.model import (
     Or,
     Predicate,
     Problem,
+    TypeDeclaration,
     TypedName,
     TypeHierarchy,
     keyword,
     parts_of,
-    subformulas,
+    walk,
 )
 from tmd.pddl.reading.syntax import Source, nearest
 
@@ -136,18 +138,13 @@ class _Check:
                     f"{TOTAL_COST} has no parameters", signature.location, f"write ({TOTAL_COST})", "wrong-arity"
                 )
 
-    def unique(self, declared: Iterable[TypedName | Predicate | ActionSchema | object], what: str) -> None:
+    def unique(self, declared: Iterable[TypeDeclaration | TypedName | Predicate | ActionSchema], what: str) -> None:
         seen: set[str] = set()
         for item in declared:
-            name = str(getattr(item, "name", ""))
-            if name in seen:
-                self.fault(
-                    f'{what} "{name}" is declared twice',
-                    getattr(item, "location", None),
-                    "rename one of them",
-                    "duplicate-name",
-                )
-            seen.add(name)
+            if item.name in seen:
+                message = f'{what} "{item.name}" is declared twice'
+                self.fault(message, item.location, "rename one of them", "duplicate-name")
+            seen.add(item.name)
 
     def type_known(self, name: str, location: Location | None) -> None:
         """Check that a type is declared; ``location`` is that of the name with this type."""
@@ -434,48 +431,34 @@ def used_requirements(domain: Domain, problem: Problem | None = None) -> tuple[s
 
 
 def _domain_uses(domain: Domain) -> Iterator[_Use]:
-    for declared in domain.types:
-        yield ":typing", f'the type "{declared.name}"', declared.location
-    yield from _typed(domain.constants)
-    for signature in (*domain.predicates, *domain.functions):
-        yield from _typed(signature.parameters)
+    yield from _uses(domain)
     for function in domain.functions:
         yield ":action-costs", f'the function "{function.name}"', function.location
-    for axiom in domain.derived:
-        yield ":derived-predicates", '":derived"', axiom.location
-        yield from _typed(axiom.parameters)
-        yield from _formula_uses(axiom.condition)
-    for action in domain.actions:
-        yield from _typed(action.parameters)
-        yield from _formula_uses(action.precondition)
-        for effect in action.effects:
-            if effect.parameters:
-                yield ":conditional-effects", '"forall" in an effect', effect.location
-            if effect.condition != TRUE:
-                yield ":conditional-effects", '"when"', effect.location
-            yield from _typed(effect.parameters)
-            yield from _formula_uses(effect.condition)
-        if action.cost is not None:
-            place = action.cost.location if isinstance(action.cost, Atom) else action.location
-            yield ":action-costs", '"increase"', place
 
 
 def _problem_uses(problem: Problem) -> Iterator[_Use]:
-    yield from _typed(problem.objects)
-    yield from _formula_uses(problem.goal)
+    yield from _uses((problem.objects, problem.goal))
     if problem.minimize_cost:
         yield ":action-costs", "the metric", problem.metric_location or problem.location
 
 
-def _typed(names: Iterable[TypedName]) -> Iterator[_Use]:
-    for name in names:
-        if name.types != (OBJECT,):
-            yield ":typing", f'the type of "{name.name}"', name.location
-
-
-def _formula_uses(formula: Formula) -> Iterator[_Use]:
-    for part in subformulas(formula):
+def _uses(whole: object) -> Iterator[_Use]:
+    """Yield the requirements that parts of a domain or problem need."""
+    for part in walk(whole):
         match part:
+            case TypeDeclaration():
+                yield ":typing", f'the type "{part.name}"', part.location
+            case TypedName() if part.types != (OBJECT,):
+                yield ":typing", f'the type of "{part.name}"', part.location
+            case Axiom():
+                yield ":derived-predicates", '":derived"', part.location
+            case ActionSchema(cost=int() | Atom() as cost):
+                yield ":action-costs", '"increase"', cost.location if isinstance(cost, Atom) else part.location
+            case Effect():
+                if part.parameters:
+                    yield ":conditional-effects", '"forall" in an effect', part.location
+                if part.condition != TRUE:
+                    yield ":conditional-effects", '"when"', part.location
             case Equals():
                 yield ":equality", '"="', part.location
             case Not(inner):
@@ -484,7 +467,6 @@ def _formula_uses(formula: Formula) -> Iterator[_Use]:
                     yield ":disjunctive-preconditions", '"not" around a compound condition', part.location
             case Or() | Imply():
                 yield ":disjunctive-preconditions", f'"{keyword(part)}"', part.location
-            case Forall(parameters) | Exists(parameters):
+            case Forall() | Exists():
                 kind = "universal" if isinstance(part, Forall) else "existential"
                 yield f":{kind}-preconditions", f'"{keyword(part)}"', part.location
-                yield from _typed(parameters)

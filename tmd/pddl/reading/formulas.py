@@ -29,7 +29,7 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
-from tmd.pddl.reading.syntax import Group, Node, Source, Word
+from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 # What planners take for a name although PDDL does not.
@@ -44,6 +44,38 @@ RESERVED = frozenset({"and", "or", "not", "imply", "forall", "exists", "when", "
 def is_variable(term: str) -> bool:
     """Return whether a term is a variable."""
     return term.startswith("?")
+
+
+# Constructs of PDDL outside the supported part: their requirements, sections, parts of actions and other words.
+UNSUPPORTED = {
+    word: feature
+    for feature, words in {
+        "durative actions": ":durative-actions :duration-inequalities :durative-action :duration :condition",
+        "continuous effects": ":continuous-effects",
+        "timed initial literals": ":timed-initial-literals :timed-initial-effects",
+        "processes and events": ":time :process :event :class",
+        "numeric fluents": ":fluents :numeric-fluents decrease scale-up scale-down",
+        "numeric and object fluents": "assign change",
+        "numeric conditions": "< > <= >=",
+        "object fluents": ":object-fluents",
+        "preferences": ":preferences preference",
+        "trajectory constraints": ":constraints always sometime within at-most-once sometime-after sometime-before "
+        "always-within hold-during hold-after",
+        "non-deterministic effects": ":non-deterministic oneof",
+        "probabilistic effects": ":probabilistic-effects :mdp probabilistic",
+        "rewards": ":rewards :goal-reward",
+        "several agents": ":multi-agent :agents :agent",
+        "private facts of agents": ":unfactored-privacy :factored-privacy :private",
+        "hierarchical tasks": ":hierarchy :htn :method-preconditions :task :method",
+        "utilities of goals": ":goal-utilities",
+        "supply and demand": ":supply-demand",
+        "partial observability": ":contingent :observable :sensing-action :observe :sense unknown",
+        "plan length limits": ":length",
+        "axioms of PDDL 1": ":axiom",
+        "variables beside the parameters": ":vars",
+    }.items()
+    for word in words.split()
+}
 
 
 def unsupported(source: Source, what: str, name: str, location: Location, hint: str | None = None) -> TmdError:
@@ -63,7 +95,7 @@ def read_name(node: Node, source: Source, what: str) -> Word:
 
 
 def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], hint: str) -> None:
-    """Return a name that PDDL does not have: let pass where planners do.
+    """Warn of a name that PDDL does not have, and planners take.
 
     Raises:
         TmdError: It is none.
@@ -196,33 +228,9 @@ def read_parameters(node: Node, source: Source) -> tuple[TypedName, ...]:
     return read_typed_list(node.parts, source, variables=True, what="a variable")
 
 
-_UNSUPPORTED_CONDITIONS = {
-    "preference": "preferences",
-    "<": "numeric conditions",
-    ">": "numeric conditions",
-    "<=": "numeric conditions",
-    ">=": "numeric conditions",
-    "oneof": "non-deterministic effects",
-    "unknown": "partial observability",
-    **dict.fromkeys(
-        (
-            "always", "sometime", "within", "at-most-once", "sometime-after", "sometime-before", "always-within",
-            "hold-during", "hold-after",
-        ),
-        "trajectory constraints",
-    ),
-}  # fmt: skip
-# The others may be names of predicates as well, and then have no conditions in them.
+# The other words that are not supported may be names of predicates, and then have no conditions in them.
 _NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
-_UNSUPPORTED_EFFECTS = {
-    "assign": "numeric and object fluents",
-    "change": "numeric and object fluents",
-    "decrease": "numeric fluents",
-    "scale-up": "numeric fluents",
-    "scale-down": "numeric fluents",
-    "oneof": "non-deterministic effects",
-    "probabilistic": "probabilistic effects",
-}
+_EFFECT_WORDS = frozenset({"assign", "change", "decrease", "scale-up", "scale-down", "oneof", "probabilistic"})
 _ONLY_COSTS = "of numeric fluents only total-cost is supported"
 
 
@@ -258,9 +266,23 @@ def read_condition(node: Node, source: Source) -> Formula:
         return Equals(read_term(parts[0], source), read_term(parts[1], source), place)
     if head == "when":
         raise source.error('"when" belongs in effects', place, 'write "imply" in conditions', "when-in-condition")
-    if head in _NEVER_PREDICATES or (head in _UNSUPPORTED_CONDITIONS and any(isinstance(p, Group) for p in parts)):
-        raise unsupported(source, _UNSUPPORTED_CONDITIONS[head], head, place)
+    if head in UNSUPPORTED and (head in _NEVER_PREDICATES or any(isinstance(p, Group) for p in parts)):
+        raise unsupported(source, UNSUPPORTED[head], head, place)
     return read_atom(node, source)
+
+
+def read_only_condition(document: Document) -> Formula:
+    """Return the condition that a text consists of.
+
+    Raises:
+        TmdError: It is none, or several.
+    """
+    document.check_depth()
+    source = document.source
+    if len(document.groups) != 1:
+        place = Location(source.file, 1, 1)
+        raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
+    return read_condition(document.groups[0], source)
 
 
 def _read_parts(parts: Sequence[Node], source: Source) -> tuple[Formula, ...]:
@@ -337,8 +359,8 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
         _read_effect(parts[1], source, inside, found)
     elif head == "increase":
         _read_cost(node, source, around, found)
-    elif head in _UNSUPPORTED_EFFECTS:
-        what = _UNSUPPORTED_EFFECTS[head]
+    elif head in _EFFECT_WORDS:
+        what = UNSUPPORTED[head]
         raise unsupported(source, what, head, node.location, _ONLY_COSTS if "numeric" in what else None)
     elif head in ("or", "exists", "imply", "="):
         hint = "it belongs in conditions"

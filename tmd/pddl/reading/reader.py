@@ -32,12 +32,14 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.reading.checking import check_domain, check_problem, undeclared_requirements
 from tmd.pddl.reading.formulas import (
+    UNSUPPORTED,
     Effects,
     read_atom,
     read_condition,
     read_effects,
     read_name,
     read_number,
+    read_only_condition,
     read_parameters,
     read_typed_list,
     unsupported,
@@ -62,17 +64,16 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
         if isinstance(node, Group) or not node.text.startswith(":"):
             source.fault_at("a requirement begins with a colon", node.location)
             continue
-        if node.text in _UNSUPPORTED_REQUIREMENTS:
-            what = _UNSUPPORTED_REQUIREMENTS[node.text]
+        if node.text in UNSUPPORTED:
             source.warn(
-                f"not supported: {what}: {node.text}",
+                f"not supported: {UNSUPPORTED[node.text]}: {node.text}",
                 node.location,
                 "the requirement is ignored; what uses it is refused",
                 "unsupported-requirement",
             )
         elif node.text not in REQUIREMENTS:
             message = f'"{node.text}" is not a known requirement'
-            hint = nearest(node.text, [*REQUIREMENTS, *_UNSUPPORTED_REQUIREMENTS])
+            hint = nearest(node.text, [*REQUIREMENTS, *UNSUPPORTED])
             source.fault_at(message, node.location, hint, "unknown-requirement")
             continue
         if node.text not in names:
@@ -95,32 +96,6 @@ REQUIREMENTS = (
     ":derived-predicates",
     ":domain-axioms",
 )
-_UNSUPPORTED_REQUIREMENTS = {
-    ":durative-actions": "durative actions",
-    ":duration-inequalities": "durative actions",
-    ":continuous-effects": "continuous effects",
-    ":timed-initial-literals": "timed initial literals",
-    ":timed-initial-effects": "timed initial literals",
-    ":time": "processes and events",
-    ":fluents": "numeric fluents",
-    ":numeric-fluents": "numeric fluents",
-    ":object-fluents": "object fluents",
-    ":preferences": "preferences",
-    ":constraints": "trajectory constraints",
-    ":non-deterministic": "non-deterministic effects",
-    ":probabilistic-effects": "probabilistic effects",
-    ":rewards": "rewards",
-    ":mdp": "probabilistic effects and rewards",
-    ":multi-agent": "several agents",
-    ":unfactored-privacy": "private facts of agents",
-    ":factored-privacy": "private facts of agents",
-    ":hierarchy": "hierarchical tasks",
-    ":htn": "hierarchical tasks",
-    ":method-preconditions": "hierarchical tasks",
-    ":goal-utilities": "utilities of goals",
-    ":supply-demand": "supply and demand",
-    ":contingent": "partial observability",
-}
 
 
 def read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
@@ -180,7 +155,7 @@ _ONE_SLIP = 0.85
 
 
 def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> None:
-    """Return some readers want every parent before its children."""
+    """Warn of types that stand before their parents, which some readers refuse."""
     later = {declared.name: place for place, declared in enumerate(found)}
     early = [declared for place, declared in enumerate(found) if later.get(declared.parent, 0) > place]
     if early:
@@ -197,24 +172,20 @@ def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
     """Read ``(:predicates ...)``, each with the comment that stands beside it."""
     declared = group.parts[1:]
     following = [*(n.location.line for n in declared[1:]), group.end.line + 1][: len(declared)]
-    found: list[Predicate] = []
+    found: list[Predicate | None] = []
     for node, next_line in zip(declared, following, strict=True):
         last = isinstance(node, Group) and node.end.line != next_line
         comment = document.comments.get(node.end.line, "") if isinstance(node, Group) and last else ""
-        found.extend(document.source.recover((), _read_predicate, node, document, comment))
-    return tuple(found)
+        found.append(document.source.recover(None, _read_signature, node, document, comment))
+    return tuple(predicate for predicate in found if predicate)
 
 
-def _read_predicate(node: Node, document: Document, comment: str) -> tuple[Predicate]:
-    if isinstance(node, Word):
-        raise document.source.error(f'expected (predicate ...), found "{node.text}"', node.location)
-    if node.head == ":private":
-        raise unsupported(document.source, "private facts of agents", node.head, node.location)
-    return (_read_signature(node, document, comment),)
-
-
-def _read_signature(node: Group, document: Document, comment: str = "") -> Predicate:
+def _read_signature(node: Node, document: Document, comment: str = "") -> Predicate:
     source = document.source
+    if isinstance(node, Word):
+        raise source.error(f'expected (predicate ...), found "{node.text}"', node.location)
+    if node.head == ":private":
+        raise unsupported(source, UNSUPPORTED[node.head], node.head, node.location)
     if not node.parts:
         raise source.error("expected (name ?parameter ...), found ()", node.location)
     name = read_name(node.parts[0], source, "the name of a predicate")
@@ -239,25 +210,21 @@ def _each_named(parameters: tuple[TypedName, ...], source: Source) -> tuple[Type
 def read_functions(group: Group, document: Document) -> tuple[Predicate, ...]:
     """Read ``(:functions ...)``, which are numbers, all of them."""
     source = document.source
-    found: list[Predicate] = []
+    found: list[Predicate | None] = []
     nodes = list(group.parts[1:])
     while nodes:
         node = nodes.pop(0)
         if isinstance(node, Word):
             source.fault_at(f'expected (function ...), found "{node.text}"', node.location)
             continue
-        found.extend(source.recover((), _read_function, node, document))
+        found.append(source.recover(None, _read_signature, node, document))
         if nodes and isinstance(nodes[0], Word) and nodes[0].text == "-":
             value = nodes[1] if len(nodes) > 1 else nodes[0]
             if isinstance(value, Group) or value.text != "number":
                 hint = "a function is a number"
                 source.fault(unsupported(source, "object fluents", node.head, node.location, hint))
             del nodes[:2]
-    return tuple(found)
-
-
-def _read_function(node: Group, document: Document) -> tuple[Predicate]:
-    return (_read_signature(node, document),)
+    return tuple(function for function in found if function)
 
 
 def read_action(group: Group, source: Source) -> ActionSchema:
@@ -317,14 +284,6 @@ def _with_declared_types(axiom: Axiom, predicates: Mapping[str, Predicate]) -> A
 
 
 _PARTS_OF_ACTIONS = (":parameters", ":precondition", ":effect")
-_UNSUPPORTED_PARTS = {
-    ":vars": "variables beside the parameters",
-    ":agent": "several agents",
-    ":observe": "partial observability",
-    ":sense": "partial observability",
-    ":duration": "durative actions",
-    ":condition": "durative actions",
-}
 
 
 def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Node]:
@@ -343,13 +302,13 @@ def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Nod
             continue
         source.recover(None, _known_part, keyword, action, parts, source)
         meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # its value is not reported as missing as well
-        parts.setdefault(keyword.text if keyword.text in _UNSUPPORTED_PARTS or not meant else meant[0], nodes.pop(0))
+        parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
     return parts
 
 
 def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Source) -> None:
-    if keyword.text in _UNSUPPORTED_PARTS:
-        raise unsupported(source, _UNSUPPORTED_PARTS[keyword.text], keyword.text, keyword.location)
+    if keyword.text in UNSUPPORTED:
+        raise unsupported(source, UNSUPPORTED[keyword.text], keyword.text, keyword.location)
     if keyword.text not in _PARTS_OF_ACTIONS:
         hint = nearest(keyword.text, _PARTS_OF_ACTIONS, what="parts of an action")
         message = f'"{keyword.text}" is not a part of an action'
@@ -380,25 +339,6 @@ def read_metric(group: Group, source: Source) -> bool:
     raise unsupported(
         source, "other metrics", " ".join(words), group.location, f"write (:metric minimize ({TOTAL_COST}))"
     )
-
-
-_UNSUPPORTED_SECTIONS = {
-    ":durative-action": "durative actions",
-    ":process": "processes",
-    ":event": "events",
-    ":constraints": "trajectory constraints",
-    ":length": "plan length limits",
-    ":task": "hierarchical tasks",
-    ":method": "hierarchical tasks",
-    ":htn": "hierarchical tasks",
-    ":axiom": "axioms of PDDL 1",
-    ":vars": "state variables",
-    ":agents": "several agents",
-    ":goal-reward": "rewards",
-    ":observable": "partial observability",
-    ":sensing-action": "partial observability",
-    ":class": "processes and classes",
-}
 
 
 def read_domain(path: str | Path) -> Domain:
@@ -546,12 +486,7 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     first = document.groups[0]
     document.check_depth()
     if len(document.groups) > 1:
-        source.fault_at(
-            f'this parenthesis closes "({first.head}" too early: more text follows',
-            first.end,
-            'a ")" before it is too many',
-            "extra-parenthesis",
-        )
+        source.closed_too_early(first)
     if first.head != "define" or len(first.parts) < 2:
         raise source.error(f"expected (define ({kind} name) ...)", first.location)
     title, *sections = first.parts[1:]
@@ -571,8 +506,8 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
 
 def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source: Source) -> str:
     head = group.head
-    if head in _UNSUPPORTED_SECTIONS:
-        raise unsupported(source, _UNSUPPORTED_SECTIONS[head], head, group.location)
+    if head in UNSUPPORTED:
+        raise unsupported(source, UNSUPPORTED[head], head, group.location)
     if head not in known:
         shown = f'"({head} ...)"' if head else "this group"
         hint = nearest(head, known, what="sections")
@@ -683,12 +618,7 @@ def with_goal(problem: Problem, text: str, file: str = PLACE) -> Problem:
         TmdError: It is not a condition, or speaks of what the problem does not have.
     """
     document = parse(text, file)
-    source = document.source
-    document.check_depth()
-    if len(document.groups) != 1:
-        place = Location(file, 1, 1)
-        raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
-    return aimed_at(problem, read_condition(document.groups[0], source), source)
+    return aimed_at(problem, read_only_condition(document), document.source)
 
 
 def aimed_at(problem: Problem, goal: Formula, source: Source | None = None) -> Problem:

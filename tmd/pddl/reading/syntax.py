@@ -11,9 +11,8 @@ import re
 import sys
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from difflib import get_close_matches
-from functools import lru_cache
 from itertools import islice
 from pathlib import Path
 from typing import ParamSpec, TypeAlias, TypeVar
@@ -59,8 +58,31 @@ Report: TypeAlias = Callable[[TmdError], None]
 """Takes a fault, so that reading can go on."""
 
 
+class Reporting:
+    """Base of texts that are read: without a ``report``, which takes faults, the first fault is raised."""
+
+    __slots__ = ()
+    report: Report | None
+
+    def fault(self, error: TmdError) -> None:
+        """Raise ``error``, or report it and return."""
+        if self.report is None:
+            raise error
+        self.report(error)
+
+    def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
+        """Return the result of ``read``, or ``otherwise`` where it fails and faults are reported."""
+        if self.report is None:
+            return read(*arguments, **named)
+        try:
+            return read(*arguments, **named)
+        except TmdError as error:
+            self.report(error)
+            return otherwise
+
+
 @dataclass(frozen=True, slots=True)
-class Source:
+class Source(Reporting):
     """A text that is being read: it knows its lines, so every error can show the one it speaks of.
 
     ``report`` takes the faults; without it the first one is raised.
@@ -80,12 +102,6 @@ class Source:
         """Return an error at ``location`` that carries its source line."""
         return TmdError(message, location=location, hint=hint, source=self.line(location), code=code)
 
-    def fault(self, error: TmdError) -> None:
-        """Raise ``error``, or report it and return."""
-        if self.report is None:
-            raise error
-        self.report(error)
-
     def fault_at(self, message: str, location: Location | None, hint: str | None = None, code: str = "syntax") -> None:
         """Raise the error of :meth:`error`, or report it and return."""
         self.fault(self.error(message, location, hint, code))
@@ -95,15 +111,10 @@ class Source:
         if self.report is not None:
             self.report(self.error(message, location, hint, code))
 
-    def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
-        """Return the result of ``read``, or ``otherwise`` where it fails and faults are reported."""
-        if self.report is None:
-            return read(*arguments, **named)
-        try:
-            return read(*arguments, **named)
-        except TmdError as error:
-            self.report(error)
-            return otherwise
+    def closed_too_early(self, group: Group) -> None:
+        """Raise or report that more text follows a group, which should be its last part."""
+        message = f'this parenthesis closes "({group.head}" too early: more text follows'
+        self.fault_at(message, group.end, 'a ")" before it is too many', "extra-parenthesis")
 
     def word(self, location: Location | None, number: int) -> Location | None:
         """Return the place of word ``number`` (0 for the head) of the group at ``location``; groups count as one."""
@@ -121,14 +132,8 @@ class Source:
 
     def type_of(self, location: Location | None, name: str) -> Location | None:
         """Return the place of the type ``name`` of the typed name at ``location``."""
-        after_dash = False
-        for token, place in self.tokens(location):
-            if after_dash and token.lower() == name:
-                return place
-            if token == ")" or (after_dash and token not in ("(", "either")):
-                break
-            after_dash |= token == "-"
-        return location
+        behind = islice(self.tokens(location), 1, None)
+        return next((place for token, place in behind if token.lower() == name), location)
 
     def tokens(self, location: Location | None) -> Iterator[tuple[str, Location]]:
         """Yield the tokens from ``location`` on, as they are written."""
@@ -148,7 +153,6 @@ class Document:
     groups: tuple[Group, ...]
     comments: dict[int, str]
     deepest: Group | None
-    warnings: tuple[TmdError, ...] = ()
 
     def check_depth(self) -> None:
         """Make sure that what reads groups within groups comes to an end.
@@ -240,8 +244,6 @@ _SECTIONS = frozenset(
         ":derived", ":process", ":event", ":domain", ":objects", ":init", ":goal", ":metric",
     }
 )  # fmt: skip
-# The groups of longer texts, in characters, are not kept for the next reader.
-_MOST_KEPT = 200_000
 # Number of faults of parentheses after which the rest of a text tells nothing.
 _MOST_FAULTS = 100
 
@@ -271,31 +273,6 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
     Raises:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
     """
-    if len(text) <= _MOST_KEPT:
-        try:
-            document = _faultless(text, file)
-        except TmdError:
-            pass  # read again, to report all faults
-        else:
-            return _told(replace(document, source=replace(document.source, report=report)))
-    return _told(_split(text, file, report))
-
-
-def _told(document: Document) -> Document:
-    """Report the warnings of a document, and return it."""
-    if document.source.report is not None:
-        for warning in document.warnings:
-            document.source.report(warning)
-    return document
-
-
-@lru_cache(maxsize=8)
-def _faultless(text: str, file: str) -> Document:
-    """Cache the groups of a text without faults: a domain is read several times while it is checked or compiled."""
-    return _split(text, file, None)
-
-
-def _split(text: str, file: str, report: Report | None) -> Document:
     source = Source(file, split_lines(text), report)
     parser = _Parser(source)
     for number, line in enumerate(source.lines, start=1):
@@ -303,7 +280,7 @@ def _split(text: str, file: str, report: Report | None) -> Document:
         if parser.faults > _MOST_FAULTS:
             break
     parser.end()
-    return Document(source, tuple(parser.groups), parser.comments, parser.deepest, tuple(parser.warnings))
+    return Document(source, tuple(parser.groups), parser.comments, parser.deepest)
 
 
 @dataclass(slots=True)
@@ -319,7 +296,6 @@ class _Parser:
     """The first group that the indentation of the text says should have been closed before."""
     outside: bool = False
     faults: int = 0
-    warnings: list[TmdError] = field(default_factory=list)
 
     def read_line(self, number: int, line: str) -> None:
         code, mark, comment = line.partition(";")
@@ -345,7 +321,7 @@ class _Parser:
             token = match[0].lower()
             if match.start() == ended and token[0] == "?":
                 message = f'some tools want a blank before "{token}"'
-                self.warnings.append(self.source.error(message, location, "put a blank before it", "glued-variable"))
+                self.source.warn(message, location, "put a blank before it", "glued-variable")
             ended = match.end() if token not in "()" else -1
             if first:
                 self.look_at_indentation(token, location)
@@ -362,7 +338,7 @@ class _Parser:
         self.source.fault_at(message, location, hint, code)
 
     def look_at_indentation(self, token: str, location: Location) -> None:
-        """Return a line that begins left of the group it stands in shows that the group lacks its end."""
+        """Suspect a group that a line stands in although it begins left of it: the group may lack its end."""
         if self.suspect is not None or not self.stack or len(self.stack) == 1:
             return
         opened = self.stack[-1]
@@ -407,7 +383,7 @@ class _Parser:
             self.stack.append(_Open(word.location, [], False))
 
     def reopen_last(self, word: Word) -> bool:
-        """Return a word outside all parentheses: the last group ended too early, if there is one."""
+        """Reopen the last group for a word outside all parentheses; return whether there is one."""
         if self.groups:
             self.closed_too_early(self.groups[-1])
             self.stack.append(self.reopen(self.groups.pop()))
@@ -418,7 +394,7 @@ class _Parser:
         return False
 
     def fix_misplaced(self, word: Word) -> None:
-        """Return a keyword deep inside another group shows which parenthesis was left open, or closed too early."""
+        """Repair what a keyword deep inside another group shows: a parenthesis left open, or closed too early."""
         opened = self.stack[-1]
         if not opened.parts and len(self.stack) == 2 and word.text in _SECTIONS:
             self.suspect = None  # the sections before are closed, with any indentation
@@ -468,9 +444,5 @@ class _Parser:
         self.fault(f"this parenthesis{name} is never closed", opened.location, hint, "unclosed-parenthesis")
 
     def closed_too_early(self, group: Group) -> None:
-        self.fault(
-            f'this parenthesis closes "({group.head}" too early: more text follows',
-            group.end,
-            'a ")" before it is too many',
-            "extra-parenthesis",
-        )
+        self.faults += 1
+        self.source.closed_too_early(group)

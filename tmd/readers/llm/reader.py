@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.language.clause import Parsed
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.ground_formula import holds_in
 from tmd.pddl.model import Formula, Instruction
+from tmd.pddl.semantics import holds
 from tmd.pddl.task import Bits
 from tmd.readers.interface import Dialogue, Step, StepGoals, Usage
 from tmd.readers.llm.checking import ModelReading, ModelStep, ReplyChecker
@@ -197,7 +197,7 @@ class LLMDialogue(Dialogue):
         if step.otherwise and not shared and memory.held:
             return StepGoals((), memory, "the condition before it held")
         if own is not None and not shared:
-            memory = _Guard(own, holds_in(self.world.task, own[1], state))
+            memory = _Guard(own, holds(own[1], self.world.task.decode(state), self.world.objects))
         if own is not None and not memory.held:
             return StepGoals((), memory, "the condition does not hold")
         return StepGoals(step.candidates, memory)

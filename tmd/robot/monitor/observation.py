@@ -56,7 +56,7 @@ class Observer:
         domain = self.problem.domain
         rules = [
             replace(schema, name=f"{schema.name}_{number}")
-            for number, (schema, _, _) in enumerate(derive_rules(self.folder) if self.skills.derived else ())
+            for number, schema in enumerate(derive_rules(self.folder) if self.skills.derived else ())
             if any(effect.atom.predicate in self.skills.derived for effect in schema.effects)
         ]
         task = ground(replace(self.problem, domain=replace(domain, actions=(*domain.actions, *rules))))

@@ -242,11 +242,8 @@ class Session:
 
     def segments(self) -> tuple[Segment, ...]:
         """Return the pieces of the text with what serves each, as a demonstration has them."""
-        steps, proposed = self.steps, self.proposed
-        return tuple(
-            Segment(piece.start, piece.end, _own(steps, n), None if proposed is None else _own(proposed, n))
-            for n, piece in enumerate(self.clauses)
-        )
+        steps = self.steps
+        return tuple(Segment(piece.start, piece.end, _own(steps, n)) for n, piece in enumerate(self.clauses))
 
     def _become(self, version: _Version) -> None:
         self._history.add(version)
