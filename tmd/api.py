@@ -308,9 +308,12 @@ def export_plan(
     from tmd.export.formats import chosen_files
 
     target = Path(directory)
-    files = chosen_files(planned(problem, plan), formats)
-    write_directory(target, files, overwrite=overwrite)
-    return [target / path for path in files]
+    written = chosen_files(planned(problem, plan), formats)
+    for failure in written.failures.values():
+        raise failure
+    flat = {path: data for files in written.files.values() for path, data in files.items()}
+    write_directory(target, flat, overwrite=overwrite)
+    return [target / path for path in flat]
 
 
 def plan_page(problem: Problem, plan: Iterable[Instruction]) -> str:

@@ -80,16 +80,19 @@ def found(
 class FastDownward(Tool):
     """Also SymK, which is built from it."""
 
-    formats = ("adl", "strips")
+    formats = ("adl", "strips", "sas")
     home = ("up_fast_downward", "downward")
     search = "eager_greedy([ff()],preferred=[ff()])"
 
     def run(self) -> Found:  # noqa: D102 - said once, above
         driver = package(self.home[0]) / self.home[1] / "fast-downward.py"
-        translated = ran([sys.executable, driver, "--translate", self.domain, self.problem], self.seconds)
-        if translated.returncode:
-            return found(False, why=said(translated))
-        done = ran([sys.executable, driver, Path("output.sas"), "--search", self.search], self.seconds)
+        task = self.directory / "output.sas"
+        if self.form != "sas":
+            translated = ran([sys.executable, driver, "--translate", self.domain, self.problem], self.seconds)
+            task = Path("output.sas")
+            if translated.returncode:
+                return found(False, why=said(translated))
+        done = ran([sys.executable, driver, task, "--search", self.search], self.seconds)
         written = sorted(Path().glob("sas_plan*"))
         if done.returncode > 3 or not written:
             return found(True, False, why=said(done))

@@ -9,6 +9,8 @@ import pytest
 
 from tmd.check.checker import Checker
 from tmd.check.diagnostic import SEVERITY, Diagnostic, Severity
+from tmd.check.lexicon import check_lexicon
+from tmd.language.lexicon.file import read_lexicon
 
 ROOT = Path(__file__).resolve().parents[2]
 SOUND = "  - take|grasp X: (holding pr2 ?x)\n  - put|keep X in|on Y: (at ?x ?y ?rel)\n"
@@ -129,6 +131,14 @@ def test_groups_of_plain_pddl_name_objects_of_environments(tmp_path: Path) -> No
     text = "goals:\n  - put|keep X on Y: (on ?x ?y)\ngroups:\n  warm: [red_block]\n  cold: [blue_blok]\n"
     told = [(d.code, d.hint) for d in found(tmp_path, text, "01_blocks") if d.severity is Severity.ERROR]
     assert told == [("unknown-class", 'did you mean "blue_block"?')]
+
+
+def test_a_verb_with_a_goal_is_served(tmp_path: Path) -> None:
+    path = tmp_path / "lexicon.yaml"
+    path.write_text("verbs: [polish, dust]\nverb_synonyms:\n  buff: polish\ngoals:\n  - polish X: (clean ?x)\n")
+    lexicon = read_lexicon(path)
+    told = check_lexicon(path, lexicon, lexicon.goal_verbs, (), (), ["Look at it."])
+    assert [fault.message.split("'")[1] for fault in told] == ["dust"]
 
 
 @pytest.mark.parametrize(

@@ -94,3 +94,25 @@ def test_a_fault_of_the_classes_is_told_of_them_once(tmd: Tmd, drawer: Path) -> 
     told = json.loads(tmd("check", drawer.parents[2], "--json").out)["diagnostics"]
     assert {(d["code"], Path(d["file"]).name) for d in told} == {("unknown-object", "objects.yaml")}
     assert told[0]["hint"] == 'did you mean "self"?'
+
+
+@pytest.mark.parametrize(("verb", "served"), [("polish", True), ("shine", True), ("knit", False)])
+def test_a_verb_that_the_check_calls_served_is_ground(tmd: Tmd, drawer: Path, verb: str, served: bool) -> None:
+    shutil.copytree(ROOT / "problems" / "03_drawer", drawer.parents[2] / "problems" / "03_drawer")
+    instructions = drawer.parent / "instructions.pddl"
+    text = instructions.read_text(encoding="utf-8").replace("(:predicates", "(:predicates\n    (polished ?x - item)", 1)
+    polish = (
+        "(:action polish\n    :parameters (?x - item)\n    :precondition (holding pr2 ?x)\n    :effect (polished ?x))"
+    )
+    instructions.write_text(f"{text.rstrip().removesuffix(')')}\n\n  {polish})\n", encoding="utf-8")
+    lexicon = drawer.read_text(encoding="utf-8")
+    drawer.write_text(lexicon.replace("verb_synonyms:", "verb_synonyms:\n  shine: polish\n  knit: sew", 1))
+    root = drawer.parents[2]
+    assert tmd("compile", drawer.parent).code == 0
+    told = json.loads(tmd("check", root, "--json").out)["diagnostics"]
+    unserved = " ".join(d["message"] for d in told if d["code"] == "unserved-verb")
+    assert (f"'{verb}'" in unserved) is not served
+    environment = root / "problems" / "03_drawer" / "environments" / "study1.yaml"
+    ended = tmd("ground", "--domain", drawer.parent, "--environment", environment, "--text", f"{verb} the key.")
+    assert (ended.code == 0) is served
+    assert ("polish(key1)" in ended.out) is served

@@ -13,6 +13,7 @@ from tmd.diagnostics import ExitCode
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 PLAN = BLOCKS / "plans" / "valid-sussman.plan"
+HIDE = "import sys; sys.modules['up_fast_downward'] = None"
 STEPS = [["find", "pot1"], ["moveto", "pot1"], ["grasp", "pot1"]]
 
 
@@ -143,11 +144,27 @@ ALIKE_PROBLEM = """
 
 
 def test_one_name_for_two_kinds_is_exported_to_all_formats(tmd: Tmd, tmp_path: Path) -> None:
+    pytest.importorskip("up_fast_downward")
     (tmp_path / "domain.pddl").write_text(ALIKE.format(more=""))
     (tmp_path / "p.pddl").write_text(ALIKE_PROBLEM)
     ended = tmd("export", "p.pddl", "out", "--format", "all")
     assert (ended.code, ended.err) == (ExitCode.OK, "")
-    assert len(list((tmp_path / "out").iterdir())) == 6
+    assert len(list((tmp_path / "out").iterdir())) == 7
+
+
+def test_a_format_that_fails_does_not_keep_the_others_back(tmd: Tmd, tmp_path: Path) -> None:
+    pytest.importorskip("up_fast_downward")
+    (tmp_path / "domain.pddl").write_text(ALIKE.format(more=""))
+    (tmp_path / "p.pddl").write_text(ALIKE_PROBLEM)
+    assert tmd("export", "p.pddl", "plan").code == ExitCode.OK
+    plan = ("--plan", "plan/plan.plan")
+    ended = tmd("export", "p.pddl", "out", "--format", "sas,adl,bt", *plan, before=HIDE)
+    assert ended.code == ExitCode.MISSING_TOOL
+    assert {path.split("/")[1] for path in ended.out.split()} == {"adl", "bt"}
+    assert sorted(ended.out.split()) == sorted(f"out/{path}" for path in found(tmp_path / "out"))
+    assert re.fullmatch(r"not written: sas: .*\n", ended.err)
+    only = tmd("export", "p.pddl", "two", "--format", "sas", *plan, before=HIDE)
+    assert (only.code, only.out, (tmp_path / "two").exists()) == (ExitCode.MISSING_TOOL, "", False)
 
 
 def test_an_exported_plan_is_a_plan_for_the_environment(tmd: Tmd, tmp_path: Path) -> None:

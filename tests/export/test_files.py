@@ -30,6 +30,22 @@ def test_adl_is_read_back(source: Planned) -> None:
     assert (plan.instructions, plan.cost) == (source.plan, source.cost)
 
 
+def test_sas_is_what_fast_downward_searches(tmp_path: Path) -> None:
+    pytest.importorskip("up_fast_downward")
+    import subprocess
+
+    from tmd.planning.fast_downward import binaries
+
+    source = planned_case("kitchen")
+    files = FORMATS["sas"](source)
+    assert files["output.sas"].startswith("begin_version\n3\nend_version\n")
+    (tmp_path / "output.sas").write_text(files["output.sas"])
+    command = [binaries() / "downward", "--search", "lazy_greedy([ff()])", "--internal-plan-file", "sas_plan"]
+    with (tmp_path / "output.sas").open() as sas:
+        subprocess.run(command, stdin=sas, cwd=tmp_path, check=True, capture_output=True, timeout=60)
+    assert validate(source.problem, parse_plan((tmp_path / "sas_plan").read_text()).instructions).valid
+
+
 def test_a_plan_that_does_not_work_is_no_planned_problem() -> None:
     source = planned_case("blocks")
     with pytest.raises(TmdError, match="the plan does not work: step 1"):
@@ -48,8 +64,9 @@ def test_what_a_plan_changes_is_its_outcome() -> None:
 
 def test_one_format_fills_the_directory_several_share_it() -> None:
     source = planned_case("blocks")
-    assert list(chosen_files(source, ["ipc"])) == ["plan.plan"]
-    assert list(chosen_files(source, ["ipc", "adl", "ipc"])) == [
+    assert list(chosen_files(source, ["ipc"]).files["ipc"]) == ["plan.plan"]
+    several = chosen_files(source, ["ipc", "adl", "ipc"]).files
+    assert [path for files in several.values() for path in files] == [
         "ipc/plan.plan",
         "adl/domain.pddl",
         "adl/problem.pddl",

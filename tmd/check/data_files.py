@@ -276,14 +276,24 @@ class DataFiles:
             check_shapes(folder)
 
     def _lexicon(self, file: Path) -> None:
-        from tmd.check.lexicon import check_goals, check_nouns, check_phrases
+        from tmd.check.lexicon import (
+            check_goals,
+            check_lexicon,
+            check_phrases,
+            declared_verbs,
+            texts_of,
+        )
         from tmd.goals.tables import faults_of
 
         folder = self._folder(file)
+        actions = [action.name for action in folder.domain.actions]
+        corpora = self._corpora(folder.path)
         lexicon = read_lexicon(file)
+        texts = [text for path in corpora for text in texts_of(path)]
+        meant = declared_verbs(lexicon, folder.domain)
         for fault in (
             *faults_of(lexicon, folder.domain),
-            *check_nouns(file, lexicon, _names(folder)),
+            *check_lexicon(file, lexicon, meant, actions, _names(folder), texts),
             *check_goals(file, lexicon, folder.domain, self._problems_of(folder), lambda: self._nameable(folder)),
             *check_phrases(file, lexicon),
         ):
@@ -296,6 +306,11 @@ class DataFiles:
         lexicon = read_lexicon(file)
         for fault in (*faults_of(lexicon), *check_phrases(file, lexicon)):
             self.checker.report(fault, file)
+
+    def _corpora(self, folder: Path) -> list[Path]:
+        """Return the demonstrations of a domain."""
+        problems = self._beside(folder)
+        return sorted(problems.glob("*/demonstrations.jsonl")) if problems else []
 
     def _beside(self, folder: Path) -> Path | None:
         """Return the problems of a domain: those beside its folder, or the known ones."""

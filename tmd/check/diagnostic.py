@@ -41,7 +41,7 @@ _WARNINGS = (
     "undeclared-parent", "variable-twice", "glued-dash", "parent-after-child", "empty-condition",
     "nested-when", "said-twice", "contradictory-effects", "unused-predicate", "unused-parameter", "no-effect",
     "never-applies", "never-produced", "too-many-cases", "type-without-objects", "unreachable-goal",
-    "goal-holds", "ambiguous-domain", "unknown-target", "unread-noun", "impossible-goal",
+    "goal-holds", "ambiguous-domain", "unserved-verb", "unknown-target", "unread-noun", "impossible-goal",
     "idle-phrase", "domain-not-found", "too-many",
 )  # fmt: skip
 SEVERITY: Mapping[str, Severity] = {

@@ -1,9 +1,11 @@
-"""Checks of a lexicon: its words, and the goals that it declares."""
+"""Checks of a lexicon: its words, the verbs that it serves, and the goals that it declares."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -11,30 +13,94 @@ from tmd.check.diagnostic import SEVERITY, Severity
 from tmd.check.lint.problem import Possible, Scope, types_of
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, read_pattern, read_table
+from tmd.goals.tables import declared_goals
 from tmd.language import parse as parse_text
-from tmd.language.lexicon.lexicon import Declared, Lexicon
+from tmd.language.lexicon.lexicon import Declared, Lexicon, verb_candidates
 from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
 from tmd.pddl.reading.checking import check_condition
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, nearest, parse, read_text, split_lines
 from tmd.pddl.writer import format_formula
 
+_WORD = re.compile(r"[a-z]+")
+# A particle stands at most that many words behind its verb.
+_PARTICLE_WITHIN = 5
 
-def check_nouns(path: Path, lexicon: Lexicon, names: Collection[str]) -> Iterator[TmdError]:
-    """Yield a warning for each noun of a lexicon that means a name which the domain does not have.
+
+def declared_verbs(lexicon: Lexicon, domain: Domain) -> frozenset[str]:
+    """Return the verbs that rows of a lexicon, or rows of base lexicons that apply, say the meaning of."""
+    try:
+        return frozenset(declared_goals(lexicon, domain).verbs())
+    except TmdError:
+        return lexicon.goal_verbs  # faults are reported elsewhere
+
+
+def check_lexicon(
+    path: Path,
+    lexicon: Lexicon,
+    meant: Collection[str],
+    actions: Collection[str],
+    names: Collection[str],
+    texts: Iterable[str],
+) -> list[TmdError]:
+    """Return the warnings on the words of a lexicon itself.
 
     Args:
         path: The file.
         lexicon: What it says.
+        meant: The verbs that have a declared meaning.
+        actions: The names of the domain's actions.
         names: What nouns may lead to: classes, parts, substances, objects. Empty where that is not known.
+        texts: The texts of the domain's demonstrations.
     """
     source = Written(path)
+    return [*_unknown_targets(lexicon, names, source), *_unserved(lexicon, meant, _Served(texts, actions), source)]
+
+
+def _unknown_targets(lexicon: Lexicon, names: Collection[str], source: Written) -> Iterator[TmdError]:
+    """Report nouns that mean names which the domain does not have."""
     for noun, targets in sorted(lexicon.nouns.items()) if names else ():
         for target in targets:
             if target not in names and lexicon.own("nouns", noun):
                 hint = nearest(target, sorted(names))
                 message = f"'{noun}' leads to '{target}', which is no class, part, substance or object of the domain"
                 yield source.error(source.in_section("nouns", noun, target), message, hint, "unknown-target")
+
+
+def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source: Written) -> Iterator[TmdError]:
+    """Report verbs of the lexicon itself that no demonstration, no action and no row serves."""
+    verbs = {verb: verb for verb in lexicon.verbs} | dict(lexicon.phrasal) | dict(lexicon.verb_synonyms)
+    # one word of several that stand for the same verb is enough: its template serves all of them
+    shown = {
+        serving for verb, serving in verbs.items() if {verb, serving} & {*meant} or verb in served or serving in served
+    }
+    own = {verb for name in ("verbs", "phrasal", "verb_synonyms") for verb in verbs if _declares(lexicon, name, verb)}
+    for verb, serving in sorted(verbs.items()) if served.texts else ():
+        if serving not in shown and verb in own:
+            message = f"no demonstration, no action and no goal serves the verb '{verb}'"
+            if serving != verb:
+                message += f", nor '{serving}', which it stands for"
+            hint = "add a demonstration or a goal of it, let it stand for a verb that has one, or remove it"
+            yield source.error(source.of_key(verb, verb), message, hint, "unserved-verb")
+
+
+def _declares(lexicon: Lexicon, section_name: str, verb: str) -> bool:
+    """Return whether a section of the lexicon itself has a verb."""
+    place = lexicon.places.get((section_name, verb))
+    return place is not None and place.file == lexicon.source
+
+
+def texts_of(path: Path) -> Iterator[str]:
+    """Yield the texts of a corpus; lines that cannot be read are passed over."""
+    try:
+        lines = read_text(path).splitlines()
+    except TmdError:
+        return
+    for line in lines:
+        with suppress(ValueError, RecursionError):
+            value = json.loads(line)
+            if isinstance(value, dict) and isinstance(value.get("text"), str):
+                yield value["text"]
 
 
 def check_phrases(path: Path, lexicon: Lexicon) -> Iterator[TmdError]:
@@ -48,6 +114,31 @@ def check_phrases(path: Path, lexicon: Lexicon) -> Iterator[TmdError]:
                 message = f"the phrase '{row.id}' can never fire on its own example"
                 hint = "mend 'read' or the sentence; an earlier row may have taken its words"
                 yield TmdError(message, location=place, hint=hint, source=lines[place.line - 1], code="idle-phrase")
+
+
+class _Served:
+    """The verbs that texts or actions have; a stem that a word may be a form of counts."""
+
+    def __init__(self, texts: Iterable[str], actions: Collection[str]) -> None:
+        self.texts = [_WORD.findall(text.lower()) for text in texts]
+        self._actions = frozenset(actions)
+        words = {word for text in self.texts for word in text}
+        self._stems = {word: frozenset((word, *(stem for stem, _ in verb_candidates(word)))) for word in words}
+        self._all = frozenset(stem for stems in self._stems.values() for stem in stems)
+
+    def __contains__(self, verb: str) -> bool:
+        if verb in self._actions or verb.replace("_", "") in self._actions:
+            return True
+        stem, *particles = verb.split("_")
+        if not particles:
+            return stem in self._all
+        return any(self._has(text, stem, particles[0]) for text in self.texts)
+
+    def _has(self, text: list[str], stem: str, particle: str) -> bool:
+        return any(
+            stem in self._stems[word] and particle in text[place + 1 : place + 1 + _PARTICLE_WITHIN]
+            for place, word in enumerate(text)
+        )
 
 
 # The word of a pattern that a fault speaks of.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 from tmd.diagnostics import TmdError
@@ -13,6 +14,7 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.writer import format_domain, format_problem
 
 # File names with contents.
+Files: TypeAlias = Mapping[str, bytes]
 Texts: TypeAlias = Mapping[str, str]
 
 
@@ -74,6 +76,12 @@ def _tree(source: Planned) -> Texts:
     return {"tree.xml": format_tree(source)}
 
 
+def _sas(source: Planned) -> Texts:
+    from tmd.planning.fast_downward import translated
+
+    return {"output.sas": translated(source.problem), "sas_plan": _ipc(source)["plan.plan"]}
+
+
 # What is written where no format is asked for.
 DEFAULT = "adl"
 
@@ -85,21 +93,39 @@ FORMATS: Mapping[str, Callable[[Planned], Texts]] = {
     "durative": _durative,
     "plansys2": _plansys2,
     "bt": _tree,
+    "sas": _sas,
 }
 
 
-def chosen_files(source: Planned, names: Sequence[str]) -> dict[str, bytes]:
-    """Return the files of each format by path, in a directory each if there are several formats.
+@dataclass(frozen=True, slots=True)
+class ChosenFiles:
+    """Result of an export.
+
+    Attributes:
+        files: The files of each format that could be written, by path within one directory.
+        failures: Why each other one could not.
+    """
+
+    files: Mapping[str, Files]
+    failures: Mapping[str, TmdError]
+
+
+def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
+    """Return the files of each format, in a directory each if there are several; failures do not stop the others.
 
     Raises:
-        TmdError: There is no such format, or one cannot say the problem.
+        TmdError: There is no such format.
     """
     wanted = {name: _format(name) for name in names}
-    return {
-        f"{name}/{path}" if len(wanted) > 1 else path: text.encode("utf-8")
-        for name, make in wanted.items()
-        for path, text in make(source).items()
-    }
+    files: dict[str, Files] = {}
+    failures: dict[str, TmdError] = {}
+    for name, make in wanted.items():
+        prefix = f"{name}/" if len(wanted) > 1 else ""
+        try:
+            files[name] = {prefix + path: text.encode("utf-8") for path, text in make(source).items()}
+        except TmdError as error:
+            failures[name] = error
+    return ChosenFiles(files, failures)
 
 
 def _format(name: str) -> Callable[[Planned], Texts]:

@@ -14,7 +14,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import IO
 
-from tmd.diagnostics import MissingToolError, TmdError
+from tmd.diagnostics import LimitError, MissingToolError, TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
@@ -51,9 +51,10 @@ sas, *search = sys.argv[3:]
 sys.argv[3:] = ["--sas-file", f"/dev/fd/{sas}"]
 runpy.run_module("fast_downward.translate", run_name="__main__", alter_sys=True)
 print(flush=True)
-os.lseek(int(sas), 0, os.SEEK_SET)
-os.dup2(int(sas), 0)
-os.execv(search[0], search)
+if search:
+    os.lseek(int(sas), 0, os.SEEK_SET)
+    os.dup2(int(sas), 0)
+    os.execv(search[0], search)
 """
 
 _UNSOLVABLE = (10, 11)
@@ -67,6 +68,8 @@ _EXHAUSTED = "Completely explored state space"
 _AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
 # Seconds by the clock that a process may take for each of its seconds of the processor.
 _PATIENCE = 6
+# Seconds after which the translator alone is stopped: a guard, not part of the result.
+_TRANSLATION = 600.0
 
 
 def binaries() -> Path:
@@ -92,10 +95,10 @@ class _Downward(ExitStack):
         self._files = tuple(self.enter_context(file) for file in files)
         *_, self.sas, self.plan = files
 
-    def translate(self, search: str) -> PlannerProcess:
+    def translate(self, search: str | None) -> PlannerProcess:
         """Start the translator, which becomes the search with this configuration."""
         command = [sys.executable, "-S", "-c", _TRANSLATE_AND_SEARCH, *map(path_of, self._files[:2])]
-        command += [str(self.sas.fileno()), *self._command(search)]
+        command += [str(self.sas.fileno()), *(self._command(search) if search else ())]
         paths = {"PYTHONPATH": str(self._binaries)}
         return PlannerProcess(NAME, command, self._deadline, passed=self._files, environment=paths)
 
@@ -177,6 +180,26 @@ def _limit(code: int | None, process: PlannerProcess, deadline: Deadline) -> str
         return f"{deadline.processor} s"
     without_memory = code == 1 and any(text in process.log() for text in _PYTHON_WITHOUT_MEMORY)
     return deadline.memory_limit() if code in _NO_MEMORY or without_memory else None
+
+
+def translated(problem: Problem) -> str:
+    """Translate a problem to SAS+.
+
+    Raises:
+        MissingToolError: Fast Downward is not installed.
+        PlannerError: The translator refuses the problem, or died.
+        LimitError: It did not end.
+    """
+    deadline = Deadline(_TRANSLATION)
+    with _Downward(problem, deadline) as files, files.translate(None) as process:
+        code = process.wait(deadline)
+        if code is None:
+            hint = "use a smaller problem"
+            raise LimitError(f"Fast Downward's translator did not end within {_TRANSLATION:g} s", hint=hint)
+        if code:
+            raise process.failed(f"did not translate the problem: it {ending(code)}")
+        files.sas.seek(0)
+        return files.sas.read().decode()
 
 
 def path_of(file: IO[bytes]) -> str:

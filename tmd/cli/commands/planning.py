@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from tmd.cli.errors import one_line
 from tmd.cli.options import (
     PATH,
     GivenText,
@@ -151,7 +152,7 @@ _ALL = "all"
     "formats",
     multiple=True,
     metavar="A,B|all",
-    help="adl (default), ipc, strips, durative, plansys2, bt.",
+    help="adl (default), ipc, strips, durative, plansys2, bt, sas.",
 )
 @click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
 @click.option("--plan", type=PATH, metavar="FILE", help="Take this plan; otherwise one is found.")
@@ -180,7 +181,8 @@ def export(
 
     The source is a PDDL problem, an environment (with a text, a plan or a goal), or a plan of "tmd ground
     --json". A plan is executed before it is written: ends with 11 where it does not work, with 10,
-    12 or 20 where none is found. One format fills DIR, several a directory each.
+    12 or 20 where none is found. One format fills DIR, several a directory each. A format that fails does not keep the
+    others back: why is told, and the exit code is that of the first failure.
     """
     from tmd.cli.export_source import ExportRequest, NotPlannedError, planned_source
     from tmd.export.directory import check_directory, write_directory
@@ -194,10 +196,16 @@ def export(
     except NotPlannedError as none:
         emit(f"{'invalid' if none.code is ExitCode.INVALID_PLAN else 'no plan'}: {none}\n", error=True)
         return none.code
-    files = chosen_files(found, names)
-    write_directory(directory, files, overwrite=overwrite)
-    emit("".join(f"{directory / path}\n" for path in files))
-    return ExitCode.OK
+    written = chosen_files(found, names)
+    failures = written.failures
+    if not written.files:
+        raise next(iter(failures.values()))
+    flat = {path: data for files in written.files.values() for path, data in files.items()}
+    write_directory(directory, flat, overwrite=overwrite)
+    emit("".join(f"{directory / path}\n" for path in flat))
+    for name, error in failures.items():
+        emit(f"not written: {name}: {one_line(str(error))}\n", error=True)
+    return next((error.exit_code for error in failures.values()), ExitCode.OK)
 
 
 def _chosen(given: Sequence[str]) -> list[str]:
