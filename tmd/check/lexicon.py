@@ -74,14 +74,15 @@ def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source:
     shown = {
         serving for verb, serving in verbs.items() if {verb, serving} & {*meant} or verb in served or serving in served
     }
-    own = {verb for name in ("verbs", "phrasal", "verb_synonyms") for verb in verbs if _declares(lexicon, name, verb)}
+    sections = ("verb_synonyms", "phrasal", "verbs")
+    own = {verb: lexicon.places[name, verb] for name in sections for verb in verbs if _declares(lexicon, name, verb)}
     for verb, serving in sorted(verbs.items()) if served.texts else ():
         if serving not in shown and verb in own:
             message = f"no demonstration, no action and no goal serves the verb '{verb}'"
             if serving != verb:
                 message += f", nor '{serving}', which it stands for"
             hint = "add a demonstration or a goal of it, let it stand for a verb that has one, or remove it"
-            yield source.error(source.of_key(verb, verb), message, hint, "unserved-verb")
+            yield source.error(own[verb], message, hint, "unserved-verb")
 
 
 def _declares(lexicon: Lexicon, section_name: str, verb: str) -> bool:

@@ -30,6 +30,7 @@ class PhraseRecord(JsonRecord):
     definite: bool = False
     plural: bool = False
     each: bool = False
+    other: bool = False
     attributes: tuple[str, ...] = ()
     either: tuple[str, ...] = ()
 
