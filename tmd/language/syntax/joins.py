@@ -31,6 +31,7 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _exceptions(Words(tokens))
     _Particles(tokens, lexicon).run()
     _sentences(tokens)
+    _mark_early(Words(tokens))
     return tokens
 
 
@@ -203,6 +204,20 @@ def _sentences(tokens: list[Token]) -> None:
             token.otherwise = taken = otherwise  # "otherwise the door is to be shut"
         if token.kind in (K.V, K.LET):
             token.sentence, token.otherwise, otherwise, last = number, otherwise, False, token
+
+
+def _mark_early(words: Words) -> None:
+    """Mark a later verb with "first" in its clause: "put the cup in the crate, but wash it first"."""
+    deeds = [at for at, token in enumerate(words.tokens) if token.kind in (K.V, K.LET)]
+    for at in deeds[1:]:
+        end = words.first(at + 1, "BREAK | V | LET")
+        then = any(words.among(i, "then_words") for i in range(end, words.first(end, "STOP")))
+        joint = words.back(at)
+        contrary = words.among(joint, "contrary_joints")
+        behind = words.among(end - 1, "beforehand") and words.kind(end - 1) is K.ADV and words.kind(end) is not K.CC
+        apart = words.kind(joint) is not K.CC or contrary  # "and wash it first" goes on
+        ahead = contrary and any(words.among(i, "beforehand") for i in range(joint, at))
+        words.tokens[at].early = (behind and apart and not then) or ahead
 
 
 class _Particles(Words):

@@ -95,6 +95,16 @@ class TextReading:
         for draft in drafts[:-1]:
             draft.direct = last.direct
         self._settle(first, last, before, arguments)
+        if first.verb.early and before is not None:
+            self._bring_forward(drafts, before)
+
+    def _bring_forward(self, drafts: Sequence[ClauseDraft], before: ClauseDraft) -> None:
+        """Put clauses in front of the sentence before: "put the cup in the crate, but wash it first"."""
+        others = [draft for draft in self.drafts if draft not in drafts]
+        at = next(i for i, draft in enumerate(others) if draft.verb.sentence == before.verb.sentence)
+        for draft in drafts:
+            draft.host = draft.host or before
+        self.drafts = [*others[:at], *drafts, *others[at:]]
 
     def _join(self, first: ClauseDraft, last: ClauseDraft, front: list[Node], arguments: list[Node]) -> None:
         """Attach what stands before the first verb, and behind the last."""

@@ -96,6 +96,7 @@ class Token:
         participle: For a verb *be*: the stem of the participle behind it.
         sentence: The number of the sentence that a verb stands in.
         otherwise: For a verb: "otherwise" stands before it.
+        early: For a verb: "first" behind it says that it comes before what was said in front.
         heading: For a verb: what follows a colon says how it is done.
         told: For a verb: its subject is not the addressee.
         negated: For the opener of a subordinate clause: a negation stands in it.
@@ -115,6 +116,7 @@ class Token:
     participle: str = ""
     sentence: int = 0
     otherwise: bool = False
+    early: bool = False
     heading: bool = False
     told: bool = False
     negated: bool = False
