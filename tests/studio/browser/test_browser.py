@@ -42,12 +42,20 @@ BOIL = (
 """Boiling water in a kettle: the object that is pointed at, what is done, and what the page calls it."""
 
 
+SELDOM = """
+window.requestAnimationFrame = (draw) => setTimeout(() => draw(performance.now()), 100);
+window.cancelAnimationFrame = clearTimeout;
+"""
+"""Draws ten pictures a second: sixty, without a graphics card, keep all processors busy."""
+
+
 @contextmanager
 def visiting(browser: Browser, served: Served, width: int = 640, height: int = 640) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": width, "height": height})
     with closing(context):  # a page that stays open draws on and slows all other tests down
         page = context.new_page()
         page.set_default_timeout(WAIT)
+        page.add_init_script(SELDOM)
         page.goto(served.url)
         page.get_by_text("Welcome").wait_for()
         yield page
@@ -458,7 +466,7 @@ def test_a_page_of_another_origin_cannot_open_the_studio(table_studio: Served, b
     viser = pytest.importorskip("viser", reason="needs the extra studio")
     address = urlsplit(table_studio.url)
     server = ThreadingHTTPServer(("127.0.0.1", 0), SimpleHTTPRequestHandler)
-    Thread(target=server.serve_forever, daemon=True).start()
+    Thread(target=server.serve_forever, args=(0.01,), daemon=True).start()
     socket = f"ws://127.0.0.1:{address.port}/"
     opened = """([url, protocol]) => new Promise((done) => {
       const socket = new WebSocket(url, protocol);
