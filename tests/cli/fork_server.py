@@ -53,6 +53,7 @@ def ask(
 
 def serve(address: str) -> None:
     """Answer, until this process is killed."""
+    import gc
     import threading
     from contextlib import redirect_stderr, redirect_stdout, suppress
     from importlib import import_module
@@ -67,6 +68,7 @@ def serve(address: str) -> None:
                 with suppress(ImportError):
                     import_module(module)
         assert threading.active_count() == 1, "a process with threads cannot be forked safely"
+        gc.freeze()  # so that no garbage collection of a fork goes through all that
         server.listen(64)
         while True:
             connection, _ = server.accept()
