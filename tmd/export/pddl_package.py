@@ -39,7 +39,8 @@ def to_pddl(problem: Problem) -> PddlProblem:
     aim = replace(plain.domain, constants=plain.all_objects(), actions=(ActionSchema("aim", (), plain.goal, ()),))
     try:
         found = ProblemParser()(format_problem(replace(plain, goal=TRUE)))
-        read = DomainParser()  # to make one takes longer than to read; what it keeps of the domain is in the next one too
+        # to make a reader takes longer than to read; what it keeps of the domain is in the next one as well
+        read = DomainParser()
         domain = read(format_domain(plain.domain))
         (action,) = read(format_domain(aim)).actions
         return Theirs(found.name, domain, None, None, found.objects, found.init, action.precondition, found.metric)
