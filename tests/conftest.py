@@ -33,8 +33,6 @@ from tmd.cli import ALLOCATIONS
 from tmd.files import cache_directory
 from tmd.knowledge import digest, known, place, recall, save
 from tmd.planning.search import numba_build
-from tmd.world.corpus import Corpus
-from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -99,12 +97,14 @@ def learned(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactor
 
 def _learn(name: str, root: Path, kept: Path) -> None:
     """Learn a domain, unless another process does."""
+    from tests import bundled  # where nothing is to be learned, a process that only collects need not load all of it
+
     try:
         (root / f"{name}.begun").touch(exist_ok=False)
     except FileExistsError:
         return
     try:
-        corpus = Corpus(DomainFolder(ROOT / "domains" / name), ROOT / "problems" / name)
+        corpus = bundled.corpus(name)
         for directory in (kept, root):
             if recall(corpus, place(corpus, directory)) is None:
                 save(known(corpus, kept), corpus, place(corpus, directory))
