@@ -146,17 +146,17 @@ def test_there_are_examples() -> None:
     assert {"README.md", "cli.md"} <= {page.name for page, _, _ in examples()}
 
 
-@pytest.mark.parametrize("page", pages(), ids=lambda page: str(page.relative_to(ROOT)))
-def test_links_lead_somewhere(page: Path) -> None:
-    text = _FENCED.sub("", page.read_text(encoding="utf-8"))
+def test_links_lead_somewhere() -> None:
     broken = []
-    for target in _LINK.findall(text):
-        if re.match(r"[a-z]+:", target):
-            continue
-        name, _, anchor = target.partition("#")
-        path = (page.parent / name).resolve() if name else page
-        if not path.exists() or (anchor and anchor not in _anchors(path)):
-            broken.append(target)
+    for page in pages():
+        text = _FENCED.sub("", page.read_text(encoding="utf-8"))
+        for target in _LINK.findall(text):
+            if re.match(r"[a-z]+:", target):
+                continue
+            name, _, anchor = target.partition("#")
+            path = (page.parent / name).resolve() if name else page
+            if not path.exists() or (anchor and anchor not in _anchors(path)):
+                broken.append((page, target))
     assert not broken
 
 
@@ -166,9 +166,8 @@ def _anchors(page: Path) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
 
 
-@pytest.mark.parametrize("page", pages(), ids=lambda page: str(page.relative_to(ROOT)))
-def test_no_page_speaks_of_one_machine(page: Path) -> None:
-    assert _OF_ONE_MACHINE.findall(page.read_text(encoding="utf-8")) == []
+def test_no_page_speaks_of_one_machine() -> None:
+    assert [page for page in pages() if _OF_ONE_MACHINE.search(page.read_text(encoding="utf-8"))] == []
 
 
 def _json_values() -> Iterator[object]:

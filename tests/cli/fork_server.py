@@ -18,7 +18,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 WARM = ("ground", "--environment", "corner1", "--text", "Take the cup.")
-HEAVY = ("pybullet", "PIL.Image", "tmd.robot_trials.experiment")
+HEAVY = ("pybullet", "PIL.Image", "openai.resources.chat", "tmd.robot_trials.experiment")
 """Modules that some commands import as well, and that take long."""
 PATIENCE = 240
 """Seconds that a command may take."""
@@ -53,11 +53,13 @@ def ask(
 
 def serve(address: str) -> None:
     """Answer, until this process is killed."""
+    import gc
     import threading
     from contextlib import redirect_stderr, redirect_stdout, suppress
     from importlib import import_module
 
     from tmd.cli.program import run
+    from tmd.planning.__main__ import main as load_searches
 
     with socket.socket(socket.AF_UNIX) as server:
         server.bind(address)
@@ -66,7 +68,9 @@ def serve(address: str) -> None:
             for module in HEAVY:
                 with suppress(ImportError):
                     import_module(module)
+            load_searches()
         assert threading.active_count() == 1, "a process with threads cannot be forked safely"
+        gc.freeze()  # so that no garbage collection of a fork goes through all that
         server.listen(64)
         while True:
             connection, _ = server.accept()

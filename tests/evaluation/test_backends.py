@@ -34,7 +34,7 @@ SLOWLY = """
 import time
 from tmd.evaluation.runs import backends, cluster, jobs
 def slowly(config, unit, fits):
-    time.sleep(0.3)
+    time.sleep(0.15)
     return jobs.do(config, unit, fits)
 backends.do = cluster.do = slowly
 """
@@ -176,7 +176,7 @@ def workers_of(pid: int) -> list[int]:
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are listed in another way here")
 def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes], monkeypatch: pytest.MonkeyPatch) -> None:
     def slowly(config: ExperimentConfig, unit: EvaluationJob, fits: Path) -> JobOutcome:
-        time.sleep(0.3)
+        time.sleep(0.15)
         return do(config, unit, fits)
 
     def kill() -> None:

@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+import scipy  # which imports its parts when they are used
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from scipy import stats
 
 from tmd.evaluation.summary import compare, holm, intervals, sign_flip, summarise
 from tmd.records.metrics import METRICS
@@ -31,7 +31,7 @@ def test_sign_flip_by_hand() -> None:
 @given(arrays(np.float64, (2, 7), elements=st.integers(-50, 50).map(float)))
 def test_sign_flip_is_scipys_exact_test(totals: np.ndarray[Any, Any]) -> None:
     for row, p in zip(totals, sign_flip(totals), strict=True):
-        theirs = stats.permutation_test((row,), np.sum, permutation_type="samples", n_resamples=np.inf)
+        theirs = scipy.stats.permutation_test((row,), np.sum, permutation_type="samples", n_resamples=np.inf)
         assert p == pytest.approx(theirs.pvalue)
 
 
@@ -39,7 +39,7 @@ def test_sign_flip_with_many_texts_is_near_scipys() -> None:
     row = np.random.default_rng(3).normal(0.25, 1.0, 60)
     (p,) = sign_flip(row[np.newaxis])
     # with this many texts the sum is all but normal, with the differences' own squares as variance
-    assert p == pytest.approx(2 * stats.norm.sf(abs(row.sum()) / np.sqrt((row**2).sum())), abs=0.01)
+    assert p == pytest.approx(2 * scipy.stats.norm.sf(abs(row.sum()) / np.sqrt((row**2).sum())), abs=0.01)
 
 
 def test_p_is_never_0_and_one_sign_is_as_sure_as_the_draws_allow() -> None:
@@ -50,7 +50,7 @@ def test_p_is_never_0_and_one_sign_is_as_sure_as_the_draws_allow() -> None:
 def test_intervals_cover_the_mean_and_are_scipys() -> None:
     totals = np.random.default_rng(1).normal(2.0, 5.0, (1, 80))
     low, high = intervals(totals, np.ones(80))
-    theirs = stats.bootstrap((totals[0],), np.mean, method="percentile", n_resamples=9999).confidence_interval
+    theirs = scipy.stats.bootstrap((totals[0],), np.mean, method="percentile", n_resamples=9999).confidence_interval
     assert low[0] == pytest.approx(theirs.low, abs=0.15)
     assert high[0] == pytest.approx(theirs.high, abs=0.15)
     assert low[0] < totals.mean() < high[0]

@@ -7,9 +7,12 @@ from pathlib import Path
 import pytest
 
 from tests.bundled import kit
+from tmd.ground import reader_of
 from tmd.grounded import Grounded
+from tmd.inference.config import DEFAULT, preset
 from tmd.pddl.model import Formula
 from tmd.pddl.writer import format_formula
+from tmd.readers.interface import Dialogue
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -19,6 +22,13 @@ def _taught(learned: Path) -> None:
 
 def said(domain: str, environment: str, text: str) -> Grounded:
     return kit(domain).ground(text, environment)
+
+
+def understood(domain: str, environment: str, text: str) -> Dialogue:
+    """What a text is read as, without any plan."""
+    own = kit(domain)
+    knowledge, world = own._knowledge, own._corpus.world(environment)
+    return reader_of(preset(DEFAULT), knowledge.library, knowledge.goals).begin(text, world, world.task.init)
 
 
 def pddl(formula: Formula | None) -> str:

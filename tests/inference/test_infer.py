@@ -42,7 +42,13 @@ def inference_of(
     config = replace(PAPER_EXTENDED, beam=beam, trim=trim)
     energy = Energy(weights, count(library), world)
     proposers = proposers_of(config, world, library, energy)
-    return Inference(world, energy, TaskPlanners(world.task, filler or make(IN_PROCESS, world.task)), proposers, config)
+    return Inference(world, energy, TaskPlanners(world.task, filler or filler_of(world)), proposers, config)
+
+
+@cache
+def filler_of(world: World) -> Planner:
+    """The planner of an environment: its answers, which it remembers, depend on the questions alone."""
+    return make(IN_PROCESS, world.task)
 
 
 @cache
@@ -102,7 +108,7 @@ def test_constraints_hold_exactly_where_the_sequence_can_be_executed(kitchen: Co
 
 def brute_force(world: World, library: Library, weights: Weights, clauses: Sequence[Clause], trim: int) -> float:
     """The least energy over every combination of template and trimming for each clause."""
-    filler = make(IN_PROCESS, world.task)
+    filler = filler_of(world)
     scorer = Energy(weights, count(library), world)
 
     def ways(clause: Clause, state: int) -> list[tuple[float, int]]:

@@ -2,9 +2,8 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
-
-import pytest
 
 import tmd
 from tmd.language.clause import Clause
@@ -58,6 +57,13 @@ ENGLISH = frozenset(
     {part for words in sections().values() for word in words for part in (word, *word.strip("!").split("_"))}
     | set(data_text("wordnet_words.txt.gz").split())
 )
+
+
+@cache
+def tree_of(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
 _WORD = re.compile(r"[a-z][a-z_]*[a-z](?:'[a-z]+)?")
 _ALTERNATIVES = re.compile(r"(?<![\w{@<])[a-z']{2,}(?:\|[a-z']{2,})+")
 
@@ -109,10 +115,12 @@ def offences(tree: ast.AST, allowed: frozenset[str] = frozenset()) -> list[tuple
     return sorted(found)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_no_english_word_stands_in_the_program(path: Path) -> None:
-    found = offences(ast.parse(path.read_text(encoding="utf-8")), frozenset(ALLOWED_IN.get(path.name, ())))
-    lines = [f"{path.relative_to(ROOT.parent)}:{line}: {words}" for line, words in found]
+def test_no_english_word_stands_in_the_program() -> None:
+    lines = [
+        f"{path.relative_to(ROOT.parent)}:{line}: {words}"
+        for path in FILES
+        for line, words in offences(tree_of(path), frozenset(ALLOWED_IN.get(path.name, ())))
+    ]
     assert not lines, "\n".join([f"{len(lines)} places", *lines])
 
 
@@ -134,6 +142,6 @@ def sections_asked_for(tree: ast.AST) -> set[str]:
     return {arg.value for arg in constants if isinstance(arg.value, str)}
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_sections_of_words_exist(path: Path) -> None:
-    assert sections_asked_for(ast.parse(path.read_text(encoding="utf-8"))) <= sections().keys()
+def test_sections_of_words_exist() -> None:
+    for path in FILES:
+        assert sections_asked_for(tree_of(path)) <= sections().keys(), path

@@ -10,30 +10,30 @@ from tmd.language.syntax.phrases import builtin_rows
 from tmd.language.syntax.tagger import ClassRow, WordClasses, classes, decide, tag
 from tmd.language.syntax.tokens import Kind, tokenise
 
-CASES = [
-    pytest.param(row, text, id=f"{row.id}-{name}")
-    for row in classes().rows
-    for name, text in (("example", row.entry["example"]), ("paraphrase", row.entry["paraphrase"]))
-]
 ROW = (
     "tables: {base: words}\n\nrows:\n  - id: one\n    table: base\n    class: N\n    when: left=DET\n    reason: so\n"
     "    example: Take the *cup*.\n    paraphrase: Wash a *plate*.\n"
 )
 
 
-@pytest.mark.parametrize(("row", "text"), CASES)
-def test_the_row_decides_the_words_between_asterisks(row: ClassRow, text: str) -> None:
+@pytest.mark.parametrize("name", ["example", "paraphrase"])
+def test_each_row_decides_the_words_between_asterisks(name: str) -> None:
+    for row in classes().rows:
+        decides(row, row.entry[name])
+
+
+def decides(row: ClassRow, text: str) -> None:
     before, words, after = text.split("*")
     lexicon = Lexicon(kinds=frozenset({"safe", "crate", "trap"}))
     trace: list[str] = []
     tokens = tag(tokenise(before + words + after), lexicon, trace)
     if row.entry["table"] in ("first", "runs", "things"):  # they stand before decisions
-        assert row.id in trace
+        assert row.id in trace, text
     else:
-        assert (len(before), row.id) in {(token.span.start, row.id) for token, row in decide(tokens, lexicon)}
+        assert (len(before), row.id) in {(token.span.start, row.id) for token, row in decide(tokens, lexicon)}, text
     token = next(token for token in tokens if token.span.start == len(before))
-    assert token.kind is row.kind
-    assert token.span.end == len(before) + len(words)
+    assert token.kind is row.kind, (row.id, text)
+    assert token.span.end == len(before) + len(words), (row.id, text)
 
 
 def test_no_row_has_the_id_of_a_phrase_or_says_its_example_twice() -> None:

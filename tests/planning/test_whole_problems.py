@@ -9,6 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -26,7 +27,8 @@ from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Solved, Unreachable
 from tmd.planning.up_planners import EngineSpec, solve_with_engine
 
-pytest.importorskip("up_fast_downward", reason="Fast Downward is not installed")
+if find_spec("up_fast_downward") is None:
+    pytest.skip("Fast Downward is not installed", allow_module_level=True)
 
 ALIKE = """
 (define (domain shelves)

@@ -261,7 +261,8 @@ def cases(tmp_path: Path) -> Path:
 def test_a_failure_that_may_pass_does_not_end_the_other_tests(start: Start, tmp_path: Path) -> None:
     server = start(lambda body: Answer("busy", 500) if TEXT in str(body) else Answer(reply("Hand me the cup.", GOAL)))
     where = ["--llm-model", "fake", "--llm-url", server.url]
-    ended = run_tmd(["test", "--cases", cases(tmp_path), "--reader", "llm", *where], tmp_path)
+    alone = {"XDG_CACHE_HOME": str(tmp_path)}
+    ended = run_tmd(["test", "--cases", cases(tmp_path), "--reader", "llm", *where], tmp_path, env=alone)
     assert ended.code == ExitCode.MODEL_FAILED
     assert "1 of 2 requests were not read" in ended.err
     assert any("Hand me the cup." in str(body) for body in server.bodies)
@@ -277,5 +278,6 @@ def test_a_question_has_its_exit_code_and_stands_in_the_json(start: Start, tmp_p
     assert [option["answer"] for option in record["options"]] == ["the cup", "the book"]
     assert "question: Which one? 1. the cup (taken) 2. the book;" in ended.err
     words = ["ground", "--environment", "corner1", "--domain", "02_table", "--text", TEXT, "--reader", "llm", "--ask"]
-    answer = run_tmd([*words, "--llm-model", "fake", "--llm-url", url], tmp_path, stdin=b"2\n")
+    alone = {"XDG_CACHE_HOME": str(tmp_path)}
+    answer = run_tmd([*words, "--llm-model", "fake", "--llm-url", url], tmp_path, stdin=b"2\n", env=alone)
     assert answer.code == ExitCode.OK and "(at book1 shelf1 on)" in answer.out

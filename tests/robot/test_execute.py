@@ -13,7 +13,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tests import bundled
-from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
@@ -497,7 +496,7 @@ def test_what_stands_beside_the_stream_stays_dry(corpus: Corpus, demonstrations:
 @settings(max_examples=12, deadline=None)
 def test_what_could_not_be_done_is_only_done_after_something_changed(corpus: Corpus, data: st.DataObject) -> None:
     """Random walks: as long as the facts of a setback hold, the task without it lacks that instruction; no other."""
-    task = ground(corpus.world("kitchen4").task.problem)
+    task = corpus.world("kitchen4").task
     skills = load_skills(corpus.folder)
     state = task.init
     for _ in range(data.draw(st.integers(0, 6))):

@@ -36,9 +36,12 @@ REMEDY = re.compile(r"error: .+\n(?:.*\n){0,2}hint: \S.+\n")
         ("run", "--environment", "kitchen1", "--text", "Take the pot.", "--urdf", "/dev/zero"),
     ],
 )
-def test_a_file_without_end_is_not_read_to_its_end(tmd: Tmd, arguments: tuple[str | Path, ...]) -> None:
+def test_a_file_without_end_is_not_read_to_its_end(
+    tmd: Tmd, arguments: tuple[str | Path, ...], request: pytest.FixtureRequest
+) -> None:
     if "run" in arguments:
         pytest.importorskip("pybullet")
+        request.getfixturevalue("learned")  # the kitchen is
     before = "import os; os.dup2(os.open('/dev/zero', os.O_RDONLY), 0)"
     ended = tmd(*arguments, before=before)
     assert ended.code in (ExitCode.BAD_INPUT, ExitCode.FAULTS_FOUND)

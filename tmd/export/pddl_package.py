@@ -39,8 +39,10 @@ def to_pddl(problem: Problem) -> PddlProblem:
     aim = replace(plain.domain, constants=plain.all_objects(), actions=(ActionSchema("aim", (), plain.goal, ()),))
     try:
         found = ProblemParser()(format_problem(replace(plain, goal=TRUE)))
-        (action,) = DomainParser()(format_domain(aim)).actions
-        domain = DomainParser()(format_domain(plain.domain))
+        # to make a reader takes longer than to read; what it keeps of the domain is in the next one as well
+        read = DomainParser()
+        domain = read(format_domain(plain.domain))
+        (action,) = read(format_domain(aim)).actions
         return Theirs(found.name, domain, None, None, found.objects, found.init, action.precondition, found.metric)
     except (LarkError, PDDLError, ValueError) as error:
         raise TmdError(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -42,14 +43,26 @@ BOIL = (
 """Boiling water in a kettle: the object that is pointed at, what is done, and what the page calls it."""
 
 
+UNDRAWN = """
+for (const name of ["drawArrays", "drawArraysInstanced", "drawElements", "drawElementsInstanced"])
+  WebGL2RenderingContext.prototype[name] = () => {};
+"""
+"""Leaves the canvas empty: without a graphics card, to compile what it draws takes six seconds for each page."""
+
+
 @contextmanager
-def visiting(browser: Browser, served: Served, width: int = 640, height: int = 640) -> Iterator[Page]:
+def visiting(
+    browser: Browser, served: Served, width: int = 640, height: int = 640, *, drawn: bool = "TMD_SCREENS" in os.environ
+) -> Iterator[Page]:
+    """Open the page; the scene is drawn where somebody asks for the pictures, and in one test."""
     context = browser.new_context(viewport={"width": width, "height": height})
     with closing(context):  # a page that stays open draws on and slows all other tests down
         page = context.new_page()
         page.set_default_timeout(WAIT)
+        if not drawn:
+            page.add_init_script(UNDRAWN)
         page.goto(served.url)
-        page.get_by_text("Welcome").wait_for()
+        page.locator("[role=status]:not(:empty)").first.wait_for()  # a welcome, or what was learned just before
         yield page
 
 
@@ -134,7 +147,7 @@ def shown(page: Page) -> list[str]:
 def test_a_sentence_becomes_a_plan_and_is_stepped_through(
     kitchen_studio: Served, browser: Browser, screens: Path
 ) -> None:
-    with visiting(browser, kitchen_studio) as page:
+    with visiting(browser, kitchen_studio, drawn=True) as page:
         page.screenshot(path=screens / "01-welcome.png")
         say(page, RAMEN)
         told(page, "Planned in")
@@ -332,7 +345,7 @@ def test_by_keys_alone(table_studio: Served, browser: Browser, screens: Path) ->
         stroke(page, "1", page.locator("ol:visible > li:nth-child(1) [aria-current=step]"))
         keys.press("k")
         told(page, "Saved as shown-corner2-01")
-        page.get_by_role("alert").filter(has_text="Saved as shown-corner2-01").wait_for()
+        page.get_by_role("alert").filter(has_text="Saved as shown-corner2-01").first.wait_for()
         page.screenshot(path=screens / "13-by-keys.png")
 
 
@@ -458,7 +471,7 @@ def test_a_page_of_another_origin_cannot_open_the_studio(table_studio: Served, b
     viser = pytest.importorskip("viser", reason="needs the extra studio")
     address = urlsplit(table_studio.url)
     server = ThreadingHTTPServer(("127.0.0.1", 0), SimpleHTTPRequestHandler)
-    Thread(target=server.serve_forever, daemon=True).start()
+    Thread(target=server.serve_forever, args=(0.01,), daemon=True).start()
     socket = f"ws://127.0.0.1:{address.port}/"
     opened = """([url, protocol]) => new Promise((done) => {
       const socket = new WebSocket(url, protocol);

@@ -97,16 +97,20 @@ def ascend(
     each = ridge * features.ridge()
     theta: Floats = np.zeros(features.size)
     squares: Floats = np.full(features.size, _SMALL)
+    # there are a million weights: new arrays of that size would take longer than what is done with them
+    gradient, change = np.empty_like(theta), np.empty_like(theta)
     for done in range(rounds):
         order = random.permutation(len(data)).tolist()
         for start in range(0, len(order), _BATCH):
             if tell is not None:
                 tell((done + start / len(order)) / rounds)
             part = [data[number] for number in order[start : start + _BATCH]]
-            gradient: Floats = theta * each * (-len(part) / len(data))
+            np.multiply(theta, each, out=gradient)
+            gradient *= -len(part) / len(data)
             likelihood(features, theta, part, gradient)
-            squares += gradient**2
-            theta += rate * gradient / np.sqrt(squares)
+            squares += np.square(gradient, out=change)
+            gradient *= rate
+            theta += np.divide(gradient, np.sqrt(squares, out=change), out=change)
     return theta
 
 

@@ -196,13 +196,14 @@ class Observer:
         self, predicate: str, sensor: str, before: State, jointless: State, held: Sequence[str]
     ) -> set[GroundAtom]:
         found: set[GroundAtom] = set()
+        with_joint, without = ([a for a in state if a.predicate == predicate] for state in (before, jointless))
         for name in self._names(self._declared(predicate)):
-            has_joint = sensor == "support" or self.senses.has_joint(name)
-            usual = {a for a in (before if has_joint else jointless) if a.predicate == predicate and a.args[0] == name}
             if sensor == "support":
                 place = None if name in held else self.senses.support(name)
                 found |= {GroundAtom(predicate, (name, *place))} if place else set()
-            elif sensor == "joint":
+                continue
+            usual = {a for a in (with_joint if self.senses.has_joint(name) else without) if a.args[0] == name}
+            if sensor == "joint":
                 is_open = self.senses.is_open(name)
                 found |= usual if is_open is None else {GroundAtom(predicate, (name,))} if is_open else set()
             else:
