@@ -102,7 +102,8 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
 def _elides(clause: Clause, draft: ClauseDraft) -> bool:
     """Return whether what a clause acts on may be left out: "put on the table" as well, if nothing is called so."""
     verb, _, particle = clause.verb.partition("_")
-    placed = verb in section("placing") and particle in section("static")
+    ahead = any(part.start < phrase.place for part in draft.verb.parts for phrase in draft.direct[:1])
+    placed = verb in section("placing") and particle in section("static") and ahead
     return placed or not (draft.direct or clause.verb in section("intransitive"))
 
 

@@ -52,6 +52,7 @@ class ClauseDraft:
         mood: What is asked of it, if it says so itself.
         elliptic: Its verb was read off a state: "TV on".
         host: The clause that it belongs to, whose objects its pronouns may mean.
+        awaits: What must be done before it may be: "don't close it until you have filled it".
     """
 
     verb: Token
@@ -69,6 +70,7 @@ class ClauseDraft:
     relative: bool = False
     elliptic: bool = False
     host: ClauseDraft | None = None
+    awaits: list[ClauseDraft] = field(default_factory=list)
 
     def mentions(self) -> list[Phrase]:
         """Return every phrase in order of mention, each name once."""

@@ -202,9 +202,14 @@ class TextReading:
         """Read "after labelling it" and "before putting it away" as instructions, in their order."""
         opener, parts = next(leaves(node)).text, trees(node.children, "part")
         places = [i for i, d in enumerate(self.drafts) if d is draft]  # a clause of a condition is not a step
-        if opener not in pairs("order_words") or not parts or not places or not all(map(_is_deed, parts)):
+        awaited = opener in section("awaiting") and not places
+        known = awaited or (opener in pairs("order_words") and places)
+        if not (known and parts and all(_is_deed(part, done=awaited) for part in parts)):
             return False
         events = self._said(node)
+        if awaited:
+            draft.awaits += events
+            return True
         if not section("no_steps").isdisjoint(event.verb.stem for event in events):
             return False
         at = places[0] + (pairs("order_words")[opener] == _LATER)
@@ -263,10 +268,17 @@ class TextReading:
             if not own and draft is not None and self._excepted(draft, part):
                 continue
             found = saying.clauses(self._attach) if own else [self._contrasted(draft, part.children)] if draft else []
-            for item in found:
+            for item in filter(lambda item: not self._awaited(item), found):
                 item.mood, item.spans = Mood.AVOID, spans([node])
                 item.verb.form = IMPLIED if not deed and draft is not None else item.verb.form
                 self.forbidden.append((before, item))
+
+    def _awaited(self, draft: ClauseDraft) -> bool:
+        """Read "don't close it until you have filled it" as to fill it and then to close it."""
+        self.drafts += [*draft.awaits, draft] if draft.awaits else []
+        for event in draft.awaits:
+            event.host = draft
+        return bool(draft.awaits)
 
     def _excepted(self, draft: ClauseDraft, part: Tree[Leaf]) -> bool:
         """Read "the cups, but not the one on the shelf" as an exception, and "the red cups, but not the cup there"."""
@@ -507,13 +519,17 @@ def _treat(draft: ClauseDraft) -> None:
         draft.landmarks, draft.relations = [], []
 
 
-def _is_deed(part: Tree[Leaf]) -> bool:
-    """Return whether the addressee is the subject of a part: "after taking it out", "before you take it out"."""
-    verb = next((t for t in leaves(part) if t.kind in (Kind.V, Kind.ING, Kind.FINITE)), None)
+def _is_deed(part: Tree[Leaf], *, done: bool) -> bool:
+    """Return whether the addressee is the subject of a part: "after taking it out", "before you take it out".
+
+    If ``done``, also "until you have taken it out".
+    """
+    kinds = (Kind.V, Kind.ING, Kind.FINITE, *([Kind.PARTICIPLE] if done else []))
+    verb = next((t for t in leaves(part) if t.kind in kinds), None)
     if verb is None or verb.form == "ing":
         return verb is not None
     saying = Saying(part)
-    subject = [t.text for n in saying.subject for t in leaves(n)]
+    subject = [t.text.partition("'")[0] for n in saying.subject for t in leaves(n)]
     return subject == [first_of("addressee")] and bool(saying.verbs) and saying.complement
 
 
