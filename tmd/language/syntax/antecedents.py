@@ -7,11 +7,11 @@ clauses. The reader that knows the environment picks from the list.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from tmd.language.clause import BE, PERSONS, TO, Clause, Condition, Mood, Relation
+from tmd.language.clause import BE, OF, PERSONS, TO, Clause, Condition, Mood, Relation
 from tmd.language.lexicon.lexicon import pairs, section, sections_of
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
@@ -96,7 +96,13 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
             ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
         if ranked:
             antecedents[pronoun], together[pronoun] = ranked, count
-    return replace(clause, antecedents=antecedents, together=together)
+    return replace(clause, antecedents=antecedents, together=together, relations=_without_kinds(clause, antecedents))
+
+
+def _without_kinds(clause: Clause, antecedents: Mapping[str, Sequence[str]]) -> tuple[Relation, ...]:
+    """Return the relations without what *one* is one of: "of the two pots, wash the one on the bench"."""
+    ones = {name: antecedents[name][:1] for name in antecedents if is_one(name)}
+    return tuple(r for r in clause.relations if r.relation != OF or r.target not in ones.get(r.source or "", ()))
 
 
 def _elides(clause: Clause, draft: ClauseDraft) -> bool:
