@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 from tmd.language.clause import TO, Span
 from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
@@ -449,6 +449,8 @@ class Bracketer(ClauseEnds):
         """Take back what the speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
         begin = self.peek(at, _GAP)
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
+        if thing and (end := self._correct_object(at, begin)):
+            return end
         start = len(self.out) - (self._last() is K.SEP)
         while start and (
             self.out[start - 1].kind in LINKS | {K.SEP} or self.out[start - 1].text in section("none_words")
@@ -466,6 +468,21 @@ class Bracketer(ClauseEnds):
         if not (place or thing):
             self._mention(taken, CORRECTED)
         return begin
+
+    def _correct_object(self, at: int, begin: int) -> int:
+        """Put a thing in the place of what the sentence before acts on: "rope in the shed. No wait, the hose."
+
+        Returns:
+            Where reading goes on; 0 where that sentence acts on nothing.
+        """
+        start = max((i for i, t in enumerate(self.out) if t.kind is K.V), default=len(self.out)) + 1
+        end = start + sum(1 for _ in takewhile(lambda token: token.kind in NP, self.out[start:]))
+        behind = self.past(begin, "NP+")
+        if end == start or self.tokens[at - 1].text[:1] not in ".!;" or not self.follows(behind, "BREAK"):
+            return 0
+        self.dropped += noted([*self.out[start:end], self.tokens[at]], CORRECTED)
+        self.out[start:end] = self.tokens[begin:behind]
+        return behind
 
     def _is_inverted(self, at: int) -> bool:
         """Return whether a condition begins that has its verb first: "should the door be open, shut it"."""
