@@ -344,8 +344,7 @@ def bindings_of(meant: Mapping[str, tuple[str, ...]], cube: Cube, reader: GoalRe
         recent |= dict.fromkeys(n for n in chosen if not is_constant(n)) | containers
     recent |= dict.fromkeys(a for a in mentioned if not is_constant(a))
     # "put it there", after it was taken out of something: not back in that
-    lost = (atom.args for atom in reader.world.task.names(cube.negative))
-    left = {place for _, *places in lost for place in places} - kept
+    left = {place for atom in reader.world.task.names(cube.negative) for place in atom.args[1:]} - kept
     order = dict.fromkeys(sorted((*recent, *memory.recent), key=lambda name: name in left))
     return replace(memory, bound=bound, recent=tuple(order))
 
