@@ -76,7 +76,8 @@ def _measure(directory: Path) -> None:
     timed("and once more", lambda: teacher.learn_one(saved[-1]), 1)
     timed("grounding the same text in another kitchen", lambda: teacher.ground(TEXT, corpus.world("kitchen2")))
     start = time.perf_counter()
-    teacher.retrain().wait()
+    teacher.retrain()
+    teacher.wait()
     print(f"learning everything again, in a process of its own: {time.perf_counter() - start:.1f} s")
 
 

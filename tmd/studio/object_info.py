@@ -24,7 +24,6 @@ class About:
         states: What is so now of it alone: *mug1 is hot*.
         relations: What is so now of it and another object: *mug1 is on counter1*.
         edges: What never changes between it and another object: *stove1_knob1 controls stove1_burner1*.
-        traits: What never changes about it alone: *mug1 may stand on a burner*.
     """
 
     name: str
@@ -34,7 +33,6 @@ class About:
     states: tuple[GroundAtom, ...]
     relations: tuple[GroundAtom, ...]
     edges: tuple[GroundAtom, ...]
-    traits: tuple[GroundAtom, ...]
 
 
 def about(name: str, world: World, state: Bits) -> About:
@@ -49,8 +47,7 @@ def about(name: str, world: World, state: Bits) -> About:
     require_object(name, world)
     profiles, static = world.profiles, world.task.static
     states, relations = _divided(name, world.task.names(state), world)
-    traits, edges = _divided(name, static, world)
-    traits = tuple(trait for trait in traits if not _empty(trait, world))
+    _, edges = _divided(name, static, world)
     return About(
         name,
         world.mentions.kinds.get(name, ""),
@@ -59,7 +56,6 @@ def about(name: str, world: World, state: Bits) -> About:
         states,
         relations,
         tuple(e for e in edges if e.predicate != PART_OF and e._replace(args=e.args[::-1]) not in static),
-        traits,
     )
 
 
@@ -72,14 +68,6 @@ def require_object(name: str, world: World) -> None:
     known = world.objects.types_of
     if name not in known:
         raise TmdError(f"there is no object '{name}'", hint=nearest(name, list(known), what="objects"))
-
-
-def _empty(trait: GroundAtom, world: World) -> bool:
-    """Return whether it says of a thing and itself what is so of each, such as that it belongs to itself."""
-    if len(trait.args) < 2 or len(set(trait.args)) > 1:
-        return False
-    alike = (trait._replace(args=(name,) * len(trait.args)) for name in world.profiles.objects)
-    return all(atom in world.task.static for atom in alike)
 
 
 def _divided(

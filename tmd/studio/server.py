@@ -82,6 +82,8 @@ class Server:
         visitor = Visitor(self.studio, client, self._identity(client))
         with self._lock:
             self._visitors[client.client_id] = visitor
+            if self.studio.teacher.learning:
+                visitor.learning(on=True)
         visitor.guarded(visitor.come_back)(None)
 
     def _identity(self, client: ClientHandle) -> str:
@@ -115,16 +117,16 @@ class Server:
             self.studio.drafts.leave(visitor.identity)
 
     def _follow(self) -> None:
-        """Show the progress of learning to every visitor."""
+        """Tell every visitor when learning begins and when it ends."""
         told = False
         while not self._ended.wait(_LOOK):
-            learning, training = self.studio.teacher.learning, self.studio.teacher.training
-            if learning or told:
+            learning = self.studio.teacher.learning
+            if learning != told:
+                told = learning
                 with self._lock:
                     visitors = list(self._visitors.values())
                 for visitor in visitors:
-                    visitor.learning(training.share if learning and training is not None else None)
-            told = learning
+                    visitor.learning(on=learning)
 
     def serve(self, ended: Event | None = None, tick: Callable[[], None] = lambda: None) -> None:
         """Serve until ``ended`` is set, or until the user stops it."""

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable
 from contextlib import suppress
 from datetime import datetime
 from functools import cache
-from itertools import count
 from pathlib import Path
 from threading import RLock
 
@@ -18,7 +15,6 @@ from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.demo_store import FILE, Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.environment_edit import EditedEnvironment
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.meshes import Figure
@@ -29,7 +25,6 @@ from tmd.world.environment import load_environment
 from tmd.world.world import make_world
 
 SKILLS = "skills.yaml"
-_CHANGED = re.compile(r"_changed\d+$")
 
 
 class Studio:
@@ -71,39 +66,6 @@ class Studio:
         if start is not None and start not in names:
             raise TmdError(f"there is no environment '{start}'", hint=nearest(start, names))
         self.start = start or names[0]
-
-    def changed(self, setting: Setting, change: Callable[[EditedEnvironment], object]) -> str:
-        """Make a changed environment for a visitor, and return its name; both files stay.
-
-        Raises:
-            TmdError: It cannot be changed so.
-        """
-        edited = EditedEnvironment(setting.path, self.corpus.folder)
-        change(edited)
-        with self._lock:
-            taken = {*self.corpus.environments(), *self._extra}
-            stem = _CHANGED.sub("", setting.name)
-            name = next(name for n in count(1) if (name := f"{stem}_changed{n}") not in taken)
-            self._extra[name] = edited.write(self.drafts.directory / "environments", name)
-            try:
-                self.setting(name)
-            except TmdError:
-                del self._extra[name]
-                raise
-        return name
-
-    def keep_environment(self, setting: Setting, name: str) -> str:
-        """Save an environment among those of the domain, and return its name.
-
-        Raises:
-            TmdError: There is one of that name, or it cannot be written.
-        """
-        if name in self.corpus.environments():
-            raise TmdError(f"there is an environment '{name}' already", hint="take another name")
-        with self._lock:
-            edited = EditedEnvironment(setting.path, self.corpus.folder)
-            self.corpus.take_in(edited.write(self.corpus.directory / "environments", name))
-        return name
 
     def environments(self) -> list[str]:
         """Return the names of the environments, sorted."""
