@@ -55,7 +55,7 @@ def _measure(directory: Path) -> None:
     world = corpus.world("kitchen5")
     offers = Offers(world)
     names = world.profiles.objects
-    timed(f"offers for all {len(names)} objects", lambda: [offers.of(n, world.task.init) for n in names])
+    timed(f"offers for all {len(names)} objects", lambda: [offers.of(n) for n in names])
     session = Session(corpus.world("kitchen1"), TEXT, corpus.lexicon, habits=teacher.habits)
     lines = [parse_instruction(line.strip()) for line in PLAN.split(";")]
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import suppress
-from datetime import datetime
 from functools import cache
 from pathlib import Path
 from threading import RLock
@@ -114,21 +113,18 @@ class Studio:
         self.archive.refuse(setting.world)
         return Session(setting.world, text, self.corpus.lexicon, habits=self.teacher.habits)
 
-    def save(self, session: Session, task: str, who: str, *, when: bool, goal: str | None = None) -> Demonstration:
+    def save(self, session: Session, task: str, goal: str | None = None) -> Demonstration:
         """Save a demonstration: the next text is grounded with it, and the rest is learned in the background.
 
         Args:
             session: The demonstration.
             task: What it is an example of.
-            who: The name of the person; empty where it is not recorded.
-            when: Whether the time is recorded.
             goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
         Raises:
             TmdError: It cannot be saved; nothing is written.
         """
-        time = datetime.now().astimezone().isoformat(timespec="seconds") if when else None
-        saved = self.archive.save(session, task, who=who or None, when=time, goal=goal)
+        saved = self.archive.save(session, task, goal=goal)
         self.teacher.learn_one(saved)
         self.teacher.retrain()
         return saved

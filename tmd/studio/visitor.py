@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Sequence
-from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,7 +19,7 @@ from tmd.studio.environment_view import Reel
 from tmd.studio.page import Event, PageLink, Window
 from tmd.studio.panels.context import PanelContext, Played, put
 from tmd.studio.panels.correct_panel import CorrectPanel
-from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
+from tmd.studio.panels.demonstrate_panel import DemonstratePanel
 from tmd.studio.panels.html import fragment, notice
 from tmd.studio.panels.object_panel import ObjectPanel
 from tmd.studio.panels.player_panel import PlayerPanel
@@ -305,9 +304,5 @@ class Visitor(PanelContext):
             ("Undo", "U", self.demonstrate.undo),
             ("Redo", "R", self.demonstrate.redo),
             ("Keep the demonstration: save it", "K", self.demonstrate.save),
-            *(
-                (f"Demonstrate: do what is numbered {n}", str(n), partial(self.demonstrate.do_numbered, n))
-                for n in range(1, NUMBERED + 1)
-            ),
         ):
             gui.add_command(label, hotkey=key).on_trigger(self.guarded(act))  # type: ignore[arg-type]

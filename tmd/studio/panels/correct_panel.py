@@ -162,11 +162,8 @@ class CorrectPanel:
     def _instructions(self) -> None:
         """Offer the instructions with an object; the planner may make possible those that do not apply."""
         name = chosen(self._with)
-        groups = self._visitor.studio.offers(self._visitor.setting.name)
-        state = self._visitor.setting.world.task.init
-        found = [] if name == NOTHING else groups.of(name, state, parts=True)
-        offers = sorted(offer.instruction for group in (*found, *groups.anywhere(state)) for offer in group.offers)
-        self._insertable = self._visitor.wording.by_words(offers)
+        operators = self._visitor.studio.offers(self._visitor.setting.name).of(None if name == NOTHING else name)
+        self._insertable = self._visitor.wording.by_words(operator.instruction for operator in operators)
         self._what.options = (NOTHING, *self._insertable)
 
     def _insert(self) -> None:

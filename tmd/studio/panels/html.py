@@ -11,15 +11,10 @@ from typing import NamedTuple
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import holds
 from tmd.readers.interface import Usage
-from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.object_info import About
 from tmd.view.goals import ShownGoal
 from tmd.view.markup import data, macro
 
-# Maximum number of reasons listed why instructions do not apply.
-MOST = 30
-# Maximum number of instructions named for each.
-_NAMED = 6
 _TEMPLATE = "studio.html.j2"
 
 
@@ -102,17 +97,6 @@ def changed(
 def object_facts(known: About, in_words: Callable[[GroundAtom], str]) -> str:
     """Render an object: its class, its parts, and the facts about it by kind."""
     return macro(_TEMPLATE, "object_facts", known, in_words)
-
-
-def refused(groups: Iterable[ActionGroup], in_words: Callable[[Instruction], str] = str) -> str:
-    """Render the instructions that do not apply by the reason, the reason of most of them first."""
-    reasons: dict[str, list[Instruction]] = {}
-    for group in groups:
-        for offer in group.offers:
-            if not offer.applies:
-                reasons.setdefault(offer.why, []).append(offer.instruction)
-    order = sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0]))
-    return macro(_TEMPLATE, "refused", order, MOST, _NAMED, in_words)
 
 
 def effort(usage: Usage | None) -> str:
