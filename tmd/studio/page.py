@@ -12,15 +12,14 @@ import json
 import secrets
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import asdict, dataclass
 from functools import cache
 from http import HTTPStatus
 from importlib.resources import files
 from threading import Lock
-from typing import TYPE_CHECKING
-from urllib.parse import parse_qs, urlencode
+from typing import TYPE_CHECKING, Annotated
+from urllib.parse import parse_qsl, urlencode
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, Field, ValidationError
 
 from tmd.studio.guard import response
 
@@ -42,8 +41,8 @@ EVENT = "tmdevent"
 _PATIENCE = 5.0
 # Characters of an event, or of an address, that are read.
 _LONGEST = 20_000
-# Digits of a number in an address.
-_WHOLE = 6
+# Numbers in an address are smaller.
+_MOST = 1_000_000
 
 
 def answer(_connection: ServerConnection, request: Request) -> Response | None:
@@ -78,8 +77,7 @@ def _path(request: Request) -> str:
     return request.path.partition("?")[0]
 
 
-@dataclass(frozen=True, slots=True)
-class PageLink:
+class PageLink(BaseModel, frozen=True):
     """View of a window as its address states it.
 
     Attributes:
@@ -92,32 +90,22 @@ class PageLink:
 
     environment: str = ""
     say: str = ""
-    plan: int = 1
-    step: int = 0
+    plan: Annotated[int, Field(ge=1, lt=_MOST)] = 1
+    step: Annotated[int, Field(ge=0, lt=_MOST)] = 0
     tab: str = ""
 
     def query(self) -> str:
         """Return the address, from the question mark on."""
-        told = {name: value for name, value in asdict(self).items() if value != getattr(_NOWHERE, name)}
+        told = self.model_dump(exclude_defaults=True)
         return f"?{urlencode(told)}" if told else ""
 
 
-_NOWHERE = PageLink()
-
-
 def read_link(query: str) -> PageLink:
-    """Read an address; invalid parts are left out."""
+    """Read an address; an invalid one leads to the beginning."""
     try:
-        said = {name: values[0] for name, values in parse_qs(query.lstrip("?")[:_LONGEST]).items()}
+        return PageLink.model_validate(dict(parse_qsl(query.lstrip("?")[:_LONGEST])))
     except ValueError:
-        return _NOWHERE
-    return PageLink(
-        said.get("environment", ""),
-        said.get("say", ""),
-        _number(said, "plan", 1),
-        _number(said, "step", 0),
-        said.get("tab", ""),
-    )
+        return PageLink()
 
 
 class Event(BaseModel):
@@ -149,11 +137,6 @@ class _Stored(BaseModel):
 
     search: str = ""
     dark: bool = False
-
-
-def _number(said: Mapping[str, str], name: str, usual: int) -> int:
-    text = said.get(name, "")
-    return int(text) if text.isascii() and text.isdecimal() and len(text) <= _WHOLE else usual
 
 
 class Window:

@@ -133,15 +133,6 @@ class Studio:
         """Return the example texts of an environment."""
         return self._texts.get(name, [])
 
-    def nearest_example(self, text: str, name: str) -> str:
-        """Return the example text of an environment with most words of ``text``; empty for none."""
-        words = set(text.lower().split())
-
-        def alike(known: str) -> tuple[int, int]:
-            return len(words & set(known.lower().split())), -len(known)
-
-        return max(self.examples(name), key=alike, default="")
-
     def warm(self) -> None:
         """Ground a text, so that what is compiled and looked up once is there when the first visitor asks."""
         texts = self.examples(self.start)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +14,7 @@ from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
 from tmd.robot.monitor.listeners import Title
 from tmd.robot.sim.pose import Vector
-from tmd.studio.demonstrations.session import DemonstratedStep, Session
+from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import Event, PageLink, Window
 from tmd.studio.panels.context import PanelContext, Played, put
@@ -136,7 +136,7 @@ class Visitor(PanelContext):
         """Let the window's address say what is looked at."""
         plan, step, text = self.say.looked_at()
         tab = self._tab if self._tab != "Say" else ""
-        self.window.keep(PageLink(self.setting.name, text, plan, step, tab))
+        self.window.keep(PageLink(environment=self.setting.name, say=text, plan=plan, step=step, tab=tab))
 
     def show_tab(self, name: str) -> None:
         """Open a tab."""
@@ -284,10 +284,6 @@ class Visitor(PanelContext):
         self._learning.visible = on
         if not on:
             self.guarded(self.say.learned)(None)
-
-    def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
-        """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""
-        self.demonstrate.take(session, goal, taken)
 
     # keys
 

@@ -237,8 +237,7 @@ def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: 
         choose(page, "Instruction", "Look around until cup1 is in view")
         press(page, "Insert behind this step")
         page.locator("ol:visible > li").filter(has_text="Look around until cup1 is in view").wait_for()
-        press(page, "Done: look at it, and save it")
-        press(page, "Save (K)")
+        press(page, "Save the correction")
         told(page, "Saved as shown-kitchen1-01")
         record = json.loads(corpus.read_text().splitlines()[-1])
         assert record["proposed"] == before

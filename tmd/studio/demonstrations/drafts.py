@@ -78,7 +78,6 @@ class Draft(_Kept):
         text: The text that is demonstrated.
         instructions: The instructions carried out so far.
         marks: The steps whose clause the person chose: the step's number, from 1, and the clause's, from 0.
-        proposed: The plan that is corrected, if one is.
     """
 
     SUFFIX = ".json"
@@ -87,7 +86,6 @@ class Draft(_Kept):
     text: str
     instructions: tuple[_Line, ...]
     marks: tuple[tuple[int, int], ...]
-    proposed: tuple[_Step, ...] | None
 
     @staticmethod
     def of(session: Session, task: str) -> Draft:
@@ -99,7 +97,6 @@ class Draft(_Kept):
             text=session.text,
             instructions=tuple(map(str, session.instructions)),
             marks=tuple(session.pins.items()),
-            proposed=None if session.proposed is None else _pairs(session.proposed),
         )
 
     def resume(self, world: World, lexicon: Lexicon | None = None, habits: Habits = NO_HABITS) -> Session:
@@ -114,7 +111,6 @@ class Draft(_Kept):
             lexicon,
             instructions=map(parse_instruction, self.instructions),
             pins=dict(self.marks),
-            proposed=None if self.proposed is None else _steps(self.proposed),
             habits=habits,
         )
 
@@ -262,15 +258,12 @@ class Drafts:
 
 def _set_aside(file: Path, error: Exception) -> str:
     """Rename a damaged draft, and return a message about it."""
-    number = 1
-    while (aside := file.with_name(f"{file.name}.damaged-{number}")).exists():
-        number += 1
+    aside = file.with_name(f"{file.name}.damaged-{secrets.token_hex(4)}")
     reason = f"the draft of '{file.name.partition('.')[0]}' is damaged ({' '.join(str(error).split())[:200]})"
-    try:
+    with suppress(OSError):
         file.replace(aside)
-    except OSError:
-        return f"{reason}, and {file} cannot be moved"
-    return f"{reason}; it is kept as {aside}"
+        return f"{reason}; it is kept as {aside}"
+    return f"{reason}, and {file} cannot be moved"
 
 
 def _pairs(steps: Iterable[DemonstratedStep]) -> tuple[_Step, ...]:

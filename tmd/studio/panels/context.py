@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
-from tmd.studio.demonstrations.session import DemonstratedStep, Session
+from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel, Setting
 from tmd.studio.panels.html import fragment, notice
 from tmd.studio.studio import Studio
@@ -212,9 +212,6 @@ class PanelContext:
 
     def saved(self, demonstration: Demonstration) -> None:
         """Plan the text of a saved demonstration again, and report whether the plan uses it."""
-
-    def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
-        """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""
 
 
 def put(handle: object, value: object) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -78,38 +77,20 @@ class DemonstratePanel:
     # beginning and ending
 
     def begin(self) -> None:
-        """Begin a new demonstration of the text."""
-        visitor = self._visitor
+        """Begin a new demonstration of the text; one that was not saved is asked for."""
+        visitor, draft = self._visitor, self._draft()
 
         def go() -> None:
             self._open(visitor.studio.session(visitor.setting, self._text.value))
             visitor.tell("Point at an object, in the picture or under 'With', and choose what to do.")
 
-        self._over("Begin anew?", "Throw it away, and begin", go)
-
-    def take(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
-        """Go on with a corrected plan, and with its goal, if one was given."""
-
-        def go() -> None:
-            taken()
-            put(self._text, session.text)
-            self._open(session)
-            put(self._goal, goal)
-            self._visitor.show_tab("Demonstrate")
-            self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
-
-        self._over("Take the corrected plan instead?", "Throw it away, and take the plan", go)
-
-    def _over(self, title: str, yes: str, act: Callable[[], None]) -> None:
-        """Do what ends a demonstration that was not saved, if there is one, only if the visitor says so."""
-        draft = self._draft()
         if draft is None or not draft.instructions:
-            act()
+            go()
             return
-        count = len(draft.instructions)
+        count, said = len(draft.instructions), " ".join(draft.text.split())
         steps = f"{count} step{'' if count == 1 else 's'}"
-        said = " ".join(draft.text.split())
-        self._visitor.ask(title, f'"{said}" was shown with {steps} in {draft.environment} and is not saved.', yes, act)
+        question = f'"{said}" was shown with {steps} in {draft.environment} and is not saved.'
+        visitor.ask("Begin anew?", question, "Throw it away, and begin", go)
 
     def _open(self, session: Session) -> None:
         self._visitor.stop()
@@ -242,9 +223,8 @@ class DemonstratePanel:
             cursor = session.cursor
             visitor.watch(self._reel, cursor, self, [step.instruction for step in session.steps])
             titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
-            change = session.changes(cursor) if cursor else None
             wording = visitor.wording
-            gains = changed(change.added, change.removed, wording.fact) if change else []
+            gains = changed(*self._reel.changes(cursor), wording.fact)
             lines = [
                 StepLine(step.instruction, f"clause {step.clause + 1}" + (", marked" if step.marked else ""))
                 for step in session.steps

@@ -43,9 +43,7 @@ class ObjectPanel:
             self._facts.content = fragment(hint + facts)
             return
         put(self._which, name)
-        now = reel.facts(step)
-        before = reel.facts(step - 1) if step else now
-        came, went = (sorted(a for a in more if name in a.args) for more in (now - before, before - now))
+        came, went = ([atom for atom in more if name in atom.args] for more in reel.changes(step))
         lines = "".join(f"<li>{line}</li>" for line in changed(came, went, said))
         news = f"<h4>Changed by the last step</h4><ul>{lines}</ul>" if lines else ""
         names = (name, *(part for _, part in world.profiles.parts.get(name, ())))

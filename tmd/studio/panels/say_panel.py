@@ -6,6 +6,7 @@ import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from functools import partial
 from html import escape
 from typing import TYPE_CHECKING
@@ -158,7 +159,7 @@ class SayPanel:
     def _plan(self, request: Request, link: PageLink | None = None) -> None:
         """Ground a request in the background, and show the plan that ``link`` names, the best one by default."""
         visitor = self._visitor
-        self._waiting = asked = link or PageLink(visitor.setting.name, request.text)
+        self._waiting = asked = link or PageLink(environment=visitor.setting.name, say=request.text)
         self._button.disabled = request.reader is not None
         if request.reader is None:
             visitor.tell("Planning …")
@@ -278,8 +279,8 @@ class SayPanel:
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
             return
-        example = visitor.studio.nearest_example(parsed.text, visitor.setting.name)
-        tried = f"try: {' '.join(example.split())}" if example else None
+        example = get_close_matches(parsed.text, visitor.studio.examples(visitor.setting.name), n=1, cutoff=0)
+        tried = f"try: {' '.join(example[0].split())}" if example else None
         if grounded.refused is not None:
             clause, refused = grounded.refused
             shown = "show it under Demonstrate" if refused.kind is RefusalKind.UNKNOWN_VERB else None
@@ -408,11 +409,8 @@ class SayPanel:
         if not self._reels:
             return
         reel = self._reels[self._number()]
-        gains: list[str] = []
         wording = self._visitor.wording
-        if self._step:
-            before, now = reel.facts(self._step - 1), reel.facts(self._step)
-            gains = changed(sorted(now - before), sorted(before - now), wording.fact)
+        gains = changed(*reel.changes(self._step), wording.fact)
         lines = [
             StepLine(s.instruction, f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
             for s in self._listed()
