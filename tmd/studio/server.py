@@ -62,8 +62,7 @@ class Server:
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         self.studio = studio
         self.token = kept_token(studio.drafts.directory)
-        guard = Guard(host, self.token)
-        guard.listen(port)
+        guard = Guard(host, port, self.token)
         self._lock = Lock()
         self._visitors: dict[int, Visitor] = {}
         with redirect_stdout(StringIO()), guarding(guard, page.answer, page.with_script):  # it greets in its own way

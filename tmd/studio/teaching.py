@@ -12,6 +12,7 @@ import os
 import threading
 from contextlib import suppress
 from dataclasses import replace
+from functools import lru_cache, partial
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 
@@ -19,7 +20,7 @@ from tmd.diagnostics import TmdError
 from tmd.ground import Ask, ground
 from tmd.grounded import Grounded
 from tmd.knowledge import Knowledge, digest, known
-from tmd.library.library import Library, learn, teach
+from tmd.library.library import learn
 from tmd.readers.interface import Reader
 from tmd.readers.llm.client import URL, ModelSettings
 from tmd.readers.llm.reader import llm_reader
@@ -70,7 +71,6 @@ class Teacher:
         self._root = root
         self._digest = digest(corpus)
         self.knowledge = known(corpus, root)
-        self._learned_from = tuple(corpus.demonstrations())
         self.habits = Habits.of(self.knowledge.library)
         self._guard = threading.RLock()
         self.learning = False
@@ -78,7 +78,7 @@ class Teacher:
         self._thread: threading.Thread | None = None
         self._process: BaseProcess | None = None
         self._closed = False
-        self._readers: dict[tuple[ModelSettings, bool], Reader] = {}
+        self._readers = lru_cache(maxsize=_READERS)(partial(llm_reader, corpus))
 
     def learn_one(self, demonstration: Demonstration | None = None) -> None:
         """Take up the demonstrations as the files have them now, among them one that was just saved.
@@ -95,13 +95,13 @@ class Teacher:
         with self._guard:
             made_from = digest(self.corpus)
             self.corpus.reread()
-            found = tuple(self.corpus.demonstrations())
+            found = self.corpus.demonstrations()
             if demonstration is not None and demonstration not in found:
                 raise TmdError(f"'{demonstration.id}' is not among the demonstrations", hint="save it first")
-            library = self._library(found)
+            library = learn(found, self.corpus.world, self.corpus.lexicon)
             self.habits = Habits.of(library)
             self.knowledge = replace(self.knowledge, library=library)
-            self._learned_from, self._digest = found, made_from
+            self._digest = made_from
 
     def retrain(self) -> None:
         """Learn everything from all demonstrations, in the background, as ``tmd ground`` does.
@@ -175,12 +175,7 @@ class Teacher:
         # a visitor may name any server: the key goes only to the one that the environment variable names
         trusted = url in ("", os.environ.get(URL, "").strip())
         settings = ModelSettings(model or None, url or None, key=None if trusted else _NO_KEY)
-        with self._guard:
-            found = self._readers.pop((settings, verify), None) or llm_reader(self.corpus, settings, verify=verify)
-            self._readers[settings, verify] = found
-            if len(self._readers) > _READERS:
-                del self._readers[next(iter(self._readers))]
-            return found
+        return self._readers(settings, verify=verify)
 
     def ground(
         self, text: str, world: World, top: int = 1, *, reader: Reader | None = None, ask: Ask | None = None
@@ -214,12 +209,3 @@ class Teacher:
                 self._process.terminate()
         if self._thread is not None:
             self._thread.join()
-
-    def _library(self, found: tuple[Demonstration, ...]) -> Library:
-        """Return the library of ``found``, learning only new ones if none was removed and each id is unique."""
-        corpus, before = self.corpus, set(self._learned_from)
-        order = {demonstration.id: number for number, demonstration in enumerate(found)}
-        if len(order) < len(found) or not before <= set(found):
-            return learn(found, corpus.world, corpus.lexicon)
-        new = [teach(d, corpus.world(d.environment), corpus.lexicon) for d in found if d not in before]
-        return self.knowledge.library.extended(new, order)

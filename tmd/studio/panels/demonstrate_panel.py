@@ -20,7 +20,6 @@ from tmd.studio.panels.html import StepLine, changed, step_list
 if TYPE_CHECKING:
     from viser import GuiButtonHandle
 
-OWN = "(own words)"
 NONE = "(no object)"
 NOTHING = "(nothing)"
 GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
@@ -38,7 +37,6 @@ class DemonstratePanel:
         self._offered: list[GuiButtonHandle] = []
         self._more: dict[str, Instruction] = {}
         gui = visitor.client.gui
-        self._examples = visitor.dropdown("Tasks", (OWN, *self._texts()), self._take_example)
         self._text = gui.add_text("Task text", "", multiline=True, hint="What you are going to show.")
         self._begin = visitor.button("Begin", self.begin, color="blue")
         self._resume = visitor.button("Go on with what was not saved", self.resume, visible=False)
@@ -59,19 +57,9 @@ class DemonstratePanel:
             visitor.button("Throw away", self.discard)
         visitor.guarded(self._look_for_draft)(None)
 
-    def _texts(self) -> list[str]:
-        return self._visitor.studio.examples(self._visitor.setting.name)
-
-    def _take_example(self) -> None:
-        if chosen(self._examples) != OWN:
-            put(self._text, self._examples.value)
-
     def entered(self) -> None:
-        """Show the objects and examples of another environment."""
-        visitor = self._visitor
-        self._examples.options = (OWN, *self._texts())
-        put(self._examples, OWN)
-        self._object.options = (NONE, *visitor.setting.names())
+        """Show the objects of another environment."""
+        self._object.options = (NONE, *self._visitor.setting.names())
         self._close()
 
     # beginning and ending
