@@ -118,8 +118,6 @@ class Event(BaseModel):
         step: The step that was clicked, in ``list``.
         list: The panel of the step.
         clicked: Whether the picture was clicked.
-        move: The step that was dragged to the place of step ``to``.
-        to: That step.
     """
 
     number: int
@@ -128,8 +126,6 @@ class Event(BaseModel):
     step: int | None = None
     list: str = ""
     clicked: bool = False
-    move: int | None = None
-    to: int | None = None
 
 
 class _Stored(BaseModel):

@@ -126,11 +126,8 @@ class Visitor(PanelContext):
             if event.list in owners:
                 self.stop()
                 owners[event.list].goto(event.step)
-        elif event.clicked:  # in the picture; a click on an object has come before
-            if time.monotonic() - self._pointed_at > _CLICK:
-                self.select(None)
-        elif event.move is not None and event.to is not None:
-            self.correct.move(event.move, event.to)
+        elif event.clicked and time.monotonic() - self._pointed_at > _CLICK:  # a click on an object has come before
+            self.select(None)
 
     def keep_link(self) -> None:
         """Let the window's address say what is looked at."""

@@ -205,23 +205,6 @@
     }
   }, true);
 
-  // a step is dragged to the place of another
-  let dragged = null;
-  addEventListener("dragstart", (event) => {
-    const found = event.target instanceof Element && event.target.closest("[data-step][draggable=true]");
-    dragged = found ? Number(found.dataset.step) : null;
-  });
-  addEventListener("dragover", (event) => {
-    if (dragged && event.target instanceof Element && event.target.closest("[data-step]")) event.preventDefault();
-  });
-  addEventListener("drop", (event) => {
-    const found = dragged && event.target instanceof Element && event.target.closest("[data-step]");
-    if (!found) return;
-    event.preventDefault();
-    send({ move: dragged, to: Number(found.dataset.step), list: "correct" });
-    dragged = null;
-  });
-
   // after each change of the page: names for what has none, the caption over the picture, the list follows
   const NAMES = { "tabler-icon-x": "Close", "tabler-icon-search": "Search commands", "tabler-icon-moon": "Dark mode",
     "tabler-icon-sun": "Light mode", "tabler-icon-chevron-down": "Fold", "tabler-icon-chevron-up": "Unfold",

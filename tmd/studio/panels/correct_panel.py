@@ -64,7 +64,7 @@ class CorrectPanel:
         def go() -> None:
             self._open(Correction(visitor.setting.world, text, plan, visitor.studio.corpus.lexicon))
             visitor.show_tab("Correct")
-            visitor.tell("The plan is under Correct: click on a step, drag it, delete it, or put another behind it.")
+            visitor.tell("The plan is under Correct: click on a step, move it, delete it, or put another behind it.")
 
         before = self._draft()
         if before is None:
@@ -129,12 +129,6 @@ class CorrectPanel:
     def goto(self, step: int) -> None:
         """Choose a step, and look at what it leads to."""
         self._at = min(max(step, 0), len(self._going().steps))
-        self._refresh()
-
-    def move(self, step: int, to: int) -> None:
-        """Drag a step to the place of another."""
-        self._going().move(step, to)
-        self._at = to
         self._refresh()
 
     def _edit(self) -> None:
@@ -208,5 +202,5 @@ class CorrectPanel:
         faults = {broken.step: [f"✗ {broken.why}"]} if broken else {}
         state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
         in_words = visitor.wording.instruction
-        listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct", draggable=True)
+        listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct")
         self._text.content = fragment(f"<p role='status'>{state}</p>") + listed

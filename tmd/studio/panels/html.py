@@ -44,7 +44,6 @@ def step_list(
     *,
     in_words: Callable[[Instruction], str] = str,
     of: str = "",
-    draggable: bool = False,
 ) -> str:
     """Render numbered steps in words; the instruction shows on hover, and below the step that was taken last.
 
@@ -55,7 +54,6 @@ def step_list(
         faults: The faults of steps, by number.
         in_words: Puts an instruction into words.
         of: The panel whose steps they are; it is sent each click on a step.
-        draggable: Whether a step can be dragged to the place of another.
     """
     wrong = faults or {}
     steps = [
@@ -68,7 +66,7 @@ def step_list(
         }
         for number, line in enumerate(lines, start=1)
     ]
-    return fragment(macro(_TEMPLATE, "step_list", steps, current, of, draggable))
+    return fragment(macro(_TEMPLATE, "step_list", steps, current, of))
 
 
 def judgement(outcome: str, lines: Iterable[str]) -> str:
