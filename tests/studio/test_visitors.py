@@ -452,7 +452,7 @@ def test_what_has_no_picture_has_its_objects_listed_and_no_robot(
     served = Server(Studio(blocks, Teacher(blocks)), "127.0.0.1", 0)
     try:
         with Wire(served.url) as visitor:
-            visitor.shows("<h4>Relations</h4>")
+            visitor.shows(": block</h4>")
             visitor.put("Text", served.studio.examples(served.studio.start)[0])
             visitor.press("Plan it")
             visitor.told("Planned in")

@@ -7,7 +7,6 @@ import logging
 import socket
 import time
 import warnings
-from collections.abc import Callable
 from contextlib import redirect_stdout, suppress
 from importlib import import_module
 from io import StringIO
@@ -127,12 +126,11 @@ class Server:
                 for visitor in visitors:
                     visitor.learning(on=learning)
 
-    def serve(self, ended: Event | None = None, tick: Callable[[], None] = lambda: None) -> None:
+    def serve(self, ended: Event | None = None) -> None:
         """Serve until ``ended`` is set, or until the user stops it."""
         wait = ended or Event()
-        while not wait.is_set():
-            tick()
-            time.sleep(0.2)
+        while not wait.wait(0.2):  # signals are seen in between
+            pass
 
     def close(self) -> None:
         """Stop serving, and what is learned meanwhile."""

@@ -11,7 +11,7 @@ from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.studio.applicable_actions import Offers
 from tmd.studio.demonstrations.clause_spans import clean
-from tmd.studio.demonstrations.demo_store import FILE, Archive
+from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.environment_view import Setting, open_setting
@@ -19,11 +19,9 @@ from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.meshes import Figure
 from tmd.world.compile import compile_problem
 from tmd.world.corpus import Corpus
-from tmd.world.demonstration import Demonstration, read_demonstrations
+from tmd.world.demonstration import Demonstration
 from tmd.world.environment import load_environment
 from tmd.world.world import make_world
-
-SKILLS = "skills.yaml"
 
 
 class Studio:
@@ -100,10 +98,6 @@ class Studio:
         with self._lock:
             return _figure()
 
-    def executable(self, setting: Setting) -> bool:
-        """Return whether a robot could carry plans out: there are shapes, and the domain has skills."""
-        return setting.look is not None and (self.corpus.folder.path / SKILLS).is_file()
-
     def session(self, setting: Setting, text: str) -> Session:
         """Return a demonstration of a text, at its beginning.
 
@@ -146,20 +140,19 @@ def example_texts(corpus: Corpus) -> dict[str, list[str]]:
     """Return the texts of a domain by environment: always the same, in the same order.
 
     First come those of demonstrations, by task: the first of each task in the environment, so each can be carried out
-    there. Then come those of ``pNN-*.nl``, whose names end with the environment. Files that cannot be read are left
-    out.
+    there. Then come those of ``pNN-*.nl``, whose names end with the environment.
+
+    Raises:
+        TmdError: One of the files is wrong.
     """
     found: dict[str, dict[str, str]] = {name: {} for name in corpus.environments()}
-    for task in corpus.tasks():
-        with suppress(TmdError):
-            for each in read_demonstrations(corpus.directory / task / FILE):
-                if each.environment in found:
-                    found[each.environment].setdefault(task, each.text)
+    for each in corpus.demonstrations():
+        if each.environment in found:
+            found[each.environment].setdefault(each.task, each.text)
     for path in sorted(corpus.directory.glob("*.nl")):
         environment = path.stem.rpartition("-")[2]
         if environment in found:
-            with suppress(TmdError):
-                found[environment][f"~{path.stem}"] = clean(read_text(path))
+            found[environment][f"~{path.stem}"] = clean(read_text(path))
     return {name: list(dict.fromkeys(text for _, text in sorted(texts.items()))) for name, texts in found.items()}
 
 

@@ -42,11 +42,7 @@ def _study(folder: Path, directory: Path, root: Path | None) -> None:
     """Learn in a process of its own; what is learned is kept in the user's cache."""
     os.nice(_NICE)
     with suppress(TmdError):  # the studio finds the same error when it looks for the result
-        known(Corpus(DomainFolder(folder), directory), root, _silent)
-
-
-def _silent(share: float) -> None:
-    """Show no progress."""
+        known(Corpus(DomainFolder(folder), directory), root, lambda share: None)
 
 
 class Teacher:
@@ -151,7 +147,7 @@ class Teacher:
         if process.exitcode:
             why = "was stopped" if self._closed else "ended before it was done"
             raise TmdError(f"learning {why}; what was known before is used", hint="save something to learn again")
-        return known(Corpus(corpus.folder, corpus.directory), self._root, _silent)
+        return known(Corpus(corpus.folder, corpus.directory), self._root, lambda share: None)
 
     def _become(self, trained: Knowledge, made_from: str) -> None:
         """Use what was learned from the files of a digest; they may teach more by now."""

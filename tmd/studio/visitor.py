@@ -57,7 +57,7 @@ class Visitor(PanelContext):
         self._first_person = False
         self._aimed: tuple[float, Vector] = (0.0, (0.0, 0.0, 0.0))
         self.scenery: Scenery | None = None
-        with self._lock:  # who is quick waits until everything is there
+        with self.lock:  # who is quick waits until everything is there
             self._furnish()
 
     def _furnish(self) -> None:

@@ -32,12 +32,10 @@ class Break:
 
     Attributes:
         step: Its number, from 1.
-        instruction: What it is.
         why: The broken precondition in words.
     """
 
     step: int
-    instruction: Instruction
     why: str
 
 
@@ -173,7 +171,7 @@ class Correction:
             return ()
         if self._planner is None:
             self._planner = make(IN_PROCESS, self.world.task)
-        needed = what_it_needs(found.instruction, state, self.world, self._planner)
+        needed = what_it_needs(self.steps[found.step - 1].instruction, state, self.world, self._planner)
         self._put_in(found.step, needed)
         return needed
 
@@ -213,7 +211,7 @@ class Correction:
             operator = task.by_instruction.get(step.instruction)
             if operator is None or not operator.applicable(state):
                 why = self._wording.broken(step.instruction, task.decode(state)) or "it can never be done here"
-                return state, Break(number, step.instruction, why)
+                return state, Break(number, why)
             state = operator.apply(state)
         return state, None
 

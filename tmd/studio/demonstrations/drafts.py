@@ -33,8 +33,6 @@ from tmd.world.world import World
 # The environment variable that names the directory of all drafts.
 VARIABLE = "TMD_STUDIO_STATE"
 _VISITOR = re.compile(r"[A-Za-z0-9_-]{1,64}")
-# Maximum number of bytes of a draft.
-_LARGEST = 1_000_000
 
 
 def place(corpus: Corpus) -> Path:
@@ -240,8 +238,6 @@ class Drafts:
             if not file.exists():
                 return None
             try:
-                if file.stat().st_size > _LARGEST:
-                    raise ValueError("it is too large")
                 return form.from_text(file.read_text(encoding="utf-8"), file.name)
             except (OSError, ValueError, TmdError) as error:
                 raise TmdError(_set_aside(file, error)) from None

@@ -10,10 +10,12 @@ from typing import NamedTuple
 
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import holds
+from tmd.pddl.task import Bits
 from tmd.readers.interface import Usage
-from tmd.studio.object_info import About
+from tmd.studio.object_info import about
 from tmd.view.goals import ShownGoal
 from tmd.view.markup import data, macro
+from tmd.world.world import World
 
 _TEMPLATE = "studio.html.j2"
 
@@ -92,9 +94,12 @@ def changed(
     return [macro(_TEMPLATE, "changed_fact", sign, atom, in_words(atom)) for sign, atom in signed]
 
 
-def object_facts(known: About, in_words: Callable[[GroundAtom], str]) -> str:
-    """Render an object: its class, its parts, and the facts about it by kind."""
-    return macro(_TEMPLATE, "object_facts", known, in_words)
+def object_facts(name: str, world: World, state: Bits, in_words: Callable[[GroundAtom], str]) -> str:
+    """Render an object: its class, its parts, and the facts about it by heading."""
+    profiles, kind = world.profiles, world.mentions.kinds.get(name, "object")
+    parts = [part for _, part in profiles.parts.get(name, ())]
+    found = about(name, world, state)
+    return macro(_TEMPLATE, "object_facts", name, kind, profiles.wholes.get(name), parts, found, in_words)
 
 
 def effort(usage: Usage | None) -> str:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from tmd.studio.object_info import about
 from tmd.studio.panels.context import PanelContext, chosen, put
 from tmd.studio.panels.html import changed, fragment, object_facts
 
@@ -39,7 +38,7 @@ class ObjectPanel:
         if name is None:
             hint = "<p>Click on an object, or choose one: its parts and states are shown.</p>"
             listed = visitor.setting.names()[:LISTED] if visitor.setting.look is None else ()
-            facts = "".join(object_facts(about(each, world, reel.states[step]), said) for each in listed)
+            facts = "".join(object_facts(each, world, reel.states[step], said) for each in listed)
             self._facts.content = fragment(hint + facts)
             return
         put(self._which, name)
@@ -47,5 +46,5 @@ class ObjectPanel:
         lines = "".join(f"<li>{line}</li>" for line in changed(came, went, said))
         news = f"<h4>Changed by the last step</h4><ul>{lines}</ul>" if lines else ""
         names = (name, *(part for _, part in world.profiles.parts.get(name, ())))
-        facts = "".join(object_facts(about(each, world, reel.states[step]), said) for each in names)
+        facts = "".join(object_facts(each, world, reel.states[step], said) for each in names)
         self._facts.content = fragment(news + facts)

@@ -12,12 +12,10 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import RefusalKind, TmdError
-from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded, why_refused
 from tmd.inference.ranking import PlanStep
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.plan_file import format_plan
-from tmd.pddl.writer import format_problem
 from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.clause_spans import clean
@@ -48,8 +46,9 @@ if TYPE_CHECKING:
 # How many plans are ranked.
 TOP = 3
 OWN = "(own words)"
+SKILLS = "skills.yaml"
 RULES, LLM = "rules", "language model"
-_FILES = ("plan", "problem", "page")
+_FILES = ("plan", "page")
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,10 +70,6 @@ class Request:
         formulas = [option.formula for option in question.options]
         formula = self.answers.get(question.step)
         return None if formula is None or formula not in formulas else formulas.index(formula)
-
-    def answered(self, step: int, formula: Formula) -> Request:
-        """Return the request with one more answer."""
-        return replace(self, answers={**self.answers, step: formula})
 
 
 class SayPanel:
@@ -178,11 +173,11 @@ class SayPanel:
                 return
             raise
         finally:
-            with visitor.holding():
+            with visitor.lock:
                 if self._waiting is link:
                     self._button.disabled = False
         took = time.perf_counter() - begun
-        with visitor.holding():
+        with visitor.lock:
             if self._waiting is not link:
                 return  # another text was planned meanwhile
             free = visitor.owner in (None, self)
@@ -318,7 +313,8 @@ class SayPanel:
         found = bool(grounded.plans)
         for handle in (self._which, self._after):
             handle.visible = found
-        self._robot.visible = self._visitor.studio.executable(self._visitor.setting)
+        folder, look = self._visitor.studio.corpus.folder, self._visitor.setting.look
+        self._robot.visible = look is not None and (folder.path / SKILLS).is_file()
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         self._energies.content = fragment(
@@ -351,7 +347,8 @@ class SayPanel:
             self._asked_for.content = fragment(f"<p>{escape(question.text)}</p>")
             texts = option_texts(question, grounded.world.task.problem)
             for option, text in zip(question.options, texts, strict=True):
-                answer = partial(self._answer, grounded, request.answered(question.step, option.formula))
+                answered = replace(request, answers={**request.answers, question.step: option.formula})
+                answer = partial(self._answer, grounded, answered)
                 self._options.append(visitor.button(text, answer, hint=flat(option.formula)))
 
     def _number(self) -> int:
@@ -427,7 +424,7 @@ class SayPanel:
             self._visitor.open_correction(parsed.text, steps)
 
     def _download(self) -> None:
-        """Send the plan, the problem with the text's goal, or the page of `tmd view` as a file."""
+        """Send the plan, or the page of `tmd view`, as a file."""
         grounded = self._grounded
         if grounded is None or not grounded.plans:
             raise TmdError("there is no plan to download", hint="plan something first")
@@ -438,8 +435,6 @@ class SayPanel:
         name = self._visitor.setting.name
         if kind == "plan":
             file, content = f"{name}.plan", format_plan(plans[0].instructions)
-        elif kind == "problem":
-            file, content = f"{name}.pddl", format_problem(asked_problem(looked_at) or grounded.world.task.problem)
         else:
             from tmd.view.page import render
             from tmd.view.subject import text_subject
