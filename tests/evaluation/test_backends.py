@@ -425,9 +425,9 @@ def test_without_distributed_the_package_is_named(tmp_path: Path) -> None:
     [
         (("--backend", "dask"), "go together"),
         (("--scheduler", "tcp://a:1"), "go together"),
-        (("--drop-sentences", "1"), "below 1"),
-        (("--drop-sentences", "-0.1"), "below 1"),
-        (("--drop-sentences", "nan"), "below 1"),
+        (("--drop-sentences", "1"), "x<1"),
+        (("--drop-sentences", "-0.1"), "x<1"),
+        (("--drop-sentences", "nan"), "not a number"),
         (("--train-tasks", " , "), "names nothing"),
     ],
 )

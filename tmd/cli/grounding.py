@@ -29,7 +29,7 @@ from tmd.readers.interface import Question, Usage
 from tmd.records.grounding import GroundingRecord
 from tmd.view.goals import ShownGoal, in_words
 from tmd.view.grounding_record import flat, grounding_record, option_texts
-from tmd.world.corpus import Corpus
+from tmd.world.corpus import Corpus, is_environment_file
 from tmd.world.world import World
 
 
@@ -101,8 +101,7 @@ def answer(
 
 def environment_file(name: str) -> str | None:
     """Return the file of an environment as it was given; ``None`` for the name of a bundled one."""
-    path = Path(name)
-    return name if path.suffix or "/" in name or path.is_file() else None
+    return name if is_environment_file(name) else None
 
 
 def ask_on_terminal(problem: Problem, question: Question) -> int | None:

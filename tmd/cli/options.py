@@ -64,16 +64,13 @@ overwrite_option = click.option(
 )
 
 
-def environment_option(about: str) -> _Decorator:
-    """Return the required option ``--environment``; ``about`` is its help."""
-    return click.option("--environment", required=True, metavar="FILE|NAME", help=about)
-
-
-def seed_option(about: str = "Random seed.") -> _Decorator:
-    """Return the option ``--seed``."""
-    return click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help=about)
-
-
+environment_option = click.option(
+    "--environment",
+    required=True,
+    metavar="FILE|NAME",
+    help="An environment (YAML), or the name of a bundled one; to ground a text, also a PDDL problem.",
+)
+seed_option = click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
 environment_domain_option = click.option(
     "--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default."
 )
@@ -135,14 +132,39 @@ class GivenText:
         return short_enough(self.read())
 
 
-def text_options(about: str = "") -> Callable[[_Command], Callable[..., Any]]:
-    """Return a decorator that adds ``--text``, with more ``about`` it, and ``--text-file``, gathered as ``spoken``."""
-    return _gathered(
-        "spoken",
-        GivenText,
-        click.option("--text", metavar="TEXT", help=f"What was said{about}."),
-        click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input."),
-    )
+text_options = _gathered(
+    "spoken",
+    GivenText,
+    click.option("--text", metavar="TEXT", help="What was said."),
+    click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input."),
+)
+"""``--text`` and ``--text-file``, gathered as ``spoken``."""
+
+
+def name_list(*choices: str) -> Callable[[click.Context, click.Parameter, str | None], tuple[str, ...] | None]:
+    """Return a callback of an option for names with commas between them: each once, in the order given.
+
+    Args:
+        choices: The names that there are, all of which ``all`` stands for; any name if none are given.
+    """
+
+    def parse(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[str, ...] | None:
+        if value is None:
+            return None
+        found = tuple(dict.fromkeys(name.strip() for name in value.split(",") if name.strip()))
+        if not found:
+            raise click.BadParameter("it names nothing", ctx, param)
+        if found == ("all",) and choices:
+            return choices
+        for name in found if choices else ():
+            if name not in choices:
+                from tmd.pddl.reading.syntax import nearest
+
+                hint = nearest(name, choices) or f"there are {', '.join(choices)}, all"
+                raise click.BadParameter(f"there is no '{name}': {hint}", ctx, param)
+        return found
+
+    return parse
 
 
 class _Memory(click.IntRange):
@@ -152,19 +174,20 @@ class _Memory(click.IntRange):
         return int(super().convert(value, param, ctx)) * _MEGABYTE
 
 
-class _Seconds(click.FloatRange):
-    """A time that can pass: not nan, which is below no limit."""
+class NumberRange(click.FloatRange):
+    """A number: not nan, which is below no limit."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401
+        """Return the number."""
         found = float(super().convert(value, param, ctx))
-        return found if found == found else self.fail(f"'{value}' is no time.", param, ctx)
+        return found if found == found else self.fail(f"'{value}' is not a number.", param, ctx)
 
 
 limit_options = _together(
     click.option(
         "--time-limit",
         "seconds",
-        type=_Seconds(min=0, min_open=True),
+        type=NumberRange(min=0, min_open=True),
         metavar="SECONDS",
         help="Stop the planner after this time; 300 by default.",
     ),

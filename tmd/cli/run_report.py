@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Literal, Self
+from typing import Literal, Self
 
 from tmd.cli.output import emit
 from tmd.cli.plans import Orders
@@ -178,13 +179,17 @@ class RunLog:
     Every line is written at once, so that the log of a run that was killed can be read.
 
     Args:
-        path: Where it goes; it is not touched before the first line.
+        path: Where it goes.
+
+    Raises:
+        OutputError: It cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._file: IO[str] | None = None
         self._ended = False
+        with self._checked():
+            self._file = path.open("w", encoding="utf-8", buffering=1)
 
     def __enter__(self) -> Self:
         return self
@@ -192,15 +197,14 @@ class RunLog:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._file is None:
-            return
         try:
             if kind is not None and not self._ended and not isinstance(error, OutputError):
                 interrupted = issubclass(kind, KeyboardInterrupt)
                 status: Literal["interrupted", "error"] = "interrupted" if interrupted else "error"
                 self.write(EndEvent(event="end", status=status, reason=str(error) or None))
         finally:
-            self._close(error)
+            with suppress(OSError):  # what was not written was told by then
+                self._file.close()
 
     def write(self, entry: JsonRecord) -> None:
         """Write one line.
@@ -208,26 +212,16 @@ class RunLog:
         Raises:
             OutputError: It cannot be written.
         """
-        try:
-            if self._file is None:
-                self._file = self._path.open("w", encoding="utf-8", buffering=1)
+        with self._checked():
             self._file.write(entry.to_line())
-            self._ended = isinstance(entry, EndEvent)
-        except OSError as error:
-            raise self._error(error) from error
+        self._ended = isinstance(entry, EndEvent)
 
-    def _close(self, error: BaseException | None) -> None:
-        """Close the file; a full disk is reported unless something worse happened."""
-        file, self._file = self._file, None
+    @contextmanager
+    def _checked(self) -> Iterator[None]:
         try:
-            if file is not None:
-                file.close()
-        except OSError as full:
-            if not isinstance(error, Exception):
-                raise self._error(full) from full
-
-    def _error(self, error: OSError) -> OutputError:
-        return OutputError(
-            f"{self._path} cannot be written: {error.strerror or error}",
-            hint="check that the directory exists, that you may write there and that the disk has room",
-        )
+            yield
+        except OSError as error:
+            raise OutputError(
+                f"{self._path} cannot be written: {error.strerror or error}",
+                hint="check that the directory exists, that you may write there and that the disk has room",
+            ) from error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -44,7 +45,6 @@ class ViewRequest:
     environment: str | None = None
     domain: str | None = None
     problem: Path | None = None
-    strip: Path | None = None
 
     @property
     def name(self) -> str:
@@ -67,7 +67,7 @@ class ViewRequest:
         Raises:
             OptionError: One of them was given.
         """
-        for name in ("problem", "environment", "domain", "strip"):
+        for name in ("problem", "environment", "domain"):
             if name not in meant and getattr(self, name) is not None:
                 raise OptionError(f"--{name} has no meaning for {self.name}", hint="leave it out")
 
@@ -138,7 +138,7 @@ def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> Found
     except TmdError:
         first = _object(asked, text)
     if "event" in first or ("mode" in first and "steps" in first):
-        asked.only("environment", "domain", "strip")
+        asked.only("environment", "domain")
         run, done = _run(asked, first, lines)
         return _record_found(asked, run, _scene(roots, asked, run.domain, run.environment, run.environment_file), done)
     if "plans" in first:
@@ -212,22 +212,13 @@ def _ended(end: RunRecord | EndEvent, steps: tuple[RanStep, ...]) -> Ran:
 
 
 def _strip(asked: ViewRequest, recorded: str | None) -> str:
-    """Return the filmstrip of a run as a ``data:`` address: the one that was named, else what lies beside the log."""
-    path = asked.strip
-    if path is None and asked.source != STANDARD:
-        names = ([Path(recorded).name] if recorded else []) + [asked.path.with_suffix(".png").name]
-        path = next((asked.path.parent / name for name in names if (asked.path.parent / name).is_file()), None)
-    if path is None:
+    """Return the filmstrip that lies beside the log of a run as a ``data:`` address; empty for none."""
+    if asked.source == STANDARD:
         return ""
-    hint = "give what tmd run --strip wrote"
-    try:
-        found = read_bytes(path)
-    except OSError as error:
-        raise TmdError(f"{path} cannot be read: {error.strerror}", hint=hint) from None
-    if found.startswith(_PNG):
-        return f"data:image/png;base64,{b64encode(found).decode()}"
-    if asked.strip is not None:
-        raise TmdError(f"{path} is not a PNG picture", hint=hint)
+    for name in filter(None, (recorded and Path(recorded).name, asked.path.with_suffix(".png").name)):
+        with suppress(OSError):
+            found = read_bytes(asked.path.parent / name)
+            return f"data:image/png;base64,{b64encode(found).decode()}" if found.startswith(_PNG) else ""
     return ""
 
 

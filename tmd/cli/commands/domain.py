@@ -75,7 +75,7 @@ def _next_steps(domain: str, start: str, made: Scaffold) -> str:
 )
 @learned_option
 @click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
-@seed_option()
+@seed_option
 @click.pass_obj
 def learn(roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int) -> None:
     """Learn from the demonstrations of DOMAIN, and save it.
@@ -222,15 +222,13 @@ def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
     files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix == SUFFIX]
     for file in files:
         try:
-            if not format_file(file, write=not only_check):
-                continue
+            if format_file(file, write=not only_check):
+                changed += 1
+                emit(f"{file}: {'would be reformatted' if only_check else 'reformatted'}\n")
         except OutputError:
             raise
         except TmdError as error:
             failed.append(error)
-            continue
-        changed += 1
-        emit(f"{file}: {'would be reformatted' if only_check else 'reformatted'}\n")
     for fault in failed:
         emit(fault_of(fault).text(), error=True)
     emit(f"{len(files)} file(s): {changed} {'to change' if only_check else 'changed'}, {len(failed)} failed\n")

@@ -23,12 +23,6 @@ if TYPE_CHECKING:
 @click.option(
     "--domain", "domain_name", metavar="NAME|FILE", help="The domain; otherwise the environment's or problem's own."
 )
-@click.option(
-    "--strip",
-    type=PATH,
-    metavar="FILE.png",
-    help="Of a run: its filmstrip; beside the log if not.",
-)
 @click.option("--out", metavar="FILE|-", help="The page; beside what it shows by default. - is standard output.")
 @click.pass_obj
 def view(
@@ -37,7 +31,6 @@ def view(
     environment: str | None,
     problem: Path | None,
     domain_name: str | None,
-    strip: Path | None,
     out: str | None,
 ) -> ExitCode:
     """Write one HTML page: what was said, what it means here, the plan step by step, and the candidates.
@@ -50,9 +43,9 @@ def view(
     from tmd.view.page import render
     from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
-    found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, strip))
+    found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem))
     target = out or (STANDARD if source == STANDARD else str(found.beside))
-    _refuse_to_overwrite(target, source, problem, strip)
+    _refuse_to_overwrite(target, source, problem)
     page = render(found.subject)
     if target == STANDARD:
         emit(page.html)
