@@ -72,10 +72,10 @@ class Orders:
 
 def orders_of_text(answer: Answer) -> Orders:
     """Return the best plan of a text. Where two readings of the text differ there is none: the robot does not guess."""
-    told, record = tuple(remarks(answer.grounded)), answer.record()
+    told = tuple(remarks(answer.grounded))
     if answer.code:
-        return Orders((), answer.code, answer.code.name.lower(), told, record)
-    return Orders(tuple(orders_of(answer.grounded)), remarks=told, grounding=record)
+        return Orders((), answer.code, answer.code.name.lower(), told, answer.record)
+    return Orders(tuple(orders_of(answer.grounded)), remarks=told, grounding=answer.record)
 
 
 def orders_of_file(path: Path, problem: Problem) -> Orders:

@@ -239,37 +239,27 @@ def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
 
 @click.command("compile", short_help="Compile object graphs to PDDL.")
 @click.argument("what", metavar="DOMAIN|ENVIRONMENT.yaml")
-@click.option("--check", is_flag=True, help="Write nothing; end with 13 if the domain.pddl there has drifted.")
 @click.option("--output", type=PATH, metavar="FILE", help="Write the PDDL problem to this file.")
 @click.option("--goal", metavar="CONDITION", help='The goal of the PDDL problem, such as "(hot pot1)".')
 @click.pass_obj
-def compile(roots: Roots, what: str, check: bool, output: Path | None, goal: str | None) -> ExitCode:
+def compile(roots: Roots, what: str, output: Path | None, goal: str | None) -> None:
     """Compile a domain folder to its domain.pddl, or an environment to a PDDL problem.
 
     The domain.pddl is written into the folder, the problem to standard output.
     """
-    if Path(what).suffix not in (".yaml", ".yml"):
-        if output or goal:
-            raise click.UsageError("--output and --goal are for environments")
-        return _domain(roots, what, check)
-    if check:
-        raise click.UsageError("--check is for domains")
-    return _environment(roots, Path(what), output, goal)
+    if Path(what).suffix in (".yaml", ".yml"):
+        _environment(roots, Path(what), output, goal)
+        return
+    if output or goal:
+        raise click.UsageError("--output and --goal are for environments")
 
-
-def _domain(roots: Roots, name: str, check: bool) -> ExitCode:
     from tmd.world.compile import update_domain
 
-    folder = roots.sources(name)
-    target, changed = folder.path / "domain.pddl", update_domain(folder, write=not check)
-    if check:
-        emit(f"{target} {'has drifted: run `tmd compile`' if changed else 'is up to date'}\n")
-        return ExitCode.FAULTS_FOUND if changed else ExitCode.OK
-    emit(f"{target} {'written' if changed else 'was up to date'}\n")
-    return ExitCode.OK
+    folder = roots.sources(what)
+    emit(f"{folder.path / 'domain.pddl'} {'written' if update_domain(folder) else 'was up to date'}\n")
 
 
-def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None) -> ExitCode:
+def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None) -> None:
     from tmd.files import write_text
     from tmd.pddl.reading.reader import with_goal
     from tmd.pddl.writer import format_problem
@@ -283,4 +273,3 @@ def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None
         write_text(output, text)
     else:
         emit(text)
-    return ExitCode.OK

@@ -104,14 +104,7 @@ def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
 @click.option("--models", callback=name_list(), metavar="A,B", help="The rows of the table; the usual ones by default.")
 @seed_option
 @click.option("--jobs", type=click.IntRange(1), help="Processes; one for each processor by default.")
-@click.option(
-    "--backend",
-    type=click.Choice(["joblib", "dask"]),
-    default="joblib",
-    show_default=True,
-    help="Processes on this machine, or a cluster.",
-)
-@click.option("--scheduler", metavar="tcp://HOST:PORT", help="The cluster's scheduler.")
+@click.option("--scheduler", metavar="tcp://HOST:PORT", help="Work on the cluster of this dask scheduler.")
 @click.option(
     "--step",
     type=click.Choice(["all", "robot", "report"]),
@@ -129,7 +122,6 @@ def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
 def experiment(
     roots: Roots,
     /,
-    backend: str,
     scheduler: str | None,
     jobs: int | None,
     models: tuple[str, ...] | None,
@@ -142,8 +134,6 @@ def experiment(
 
     A run that was stopped goes on where it was when the same command is given again.
     """
-    if (backend == "dask") != (scheduler is not None):
-        raise click.UsageError("--backend dask and --scheduler tcp://HOST:PORT go together")
     if step == "robot" and robot == "off":
         raise click.UsageError("--step robot and --robot off do not go together")
 
@@ -156,7 +146,7 @@ def experiment(
         models=models or (),
         domains=roots.domains,
         problems=roots.problems,
-        backend=backend,
+        backend="joblib" if scheduler is None else "dask",
         scheduler=scheduler,
         jobs=jobs or max(1, int(cpu_count())),  # on a cluster, fewer than the machine has
         **settings,

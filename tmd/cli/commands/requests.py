@@ -89,8 +89,7 @@ def ground(
     asking = partial(ask_on_terminal, world.task.problem) if ask else None
     found = answer(corpus, world, environment, request, reading, ask=asking, **options)
     if as_json:
-        record = found.record()
-        emit((record.goal_only() if goal_only else record).to_value())
+        emit((found.record.goal_only() if goal_only else found.record).to_value())
     else:
         emit((whole_goal_text if goal_only else grounded_text)(found.grounded))
     for line in remarks(found.grounded, verbose=verbose):

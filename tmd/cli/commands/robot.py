@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -34,18 +33,15 @@ if TYPE_CHECKING:
     from tmd.world.folder import DomainFolder
 
 
-class _File(click.Path):
-    """A file to be written, of a kind that its suffix tells."""
+def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | None], Path | None]:
+    """Return a callback of an option for a file of a kind that its suffix tells."""
 
-    def __init__(self, *suffixes: str) -> None:
-        super().__init__(path_type=Path)
-        self._suffixes = suffixes
+    def check(ctx: click.Context, param: click.Parameter, value: Path | None) -> Path | None:
+        if value is not None and value.suffix not in suffixes:
+            raise click.BadParameter(f"'{value}' does not end in {' or '.join(suffixes)}", ctx, param)
+        return value
 
-    def convert(self, value: str | os.PathLike[str], param: click.Parameter | None, ctx: click.Context | None) -> Path:
-        path = Path(value)
-        if path.suffix not in self._suffixes:
-            self.fail(f"'{path}' does not end in {' or '.join(self._suffixes)}", param, ctx)
-        return path
+    return check
 
 
 @click.command("run", short_help="Let a simulated PR2 carry out what was said, and check every step.")
@@ -61,12 +57,15 @@ class _File(click.Path):
 @seed_option
 @robot_options
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
-@click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
-@click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
+@click.option("--video", type=PATH, callback=_ending(".mp4", ".gif"), metavar="FILE", help="Film: out.mp4 or out.gif.")
+@click.option(
+    "--strip", type=PATH, callback=_ending(".png"), metavar="FILE.png", help="A picture for each instruction."
+)
 @click.option("--log", type=PATH, metavar="FILE", help="Write every step to a JSON Lines file.")
 @click.option(
     "--trajectory",
-    type=_File(".jsonl", ".mcap"),
+    type=PATH,
+    callback=_ending(".jsonl", ".mcap"),
     metavar="FILE",
     help="Record joints, base and things: out.jsonl or out.mcap (ROS 2).",
 )
@@ -106,13 +105,14 @@ def run(
     if settings["rate"] is not None and settings["trajectory"] is None:
         raise click.UsageError("--rate is for --trajectory")
 
-    from tmd.cli.grounding import answer, environment_file
+    from tmd.cli.grounding import answer
     from tmd.cli.plans import orders_of_file, orders_of_text
     from tmd.cli.run_report import RunLog, RunReport, without_plan
     from tmd.files import check_writable
     from tmd.planning.backends import IN_PROCESS
     from tmd.robot.skills.results import SkillStatus
     from tmd.robot_trials.plan_runner import PlanRunner
+    from tmd.world.corpus import is_environment_file
 
     request = spoken.request() if spoken else None
     room, folder = roots.room(environment, domain_name)
@@ -131,7 +131,7 @@ def run(
             orders = orders_of_text(found)
         for line in orders.remarks:
             emit(line, error=True)
-        file = environment_file(environment)
+        file = environment if is_environment_file(environment) else None
         asked = runner.request(orders.orders, request, environment_file=file, grounding=orders.grounding)
         if orders.status:
             if as_json:
@@ -151,7 +151,7 @@ def run(
 @click.option("--reach", is_flag=True, help="Print a base pose for grasping every object.")
 @seed_option
 @robot_options
-@click.option("--picture", type=PATH, metavar="FILE", help="A picture of the room: out.png.")
+@click.option("--picture", type=PATH, callback=_ending(".png"), metavar="FILE", help="A picture of the room: out.png.")
 @click.option("--export", type=PATH, metavar="DIR", help="Write the room for other simulators.")
 @click.option(
     "--format", "formats", callback=name_list("urdf", "mjcf"), metavar="A,B|all", help="urdf (default), mjcf."
@@ -176,8 +176,6 @@ def scene(
     """
     if export is None and (formats or overwrite):
         raise click.UsageError("--format and --overwrite are for --export")
-    if picture is not None and picture.suffix != ".png":
-        raise click.UsageError(f"--picture: '{picture}' does not end in .png")
 
     from tmd.robot.pr2.urdf import packaged_robot
     from tmd.robot.skills.reachability_report import survey_scene
