@@ -169,7 +169,6 @@ OVERLAP = (
 TEXT = ("--text", "Take the cup.")
 WRONG = {
     "no-text": (ExitCode.USAGE, [*KITCHEN], "", r"error: give one of --text"),
-    "rate-of-nothing": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--rate", "5"], "", r"error: --rate is for --trajectory"),
     "trajectory-suffix": (
         ExitCode.USAGE,
         [*KITCHEN, *TEXT, "--trajectory", "out.bag"],

@@ -46,8 +46,6 @@ def _gathered(name: str, kind: Callable[..., object], *options: _Decorator) -> C
         @wraps(command)
         def gathering(*args: Any, **given: Any) -> Any:  # noqa: ANN401 - what the command takes and gives
             made = kind(**{option: given.pop(option) for option in names})
-            if isinstance(made, ReadingOptions):
-                made.check()
             return command(*args, **{name: made}, **given)
 
         others = len(getattr(gathering, "__click_params__", ()))
@@ -219,13 +217,17 @@ robot_options = _gathered(
 
 @dataclass(frozen=True, slots=True)
 class ReadingOptions:
-    """The options that say how requests are read; the fields are the options."""
+    """The options that say how requests are read; the fields are the options.
+
+    Raises:
+        click.UsageError: There are options for a language model without ``--reader llm``.
+        ModelError: There is no model, or no key for a server that needs one.
+    """
 
     reader: str = "rules"
     llm_model: str | None = None
     llm_url: str | None = None
     llm_cache: CacheMode = "on"
-    llm_timeout: float = 600.0
     verify: bool = False
 
     def settings(self) -> ModelSettings | None:
@@ -234,15 +236,9 @@ class ReadingOptions:
             return None
         from tmd.readers.llm.client import ModelSettings
 
-        return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache, timeout=self.llm_timeout)
+        return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache)
 
-    def check(self) -> None:
-        """Refuse options of a language model where none is asked, and settings with which none can be.
-
-        Raises:
-            click.UsageError: There are options for a language model without ``--reader llm``.
-            ModelError: There is no model, or no key for a server that needs one.
-        """
+    def __post_init__(self) -> None:
         given = [f.name for f in fields(self) if f.name != "reader" and getattr(self, f.name) != f.default]
         settings = self.settings()
         if settings is not None:
@@ -270,14 +266,6 @@ reading_options = _gathered(
         show_default=True,
         help="Use replies that were kept; 'only' never asks the server.",
     ),
-    click.option(
-        "--llm-timeout",
-        type=click.FloatRange(0.1, 86_400),
-        default=600.0,
-        show_default=True,
-        metavar="SECONDS",
-        help="How long to wait for a reply.",
-    ),
     click.option("--verify", is_flag=True, help="Ask the language model whether the plan does what was asked."),
 )
 """The options that say how a request is read, gathered as ``reading``."""
@@ -301,11 +289,6 @@ grounding_options = _gathered(
         "--beam",
         type=click.IntRange(0, _MOST),
         help=f"How many states to follow from clause to clause, {PRESETS[DEFAULT].beam} by default; 0 follows all.",
-    ),
-    click.option(
-        "--trim",
-        type=click.IntRange(0, _MOST),
-        help="How many leading instructions of a template may be dropped; any by default.",
     ),
 )
 """The options of ``tmd ground`` that say how, gathered as ``options``: arguments of ``answer``."""

@@ -58,14 +58,12 @@ class Orders:
     Attributes:
         orders: The plan.
         code: ``OK``, or what the program ends with because there is none.
-        status: ``not_grounded``, ``question`` or ``invalid_plan``; empty for a plan.
         remarks: Lines for standard error.
         grounding: What ``tmd ground --json`` prints of the text; nothing where there was none.
     """
 
     orders: tuple[Order, ...]
     code: ExitCode = ExitCode.OK
-    status: str = ""
     remarks: tuple[str, ...] = ()
     grounding: GroundingRecord | None = None
 
@@ -74,7 +72,7 @@ def orders_of_text(answer: Answer) -> Orders:
     """Return the best plan of a text. Where two readings of the text differ there is none: the robot does not guess."""
     told = tuple(remarks(answer.grounded))
     if answer.code:
-        return Orders((), answer.code, answer.code.name.lower(), told, answer.record)
+        return Orders((), answer.code, told, answer.record)
     return Orders(tuple(orders_of(answer.grounded)), remarks=told, grounding=answer.record)
 
 
@@ -89,7 +87,7 @@ def orders_of_file(path: Path, problem: Problem) -> Orders:
         raise TmdError(f"{path}: the plan has no instructions", hint="write one (name argument ...) a line")
     fault = why_invalid(problem, plan)
     if fault:
-        return Orders((), ExitCode.INVALID_PLAN, "invalid_plan", (f"invalid: {fault}\n",))
+        return Orders((), ExitCode.INVALID_PLAN, (f"invalid: {fault}\n",))
     return Orders(tuple(map(Order, plan.instructions)))
 
 

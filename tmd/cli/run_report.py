@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -32,8 +31,6 @@ from tmd.robot_trials.plan_runner import StepRecorder
 
 _FACTS = 2
 """Maximum number of facts of each kind on a line."""
-_SILENCE = 10.0
-"""Seconds of no movement after which the current search is shown."""
 
 
 class RunReport(StepRecorder):
@@ -53,8 +50,6 @@ class RunReport(StepRecorder):
         super().__init__()
         self._asked = asked
         self._journal = journal
-        self._begun = self._last_told = 0.0
-        self._title: Title | None = None
         self._as_json = as_json
         self._width = max((len(str(order.instruction)) for order in orders), default=0)
         self._origin = max((len(_origin(order)) for order in orders), default=0)
@@ -63,24 +58,13 @@ class RunReport(StepRecorder):
 
     def prepare(self, session: SimulationSession) -> tuple[Self]:
         """Report the plan when its simulation is ready; see :data:`tmd.robot.run_plan.Prepare`."""
-        session.cell.doing = self._looks_for
         self._print(f"plan: {self.heading}\n")
         self._log(PlanEvent(event="plan", **self._asked.given()))
         return (self,)
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """Log the beginning of an instruction, which the log of a killed run ends with."""
-        self._title, self._begun = title, time.monotonic()
-        self._last_told = self._begun
         self._log(BeginEvent(event="begin", number=title.number, instruction=str(title.instruction)))
-
-    def _looks_for(self, doing: str) -> None:
-        """Print a sign of life on standard error where an instruction takes long."""
-        now = time.monotonic()
-        if self._as_json or self._title is None or now - self._last_told < _SILENCE:
-            return
-        self._last_told = now
-        emit(f"       {self._title.instruction}: {now - self._begun:.0f} s, looking for {doing}\n", error=True)
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """Print and log an instruction that is over."""
@@ -115,7 +99,7 @@ class RunReport(StepRecorder):
 
 def without_plan(asked: RunRequest, orders: Orders) -> dict[str, object]:
     """Return the record of a run that has no plan."""
-    ended = {"status": orders.status, "reason": orders.remarks[-1].strip()}
+    ended = {"status": orders.code.name.lower(), "reason": orders.remarks[-1].strip()}
     nothing = {"steps": (), "repairs": 0, "seconds": 0.0}
     return RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value()
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from tmd.cli.errors import fault_of, one_line, pointed
-from tmd.cli.options import PATH, json_option, learned_option, seed_option
+from tmd.cli.options import PATH, VARIABLE, json_option, seed_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, OutputError, TmdError
 from tmd.world.roots import Roots
@@ -71,13 +70,13 @@ def _next_steps(domain: str, start: str, made: Scaffold) -> str:
     "--out",
     type=PATH,
     metavar="DIR",
-    help="Save in DIR/DOMAIN, for `tmd ground --learned DIR`; learned/ beside the demonstrations by default.",
+    envvar=VARIABLE,
+    help=f"Save in DIR/DOMAIN, for `tmd ground --learned DIR`; ${VARIABLE}, or learned/ beside the demonstrations.",
 )
-@learned_option
 @click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
 @seed_option
 @click.pass_obj
-def learn(roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int) -> None:
+def learn(roots: Roots, domain: str, out: Path | None, no_weights: bool, seed: int) -> None:
     """Learn from the demonstrations of DOMAIN, and save it.
 
     `tmd ground` uses what was saved for as long as the domain, its environments and demonstrations, and tmd itself, are
@@ -89,7 +88,7 @@ def learn(roots: Roots, domain: str, out: Path | None, learned: Path | None, no_
     if not no_weights and sys.stderr.isatty():
         emit("the weights take a while to learn; --no-weights leaves them out\n", error=True)
     corpus = roots.corpus(roots.folder(domain))
-    emit(_learned_text(corpus, learn_domain(corpus, out or learned, weights=not no_weights, seed=seed)))
+    emit(_learned_text(corpus, learn_domain(corpus, out, weights=not no_weights, seed=seed)))
 
 
 def _learned_text(corpus: Corpus, found: LearnedDomain) -> str:
@@ -138,7 +137,12 @@ def check(
     if explain is not None:
         if any((domain, strict, fix)):
             raise click.UsageError("--explain takes domains and --json only")
-        return _explain(roots, explain, paths, as_json)
+        from tmd.check.explain import explain as explained
+        from tmd.check.explain import explanation_text
+
+        told = explained(explain, [roots.corpus(roots.folder(name)) for name in paths])
+        emit(told.to_value() if as_json else explanation_text(told))
+        return ExitCode.OK
     if not paths:
         raise click.UsageError("Missing argument 'PATH...'.")
     given = roots.pddl_file(domain) if domain else None
@@ -162,15 +166,6 @@ def _print_report(report: CheckReport, *, strict: bool, as_json: bool) -> ExitCo
         emit("".join(f"{file}: fixed\n" for file in report.fixed))
         emit(f"{len(report.files)} file(s) checked: {errors} error(s), {warnings} warning(s)\n")
     return ExitCode.FAULTS_FOUND if errors or (strict and warnings) else ExitCode.OK
-
-
-def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> ExitCode:
-    """Print what is known of a verb, in English and in each of the domains."""
-    from tmd.check.explain import explain, explanation_text
-
-    found = explain(verb, [roots.corpus(roots.folder(name)) for name in names])
-    emit(found.to_value() if as_json else explanation_text(found))
-    return ExitCode.OK
 
 
 def _all_json(report: CheckReport) -> dict[str, object]:

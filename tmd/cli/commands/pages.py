@@ -45,7 +45,9 @@ def view(
 
     found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem))
     target = out or (STANDARD if source == STANDARD else str(found.beside))
-    _refuse_to_overwrite(target, source, problem)
+    for path in (source, problem):
+        if path is not None and target != STANDARD and Path(target).resolve() == Path(path).resolve():
+            raise click.UsageError(f"the page would overwrite {path}: give another --out")
     page = render(found.subject)
     if target == STANDARD:
         emit(page.html)
@@ -55,13 +57,6 @@ def view(
     for line in (*found.remarks, found.complaint(page.verdict)):
         emit(line, error=True)
     return found.ending(page.verdict)
-
-
-def _refuse_to_overwrite(target: str, *shown: str | Path | None) -> None:
-    """Refuse to write a page over a file that it shows."""
-    for path in shown:
-        if path is not None and target != "-" and Path(target).resolve() == Path(path).resolve():
-            raise click.UsageError(f"the page would overwrite {path}: give another --out")
 
 
 LOCAL = "127.0.0.1"

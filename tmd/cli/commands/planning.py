@@ -27,9 +27,7 @@ FORMATS = ("adl", "ipc", "strips", "durative", "plansys2", "bt", "sas")
 @click.argument("domain")
 @click.argument("problem", type=PATH)
 @click.option("--planner", metavar="NAME", help="auto (default), kairos, fast-downward, in-process or up:ENGINE.")
-@click.option(
-    "--optimal/--satisficing", default=False, help="Only a plan that is proven to be optimal, or any (the default)."
-)
+@click.option("--optimal", is_flag=True, help="Only a plan that is proven to be optimal.")
 @limit_options
 @click.option("--output", type=PATH, metavar="FILE", help="Write the plan to this file.")
 @json_option
@@ -122,12 +120,11 @@ def _read(roots: Roots, domain: str, name: str) -> Problem:
     Raises:
         TmdError: It is missing or wrong.
     """
-    from tmd.pddl.reading.reader import read_problem
-
     path = Path(name)
     if path.suffix not in (".yaml", ".yml") and (path.is_file() or path.suffix or len(path.parts) > 1):
-        return read_problem(path, roots.domain(domain))
+        return roots.problem(path, domain)
     from tmd.pddl.model import TRUE
+    from tmd.pddl.reading.reader import read_problem
     from tmd.world.compile import compile_problem
     from tmd.world.environment import load_environment
 

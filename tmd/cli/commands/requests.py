@@ -151,16 +151,14 @@ def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[Sent
 def _run(
     roots: Roots, tests: Sequence[SentenceTest], learned: Path | None, options: Mapping[str, Any]
 ) -> list[SentenceResult]:
-    """Run the tests, domain after domain; the results are in the order of the tests."""
+    """Run the tests, domain after domain."""
     from tmd.domain_kit import DomainKit
 
-    found: dict[int, SentenceResult] = {}
+    found: list[SentenceResult] = []
     for domain in dict.fromkeys(test.domain for test in tests):
-        own = [number for number, test in enumerate(tests) if test.domain == domain]
         kit = DomainKit(roots.corpus(roots.folder(domain)), learned)
-        results = kit.run_sentence_tests([tests[number] for number in own], **options)
-        found.update(zip(own, results, strict=True))
-    return [found[number] for number in range(len(tests))]
+        found += kit.run_sentence_tests([test for test in tests if test.domain == domain], **options)
+    return found
 
 
 def _text(results: Sequence[SentenceResult]) -> str:
@@ -179,28 +177,18 @@ def _text(results: Sequence[SentenceResult]) -> str:
                 lines.append(f"    plan: {' '.join(result.plan)}")
             lines += [f"    warning: {warning}" for warning in result.warnings]
     for kind, own in by_kind(results).items():
-        lines.append(f"{kind}: {_passed(own)} of {len(own)}")
+        lines.append(f"{kind}: {sum(result.outcome.passed for result in own)} of {len(own)}")
     lines.append(_total(results))
     return "\n".join(lines) + "\n"
 
 
-def _passed(results: Sequence[SentenceResult]) -> int:
-    return sum(result.outcome.passed for result in results)
-
-
 def _total(results: Sequence[SentenceResult]) -> str:
-    """Return the counts on one line, with the effort of the language model where one was asked."""
+    """Return the counts on one line."""
     from tmd.evaluation.sentence_tests import summary
 
     counts = summary(results)
-    line = (
+    return (
         f"{counts.right} of {counts.n - counts.impossible} right, "
         f"{counts.wrong} wrong ({counts.wrong_warned} with a warning), {counts.refused} refused; "
         f"{counts.impossible_refused} of {counts.impossible} impossible ones refused"
-    )
-    if "seconds" not in counts.model_fields_set:
-        return line
-    return (
-        f"{line}; {counts.prompt_tokens} + {counts.completion_tokens} tokens, {counts.seconds:.1f} s, "
-        f"{counts.cached} cached, {counts.corrections} corrected"
     )

@@ -58,9 +58,7 @@ def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | 
 @robot_options
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
 @click.option("--video", type=PATH, callback=_ending(".mp4", ".gif"), metavar="FILE", help="Film: out.mp4 or out.gif.")
-@click.option(
-    "--strip", type=PATH, callback=_ending(".png"), metavar="FILE.png", help="A picture for each instruction."
-)
+@click.option("--strip", type=PATH, callback=_ending(".png"), metavar="FILE", help="A picture for each instruction.")
 @click.option("--log", type=PATH, metavar="FILE", help="Write every step to a JSON Lines file.")
 @click.option(
     "--trajectory",
@@ -68,12 +66,6 @@ def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | 
     callback=_ending(".jsonl", ".mcap"),
     metavar="FILE",
     help="Record joints, base and things: out.jsonl or out.mcap (ROS 2).",
-)
-@click.option(
-    "--rate",
-    type=click.FloatRange(0.1, 240.0),
-    metavar="HZ",
-    help="Samples a second of simulated time; 10 by default.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the whole record as JSON.")
 @click.pass_obj
@@ -102,8 +94,6 @@ def run(
     """
     if sum(given is not None for given in (spoken.text, spoken.text_file, plan_file)) != 1:
         raise click.UsageError("give one of --text, --text-file and --plan")
-    if settings["rate"] is not None and settings["trajectory"] is None:
-        raise click.UsageError("--rate is for --trajectory")
 
     from tmd.cli.grounding import answer
     from tmd.cli.plans import orders_of_file, orders_of_text
@@ -133,7 +123,7 @@ def run(
             emit(line, error=True)
         file = environment if is_environment_file(environment) else None
         asked = runner.request(orders.orders, request, environment_file=file, grounding=orders.grounding)
-        if orders.status:
+        if orders.code:
             if as_json:
                 emit(without_plan(asked, orders))
             return orders.code
