@@ -229,9 +229,3 @@ def test_a_page_that_cannot_be_written_leaves_the_old_one(here: Tmd, tmp_path: P
         ended = here("view", "grounded.json", "--out", out)
         assert ended.code == ExitCode.CANNOT_WRITE and ended.err.count("error: ") == 1
     assert not list((tmp_path / "dir").iterdir())
-
-
-def test_too_long_a_plan_is_refused(here: Tmd, tmp_path: Path) -> None:
-    (tmp_path / "long.plan").write_text("(moveto book1)\n" * 10_001)
-    ended = here("view", "long.plan", *WHERE)
-    assert ended.code == ExitCode.BAD_INPUT and "10,000" in ended.err

@@ -27,8 +27,6 @@ from tmd.world.world import World
 
 # The lines of a file that are not blank, with their numbers.
 Lines = Sequence[tuple[int, str]]
-# Plans with more steps are refused: such a page cannot be read.
-MAX_STEPS = 10_000
 _KINDS = "give what tmd ground --json or tmd run --json printed, a log of tmd run, or a plan file"
 
 
@@ -56,11 +54,6 @@ class ViewRequest:
         """The file."""
         return Path(self.source)
 
-    @property
-    def beside(self) -> Path:
-        """The default file of the page."""
-        return self.path.with_suffix(".html")
-
     def only(self, *meant: str) -> None:
         """Refuse options other than ``meant``, for which a kind of file has no use.
 
@@ -78,14 +71,12 @@ class FoundSubject:
 
     Attributes:
         subject: The subject of the page.
-        beside: The default file of the page.
         remarks: Lines for standard error.
         locations: Where the steps of a plan file stand.
         of_text: Whether there is a text that should have a plan.
     """
 
     subject: Subject
-    beside: Path
     remarks: tuple[str, ...] = ()
     locations: tuple[Location, ...] = ()
     of_text: bool = False
@@ -123,13 +114,7 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
     if not lines:
         raise TmdError(f"{asked.name} is empty", hint=_KINDS)
     of_json = lines[0][1].lstrip().startswith(("{", "["))
-    found = _of_json(roots, asked, text, lines) if of_json else _plan_found(roots, asked, text)
-    if len(found.subject.steps) > MAX_STEPS:
-        raise TmdError(
-            f"{asked.name}: the plan has {len(found.subject.steps):,} steps; at most {MAX_STEPS:,} are shown",
-            hint="cut the plan",
-        )
-    return found
+    return _of_json(roots, asked, text, lines) if of_json else _plan_found(roots, asked, text)
 
 
 def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> FoundSubject:
@@ -193,7 +178,7 @@ def _record_found(
         title = title_of("A plan that the robot carried out" if told.text is None else told.text, world.name)
         steps = tuple(PlannedStep(order.instruction) for order in told.plan)
         subject = Subject(title, world.task.problem, steps, said, ran=done, strip=strip, made=rows)
-    return FoundSubject(subject, asked.beside, of_text=subject.said is not None)
+    return FoundSubject(subject, of_text=subject.said is not None)
 
 
 def _run(asked: ViewRequest, first: Mapping[str, Any], lines: Lines) -> tuple[RunRequest, Ran]:
@@ -257,4 +242,4 @@ def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     steps = tuple(PlannedStep(instruction) for instruction in restored(problem, plan.instructions))
     subject = Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where))
     told = f"warning: {plan.overlap}: instructions overlap in time; they are taken one after the other\n"
-    return FoundSubject(subject, asked.beside, (told,) if plan.overlap else (), plan.locations)
+    return FoundSubject(subject, (told,) if plan.overlap else (), plan.locations)

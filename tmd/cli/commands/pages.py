@@ -44,7 +44,7 @@ def view(
     from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
     found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem))
-    target = out or (STANDARD if source == STANDARD else str(found.beside))
+    target = out or (STANDARD if source == STANDARD else str(Path(source).with_suffix(".html")))
     for path in (source, problem):
         if path is not None and target != STANDARD and Path(target).resolve() == Path(path).resolve():
             raise click.UsageError(f"the page would overwrite {path}: give another --out")
