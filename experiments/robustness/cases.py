@@ -113,7 +113,6 @@ def of_text(workspace: Workspace, choose: Random) -> Case:
             (
                 ("ground", *source, "--json", *choose.choice(((), ("--guess",)))),
                 ("ground", *source, "--learned", "learned"),
-                ("export", "problems/04_tea/environments/pantry1.yaml", "out", "--text-file", "said.txt"),
             )
         )
     )

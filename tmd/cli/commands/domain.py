@@ -137,11 +137,10 @@ def check(
     if explain is not None:
         if any((domain, strict, fix)):
             raise click.UsageError("--explain takes domains and --json only")
-        from tmd.check.explain import explain as explained
-        from tmd.check.explain import explanation_text
+        from tmd.check import explain as verbs
 
-        told = explained(explain, [roots.corpus(roots.folder(name)) for name in paths])
-        emit(told.to_value() if as_json else explanation_text(told))
+        told = verbs.explain(explain, [roots.corpus(roots.folder(name)) for name in paths])
+        emit(told.to_value() if as_json else verbs.explanation_text(told))
         return ExitCode.OK
     if not paths:
         raise click.UsageError("Missing argument 'PATH...'.")
