@@ -152,7 +152,8 @@ class Teacher:
     def _become(self, trained: Knowledge, made_from: str) -> None:
         """Use what was learned from the files of a digest; they may teach more by now."""
         with self._guard:
-            self.learn_one()
+            if digest(self.corpus) != self._digest:
+                self.learn_one()
             self.knowledge = Knowledge(self.knowledge.library, trained.reward, goals=trained.goals)
             self.learning = made_from != self._digest  # nobody may see meanwhile that nothing is being learned
 
