@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 import re
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -30,14 +30,16 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
     task = bar.add_task(what, total=None)
 
     def tell(done: int, total: int) -> None:
-        bar.update(task, completed=done, total=total)
-        bar.start()
+        with suppress(OSError):  # the run goes on where nobody can read it
+            bar.update(task, completed=done, total=total)
+            bar.start()
 
     try:
         yield tell
     finally:
         if bar.live.is_started:
-            bar.stop()
+            with suppress(OSError):
+                bar.stop()
 
 
 @contextmanager

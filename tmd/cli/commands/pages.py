@@ -60,7 +60,6 @@ def view(
 
 
 LOCAL = "127.0.0.1"
-USUAL = "kitchen"
 
 
 @click.command("studio", short_help="Watch plans, correct them and demonstrate, in the browser.")
@@ -110,4 +109,4 @@ def _opened(roots: Roots, domain: str | None, environment: str | None) -> tuple[
     if path is not None and domain is None:
         bundled = path.suffix == ".pddl" and path.parent.name == "environments"
         domain = path.parent.parent.name if bundled else load_environment(path).domain
-    return roots.corpus(roots.folder(domain or USUAL)), path
+    return roots.corpus(roots.folder(domain or "kitchen")), path
