@@ -1,4 +1,4 @@
-"""Plans: the answer of a planner as text, JSON and exit code; and the plan of a text, a goal or a file to carry out."""
+"""Plans: the answer of a planner as text, JSON and exit code; and the plan of a text or a file to carry out."""
 
 from __future__ import annotations
 
@@ -10,9 +10,7 @@ from tmd.diagnostics import ExitCode, TmdError
 from tmd.domain_kit import orders_of
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.plan_file import Plan, format_plan, read_plan
-from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import validate
-from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
 from tmd.records.grounding import GroundingRecord
 from tmd.robot.monitor.listeners import Order
@@ -60,38 +58,22 @@ class Orders:
     Attributes:
         orders: The plan.
         code: ``OK``, or what the program ends with because there is none.
-        status: ``not_grounded``, ``question``, ``unreachable``, ``gave_up`` or ``invalid_plan``; empty for a plan.
         remarks: Lines for standard error.
         grounding: What ``tmd ground --json`` prints of the text; nothing where there was none.
     """
 
     orders: tuple[Order, ...]
     code: ExitCode = ExitCode.OK
-    status: str = ""
     remarks: tuple[str, ...] = ()
     grounding: GroundingRecord | None = None
 
 
 def orders_of_text(answer: Answer) -> Orders:
     """Return the best plan of a text. Where two readings of the text differ there is none: the robot does not guess."""
-    told, record = tuple(remarks(answer.grounded)), answer.record()
+    told = tuple(remarks(answer.grounded))
     if answer.code:
-        return Orders((), answer.code, answer.code.name.lower(), told, record)
-    return Orders(tuple(orders_of(answer.grounded)), remarks=told, grounding=record)
-
-
-def orders_of_goal(goal: str, problem: Problem, planner: str | None) -> Orders:
-    """Find a plan for a goal, as ``tmd export --goal`` does; an empty one where the goal holds already.
-
-    Raises:
-        TmdError: The goal is wrong, or the planner is unknown, not installed or refuses the problem.
-    """
-    name = planner or AUTO
-    answer = solve(with_goal(problem, goal, "--goal"), name)
-    if isinstance(answer, Solved):
-        return Orders(tuple(map(Order, answer.plan)))
-    status = str(answer_json(answer, name)["status"])
-    return Orders((), exit_code(answer), status, (f"no plan: {why_none(answer)}\n",))
+        return Orders((), answer.code, told, answer.record)
+    return Orders(tuple(orders_of(answer.grounded)), remarks=told, grounding=answer.record)
 
 
 def orders_of_file(path: Path, problem: Problem) -> Orders:
@@ -105,7 +87,7 @@ def orders_of_file(path: Path, problem: Problem) -> Orders:
         raise TmdError(f"{path}: the plan has no instructions", hint="write one (name argument ...) a line")
     fault = why_invalid(problem, plan)
     if fault:
-        return Orders((), ExitCode.INVALID_PLAN, "invalid_plan", (f"invalid: {fault}\n",))
+        return Orders((), ExitCode.INVALID_PLAN, (f"invalid: {fault}\n",))
     return Orders(tuple(map(Order, plan.instructions)))
 
 

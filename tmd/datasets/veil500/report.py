@@ -1,4 +1,4 @@
-"""The report on a copy of VEIL-500: counts of what was found and dropped (``tmd data check``)."""
+"""The report on a copy of VEIL-500: counts of what was found and dropped."""
 
 from __future__ import annotations
 
