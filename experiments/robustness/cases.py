@@ -60,6 +60,7 @@ def of_domain(workspace: Workspace, choose: Random) -> Case:
         (*ground, "--json"),
         (*ground, "--model", "paper", "--guess"),
         (*ground, "--goal-only"),
+        ("export", room, "out", "--domain", domain, "--text", text),
         ("scene", "--environment", room, "--domain", domain),
     ]
     if problems and domain != "lab_bench":  # whose problems take two seconds each

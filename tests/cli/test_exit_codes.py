@@ -150,6 +150,8 @@ CASES = {
         ["ground", "--environment", PROBLEM, "--text", "a"],
         r"error: .*does not say where its domain is\nhint: give --domain",
     ),
+    "no-data": (ExitCode.BAD_DATA, ["data", "check", "none"], r"error: none is not a directory\nhint: "),
+    "other-data": (ExitCode.BAD_DATA, ["data", "check", ROOT / "domains"], r"error: .*data.xml is missing\nhint: "),
     "no-data-for-experiment": (
         ExitCode.BAD_DATA,
         ["experiment", "--task", "ramen", "--data", "veil500", "--veil500", "none", "--out", "o"],

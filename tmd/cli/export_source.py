@@ -1,4 +1,4 @@
-"""The source of an export: a problem with the plan of a planner, of a grounded text, or of a file."""
+"""The source of an export: a problem with the plan of a planner, of a text, or of a file."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from typing import Any
 
 import click
 
+from tmd.cli.grounding import Answer, answer, remarks
+from tmd.cli.options import ReadingOptions
 from tmd.cli.plans import exit_code, why_invalid, why_none
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
@@ -21,6 +23,9 @@ from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import Solved
 from tmd.records.grounding import GroundingRecord
 from tmd.world.roots import Roots
+
+ASKED, CHANGED = "asked", "changed"
+"""Goals by name, for a text: what it asks for, and everything that its plan changes."""
 
 
 class NotPlannedError(Exception):
@@ -39,6 +44,8 @@ def planned_source(
     plan: Path | None,
     goal: str | None,
     planner: str | None,
+    text: str | None,
+    reading: ReadingOptions,
     **limits: Any,  # noqa: ANN401 - arguments of solve
 ) -> Planned:
     """Return the problem and the plan that were asked for; the arguments are those of ``tmd export``.
@@ -46,27 +53,42 @@ def planned_source(
     Raises:
         NotPlannedError: There is no plan, or it does not work.
         TmdError: Something is missing or wrong.
-        click.UsageError: An environment has neither plan nor goal.
+        click.UsageError: An option has no meaning for this source.
     """
     path = Path(source)
     if path.suffix == ".json":
         return _of_json(roots, path, domain, goal)
+    unclear = click.UsageError(f"for the environment {source} give one of --text, --text-file, --plan and --goal")
+    if text is not None:
+        if plan:
+            raise unclear
+        corpus, world = roots.world(source, domain)
+        return _of_text(answer(corpus, world, source, text, reading, planner=planner), world.task.problem, goal)
+    if goal in (ASKED, CHANGED):
+        raise click.UsageError(f"--goal {goal} is for a text, or for what tmd ground --json printed")
     if path.suffix == ".pddl":
         problem = roots.problem(path, domain)
     elif plan or goal:
         problem = replace(roots.world(source, domain)[1].task.problem, goal=TRUE)
     else:
-        raise click.UsageError(f"for the environment {source} give --plan or --goal")
+        raise unclear
     if goal:
         problem = with_goal(problem, goal)
     if plan:
         read = read_plan(plan)
         found = replace(read, instructions=restored(problem, read.instructions))
         return _checked(problem, found, whole=path.suffix != ".pddl" and not goal)
-    answer = solve(problem, planner or AUTO, **limits)
-    if isinstance(answer, Solved):
-        return planned(problem, answer.plan)
-    raise NotPlannedError(why_none(answer), exit_code(answer))
+    solution = solve(problem, planner or AUTO, **limits)
+    if isinstance(solution, Solved):
+        return planned(problem, solution.plan)
+    raise NotPlannedError(why_none(solution), exit_code(solution))
+
+
+def _of_text(found: Answer, problem: Problem, goal: str | None) -> Planned:
+    """Return the best plan of a text. Where two readings of the text differ there is none."""
+    if found.code:
+        raise NotPlannedError(remarks(found.grounded)[-1].strip().partition(": ")[2], found.code)
+    return _first_plan(found.record, problem, goal)
 
 
 def _of_json(roots: Roots, path: Path, domain: str | None, goal: str | None) -> Planned:
@@ -78,11 +100,24 @@ def _of_json(roots: Roots, path: Path, domain: str | None, goal: str | None) -> 
     told = GroundingRecord.from_value(value, str(path))
     if not told.plans:
         raise NotPlannedError(f"{path} has no plan", ExitCode.NOT_GROUNDED)
-    problem = roots.world(told.environment, domain or told.domain)[1].task.problem
+    return _first_plan(told, roots.world(told.environment, domain or told.domain)[1].task.problem, goal)
+
+
+def _first_plan(told: GroundingRecord, problem: Problem, goal: str | None) -> Planned:
+    """Return the first plan of a text, and as its goal what the text asks for unless another is given.
+
+    Raises:
+        TmdError: What the text asks for is wanted, and not known.
+    """
     best = told.plans[0]
-    wanted = goal or best.goal
+    if goal == ASKED and best.goal is None:
+        raise TmdError(
+            "what the text asks for is not known: it was grounded by a model without goals",
+            hint=f"ground it again, or take --goal {CHANGED}",
+        )
+    wanted = best.goal if goal in (None, ASKED) else None if goal == CHANGED else goal
     plan = Plan(tuple(step.instruction for step in best.steps))
-    return _checked(with_goal(problem, wanted) if wanted else problem, plan, whole=not wanted)
+    return _checked(with_goal(problem, wanted) if wanted else replace(problem, goal=TRUE), plan, whole=not wanted)
 
 
 def _checked(problem: Problem, plan: Plan, *, whole: bool) -> Planned:

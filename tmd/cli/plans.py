@@ -1,4 +1,4 @@
-"""Plans: the answer of a planner as text, JSON and exit code; and the plan of a text or a file to carry out."""
+"""Plans: the answer of a planner as text, JSON and exit code; and the plan of a text, a goal or a file to carry out."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ from tmd.diagnostics import ExitCode, TmdError
 from tmd.domain_kit import orders_of
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.plan_file import Plan, format_plan, read_plan
+from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import validate
+from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
 from tmd.records.grounding import GroundingRecord
 from tmd.robot.monitor.listeners import Order
@@ -74,6 +76,18 @@ def orders_of_text(answer: Answer) -> Orders:
     if answer.code:
         return Orders((), answer.code, told, answer.record)
     return Orders(tuple(orders_of(answer.grounded)), remarks=told, grounding=answer.record)
+
+
+def orders_of_goal(goal: str, problem: Problem, planner: str | None) -> Orders:
+    """Find a plan for a goal, as ``tmd export --goal`` does; an empty one where the goal holds already.
+
+    Raises:
+        TmdError: The goal is wrong, or the planner is unknown, not installed or refuses the problem.
+    """
+    answer = solve(with_goal(problem, goal, "--goal"), planner or AUTO)
+    if isinstance(answer, Solved):
+        return Orders(tuple(map(Order, answer.plan)))
+    return Orders((), exit_code(answer), (f"no plan: {why_none(answer)}\n",))
 
 
 def orders_of_file(path: Path, problem: Problem) -> Orders:

@@ -139,7 +139,8 @@ class RunRequest(JsonRecord):
     version: str
     environment_file: str | None
     strip: str | None = Field(description="The name of the filmstrip's file.")
-    grounding: GroundingRecord | None = Field(description="Of the text; null for a plan file.")
+    grounding: GroundingRecord | None = Field(description="Of the text; null for a plan file or a goal.")
+    goal: str | None = Field(default=None, description="What a plan was found for, where that was a PDDL condition.")
 
 
 class RunRecord(RunRequest):

@@ -10,7 +10,16 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmd.cli.errors import one_line
-from tmd.cli.options import PATH, json_option, limit_options, name_list, overwrite_option
+from tmd.cli.options import (
+    PATH,
+    GivenText,
+    json_option,
+    limit_options,
+    name_list,
+    overwrite_option,
+    reading_options,
+    text_options,
+)
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
 from tmd.world.roots import Roots
@@ -148,9 +157,15 @@ def _read(roots: Roots, domain: str, name: str) -> Problem:
 )
 @click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
 @click.option("--plan", type=PATH, metavar="FILE", help="Take this plan; otherwise one is found.")
-@click.option("--planner", metavar="NAME", help="As for tmd plan.")
+@click.option("--planner", metavar="NAME", help="As for tmd plan, or for tmd ground where there is a text.")
 @limit_options
-@click.option("--goal", metavar="CONDITION", help="Another goal.")
+@text_options
+@reading_options
+@click.option(
+    "--goal",
+    metavar="CONDITION|asked|changed",
+    help="Another goal; of a text what it asks for (the default), or all that its plan changes.",
+)
 @overwrite_option
 @click.pass_obj
 def export(
@@ -159,12 +174,13 @@ def export(
     source: str,
     directory: Path,
     formats: Sequence[str],
+    spoken: GivenText,
     overwrite: bool,
     **options: Any,  # noqa: ANN401 - arguments of planned_source
 ) -> ExitCode:
     """Write a problem and a plan for it into DIR.
 
-    The source is a PDDL problem, an environment (with a plan or a goal), or a plan of "tmd ground
+    The source is a PDDL problem, an environment (with a text, a plan or a goal), or a plan of "tmd ground
     --json". A plan is executed before it is written: ends with 11 where it does not work, with 10,
     12 or 20 where none is found. One format fills DIR, several a directory each. A format that fails does not keep the
     others back: why is told, and the exit code is that of the first failure.
@@ -174,8 +190,9 @@ def export(
     from tmd.export.formats import chosen_files
 
     check_directory(directory, overwrite=overwrite)
+    text = spoken.request() if spoken else None
     try:
-        found = planned_source(roots, source, **options)
+        found = planned_source(roots, source, text=text, **options)
     except NotPlannedError as none:
         emit(f"{'invalid' if none.code is ExitCode.INVALID_PLAN else 'no plan'}: {none}\n", error=True)
         return none.code

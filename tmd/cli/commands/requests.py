@@ -56,6 +56,7 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
 @click.option(
     "--verbose", is_flag=True, help="Print the rows that did not fit, and effort and reasons of the language model."
 )
+@click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
 @click.option("--goal-only", is_flag=True, help="Print what shall hold at the end as a PDDL problem, and no plan.")
 @json_option
 @click.pass_obj
@@ -68,6 +69,7 @@ def ground(
     reading: ReadingOptions,
     ask: bool,
     verbose: bool,
+    show_prompt: bool,
     goal_only: bool,
     as_json: bool,
 ) -> ExitCode:
@@ -84,8 +86,16 @@ def ground(
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
     if ask and spoken.text_file == "-":
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
-    request = spoken.request()
+    request, settings = spoken.request(), reading.settings() if show_prompt else None
+    if show_prompt and settings is None:
+        raise click.UsageError("--show-prompt is for --reader llm")
     corpus, world = roots.world(environment, domain_name)
+    if settings is not None:
+        from tmd.readers.llm.reader import llm_reader
+
+        prompt = llm_reader(corpus, settings).prompt(request, world, world.task.init)
+        emit(f"{prompt.system}\n\n{prompt.user}\n")
+        return ExitCode.OK
     asking = partial(ask_on_terminal, world.task.problem) if ask else None
     found = answer(corpus, world, environment, request, reading, ask=asking, **options)
     if as_json:

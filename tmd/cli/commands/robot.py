@@ -48,6 +48,7 @@ def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | 
 @environment_option
 @text_options
 @click.option("--plan", "plan_file", type=PATH, metavar="FILE", help="Carry out this plan, not a text.")
+@click.option("--goal", metavar="CONDITION", help="Find a plan for this PDDL condition, such as (on a b).")
 @environment_domain_option
 @learned_option
 @reading_options
@@ -75,6 +76,7 @@ def run(
     environment: str,
     spoken: GivenText,
     plan_file: Path | None,
+    goal: str | None,
     domain_name: str | None,
     learned: Path | None,
     reading: ReadingOptions,
@@ -86,17 +88,18 @@ def run(
 ) -> ExitCode:
     """Carry out what was said, in simulation.
 
-    A text is grounded as by "tmd ground". A PR2 does one instruction after the
+    A text is grounded as by "tmd ground", a goal is planned for as by "tmd plan". A PR2 does one instruction after the
     other; after each, the state is read back from the simulation and compared with what PDDL predicts. Where the two
     differ, the executor replans.
 
-    Ends with 12 where a text gives no plan, and with 14 where the robot stopped before everything was done.
+    Ends with 12 where a text gives no plan, with 10 where it is proven that no plan reaches the goal, and with 14
+    where the robot stopped before everything was done.
     """
-    if sum(given is not None for given in (spoken.text, spoken.text_file, plan_file)) != 1:
-        raise click.UsageError("give one of --text, --text-file and --plan")
+    if sum(given is not None for given in (spoken.text, spoken.text_file, plan_file, goal)) != 1:
+        raise click.UsageError("give one of --text, --text-file, --plan and --goal")
 
     from tmd.cli.grounding import answer
-    from tmd.cli.plans import orders_of_file, orders_of_text
+    from tmd.cli.plans import orders_of_file, orders_of_goal, orders_of_text
     from tmd.cli.run_report import RunLog, RunReport, without_plan
     from tmd.files import check_writable
     from tmd.planning.backends import IN_PROCESS
@@ -115,6 +118,8 @@ def run(
         stack.enter_context(runner)  # before what takes long: whether films can be made is known at once
         if plan_file is not None:
             orders = orders_of_file(plan_file, problem)
+        elif goal is not None:
+            orders = orders_of_goal(goal, problem, planner)
         else:
             text = request or ""
             found = answer(corpus, world, environment, text, reading, learned=learned, planner=planner)
@@ -122,7 +127,8 @@ def run(
         for line in orders.remarks:
             emit(line, error=True)
         file = environment if is_environment_file(environment) else None
-        asked = runner.request(orders.orders, request, environment_file=file, grounding=orders.grounding)
+        goal_given = {} if goal is None else {"goal": goal}
+        asked = runner.request(orders.orders, request, environment_file=file, grounding=orders.grounding, **goal_given)
         if orders.code:
             if as_json:
                 emit(without_plan(asked, orders))
