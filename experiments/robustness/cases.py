@@ -114,6 +114,7 @@ def of_text(workspace: Workspace, choose: Random) -> Case:
             (
                 ("ground", *source, "--json", *choose.choice(((), ("--guess",)))),
                 ("ground", *source, "--learned", "learned"),
+                ("export", "problems/04_tea/environments/pantry1.yaml", "out", "--text-file", "said.txt"),
             )
         )
     )
@@ -176,8 +177,10 @@ def of_veil(workspace: Workspace, choose: Random) -> Case:
     return Case(
         choose.choice(
             (
+                *10 * (("data", "check", "veil"),),
+                *10 * (("data", "check", "veil"),),
                 ("ground", "--environment", "veil/Environments/kitchen/kitchen2.xml", "--text", "Take the mug."),
-                *3 * ((*experiment, "--models", "empty", "--jobs", "1"),),
+                (*experiment, "--models", "empty", "--jobs", "1"),
             )
         )
     )
@@ -281,6 +284,7 @@ def of_names(workspace: Workspace, choose: Random) -> Case:
                 ("test", "--cases", inside),
                 ("scene", "--environment", inside),
                 ("run", "--environment", "kitchen1", "--text", "Take the pot.", "--video", inside, "--log", inside),
+                ("data", "check", *mark, inside),
                 ("--domains", inside, "plan", "--planner", "in-process", "04_tea", PROBLEM),
                 ("--problems", inside, "ground", "--environment", "pantry1", "--text", "Heat the kettle."),
             )
@@ -403,6 +407,7 @@ def of_environment(workspace: Workspace, choose: Random) -> Case:
         ("new", "mine"),
         ("test", "01_blocks"),
         ("learn", "01_blocks", "--no-weights", "--out", "learned2"),
+        ("data", "check", "veil"),
         ("scene", "--environment", "study1"),
         (*EXPERIMENT[:-3], "run2", "--jobs", "1"),
         (*EXPERIMENT, "--step", "report"),

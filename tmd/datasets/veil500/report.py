@@ -1,4 +1,4 @@
-"""The report on a copy of VEIL-500: counts of what was found and dropped."""
+"""The report on a copy of VEIL-500: counts of what was found and dropped (``tmd data check``)."""
 
 from __future__ import annotations
 
