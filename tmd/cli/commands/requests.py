@@ -86,7 +86,8 @@ def ground(
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
     if ask and spoken.text_file == "-":
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
-    request, settings = spoken.request(), reading.settings() if show_prompt else None
+    request = spoken.request()
+    settings = reading.settings() if show_prompt else None
     if show_prompt and settings is None:
         raise click.UsageError("--show-prompt is for --reader llm")
     corpus, world = roots.world(environment, domain_name)

@@ -107,7 +107,7 @@ def run(
     from tmd.robot_trials.plan_runner import PlanRunner
     from tmd.world.corpus import is_environment_file
 
-    request = spoken.request() if spoken else None
+    request = spoken.request() if spoken else ""
     room, folder = roots.room(environment, domain_name)
     if log is not None:
         check_writable(log)
@@ -121,21 +121,19 @@ def run(
         elif goal is not None:
             orders = orders_of_goal(goal, problem, planner)
         else:
-            text = request or ""
-            found = answer(corpus, world, environment, text, reading, learned=learned, planner=planner)
+            found = answer(corpus, world, environment, request, reading, learned=learned, planner=planner)
             orders = orders_of_text(found)
         for line in orders.remarks:
             emit(line, error=True)
         file = environment if is_environment_file(environment) else None
-        goal_given = {} if goal is None else {"goal": goal}
-        asked = runner.request(orders.orders, request, environment_file=file, grounding=orders.grounding, **goal_given)
+        asked = runner.request(orders.orders, request or None, environment_file=file, **orders.given)
         if orders.code:
             if as_json:
                 emit(without_plan(asked, orders))
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
         report = RunReport(asked, orders.orders, journal, as_json=as_json)
-        ran = runner.run(orders.orders, report.prepare, report.heading, request or "")
+        ran = runner.run(orders.orders, report.prepare, report.heading, request)
         report.log_ending(ran.execution, ran.sim_steps)
     report.print_ending(ran.execution, ran.sim_steps)
     return ExitCode.NOT_EXECUTED if ran.execution.status is SkillStatus.STOPPED else ExitCode.OK
