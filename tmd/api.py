@@ -329,7 +329,6 @@ def file_page(
     *,
     environment: str | Path | None = None,
     problem: str | Path | None = None,
-    strip: str | Path | None = None,
     domain: str | None = None,
     domains: str | Path | None = None,
     problems: str | Path | None = None,
@@ -340,7 +339,6 @@ def file_page(
         path: What ``tmd ground --json`` or ``tmd run --json`` printed, a log of ``tmd run``, or a plan file.
         environment: Where: for a plan file, or instead of what the file names.
         problem: Of a plan file: its PDDL problem.
-        strip: Of a run: its filmstrip; beside the log by default.
         domain: The domain; otherwise the environment's or problem's own.
         domains: The directory of all domains; ``./domains`` or the packaged one by default.
         problems: The directory of all problems; ``./problems`` or the packaged one by default.
@@ -351,10 +349,8 @@ def file_page(
     from tmd.view.page import render
     from tmd.view.sources import ViewRequest, subject_of_file
 
-    place, in_problem, film = (None if given is None else str(given) for given in (environment, problem, strip))
-    asked = ViewRequest(
-        str(path), place, domain, Path(in_problem) if in_problem else None, Path(film) if film else None
-    )
+    place = None if environment is None else str(environment)
+    asked = ViewRequest(str(path), place, domain, None if problem is None else Path(problem))
     return render(subject_of_file(_roots(domains, problems), asked).subject).html
 
 

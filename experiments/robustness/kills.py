@@ -100,7 +100,7 @@ JOBS: dict[str, Job] = {
     "experiment, 2 jobs": _tmd(*_RUN, "--jobs", "2"),
     "experiment, dask": _tmd(
         *("--domains", "{folder}/domains", "--problems", "{folder}/problems", *_RUN),
-        *("--backend", "dask", "--scheduler", "{scheduler}"),
+        *("--scheduler", "{scheduler}"),
         cluster=True,
     ),
     "studio": _tmd("studio", "--domain", "02_table", "--port", "0", serves=True),

@@ -55,7 +55,7 @@ def _measure(directory: Path) -> None:
     world = corpus.world("kitchen5")
     offers = Offers(world)
     names = world.profiles.objects
-    timed(f"offers for all {len(names)} objects", lambda: [offers.of(n, world.task.init) for n in names])
+    timed(f"offers for all {len(names)} objects", lambda: [offers.of(n) for n in names])
     session = Session(corpus.world("kitchen1"), TEXT, corpus.lexicon, habits=teacher.habits)
     lines = [parse_instruction(line.strip()) for line in PLAN.split(";")]
 
@@ -76,7 +76,8 @@ def _measure(directory: Path) -> None:
     timed("and once more", lambda: teacher.learn_one(saved[-1]), 1)
     timed("grounding the same text in another kitchen", lambda: teacher.ground(TEXT, corpus.world("kitchen2")))
     start = time.perf_counter()
-    teacher.retrain().wait()
+    teacher.retrain()
+    teacher.wait()
     print(f"learning everything again, in a process of its own: {time.perf_counter() - start:.1f} s")
 
 

@@ -28,14 +28,12 @@ _CAMERA = {
 class Wire:
     """One connection; what the page would show is in ``elements``."""
 
-    def __init__(
-        self, url: str, identity: str | None = None, search: str = "", *, dark: bool = False, plan: str = ""
-    ) -> None:
+    def __init__(self, url: str, identity: str | None = None, search: str = "", *, dark: bool = False) -> None:
         self._socket: ClientConnection = connect(
             url.replace("http", "ws"), subprotocols=[f"viser-v{viser.__version__}"], max_size=None  # type: ignore[list-item]
         )  # fmt: skip
         self.identity = identity
-        self.page = json.dumps({"search": search, "dark": dark, "plan": plan})
+        self.page = json.dumps({"search": search, "dark": dark})
         self._happened: list[dict[str, object]] = []
         self.told_page: list[dict[str, Any]] = []
         self.elements: dict[str, dict[str, Any]] = {}
@@ -86,10 +84,6 @@ class Wire:
     def send(self, message: dict[str, Any]) -> None:
         """Send one message."""
         self._socket.send(msgspec.msgpack.encode(message))
-
-    def looks(self, position: tuple[float, ...], wxyz: tuple[float, ...]) -> None:
-        """Move the camera."""
-        self.send({**_CAMERA, "position": position, "wxyz": wxyz})
 
     def garbage(self, data: bytes) -> None:
         """Send what no page would send."""

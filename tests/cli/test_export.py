@@ -90,7 +90,7 @@ def test_what_ground_printed(tmd: Tmd, tmp_path: Path) -> None:
 
 
 CASES = {
-    "no-format": (ExitCode.USAGE, [PROBLEM, "out", "--format", "adll"], "no format 'adll': did you mean \"adl\""),
+    "no-format": (ExitCode.USAGE, [PROBLEM, "out", "--format", "adll"], "there is no 'adll': did you mean \"adl\""),
     "no-source": (ExitCode.BAD_INPUT, ["none.pddl", "out"], "none.pddl:1:1: cannot be read"),
     "no-environment": (ExitCode.BAD_INPUT, ["kitchen99", "out", "--text", "x"], "there is no environment 'kitchen99'"),
     "no-domain": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--domain", "blcks"], "there is no domain 'blcks'"),

@@ -189,7 +189,6 @@ TEXT = ("--text", "Take the cup.")
 WRONG = {
     "no-text": (ExitCode.USAGE, [*KITCHEN], "", r"error: give one of --text"),
     "text-and-goal": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--goal", "(a)"], "", r"error: give one of --text, .*--goal\n"),
-    "rate-of-nothing": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--rate", "5"], "", r"error: --rate is for --trajectory"),
     "trajectory-suffix": (
         ExitCode.USAGE,
         [*KITCHEN, *TEXT, "--trajectory", "out.bag"],

@@ -73,7 +73,6 @@ def test_a_log_that_names_nothing(tmd: Tmd, tmp_path: Path, change: dict[str, ob
     "arguments",
     [
         ("ground", *PANTRY, "--beam", "9" * 400),
-        ("ground", *PANTRY, "--trim", str(10**30)),
         ("plan", "04_tea", PROBLEM, "--time-limit", "nan"),
         ("plan", "04_tea", PROBLEM, "--memory-limit", "9" * 400),
         ("export", PROBLEM, "out", "--memory-limit", "1"),

@@ -16,25 +16,21 @@ from tmd.world.world import World
 def test_parts_states_relations_and_edges(kitchen1: World) -> None:
     words = Wording(kitchen1.task.problem)
     knob = about("stove1_knob1", kitchen1, kitchen1.task.init)
-    assert (knob.kind, knob.whole, knob.parts) == ("knob", "stove1", ())
-    assert [words.fact(atom) for atom in knob.edges] == ["working stove1_knob1 starts and stops stove1_burner1"]
-    assert knob.states == (GroundAtom("set_to", ("stove1_knob1", "off")),)
+    assert [*map(words.fact, knob["What controls what"])] == ["working stove1_knob1 starts and stops stove1_burner1"]
+    assert knob["States"] == [GroundAtom("set_to", ("stove1_knob1", "off"))]
     fridge = about("fridge1", kitchen1, kitchen1.task.init)
-    assert "fridge1_door" in fridge.parts
-    assert GroundAtom("at", ("milk1", "fridge1", "in")) in fridge.relations
-    assert GroundAtom("guards", ("fridge1_door", "fridge1")) in fridge.edges
+    assert GroundAtom("at", ("milk1", "fridge1", "in")) in fridge["Relations"]
+    assert GroundAtom("guards", ("fridge1_door", "fridge1")) in fridge["What controls what"]
     with pytest.raises(TmdError, match="there is no object 'knob'"):
         about("knob", kitchen1, kitchen1.task.init)
 
 
 def test_every_fact_of_an_object_is_told_once(kitchen1: World) -> None:
-    state = kitchen1.task.decode(kitchen1.task.init)
     for name in kitchen1.profiles.objects:
         found = about(name, kitchen1, kitchen1.task.init)
-        told = [*found.states, *found.relations, *found.edges, *found.traits]
+        told = [atom for atoms in found.values() for atom in atoms]
         assert len(set(told)) == len(told)
-        rest = {atom for atom in state if name in atom.args} - set(told)
-        assert {atom.predicate for atom in rest} <= {"part_of", "same_unit"}
+        assert {atom for atom in kitchen1.task.names(kitchen1.task.init) if name in atom.args} <= set(told)
 
 
 def test_a_session_tells_of_the_state_that_is_looked_at(kitchen: Corpus, kitchen1: World) -> None:
@@ -46,6 +42,6 @@ def test_a_session_tells_of_the_state_that_is_looked_at(kitchen: Corpus, kitchen
             session.do(next(o for o in kitchen1.task.operators if o.instruction == ("find", (target,))).instruction)
         session.do(found[0].instruction)
     opened = GroundAtom("opened", ("fridge1_door",))
-    assert opened in about("fridge1_door", kitchen1, session.state).states
+    assert opened in about("fridge1_door", kitchen1, session.state)["States"]
     session.goto(0)
-    assert opened not in about("fridge1_door", kitchen1, session.state).states
+    assert opened not in about("fridge1_door", kitchen1, session.state)["States"]

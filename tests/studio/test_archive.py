@@ -44,7 +44,7 @@ for number in range(int(sys.argv[4])):
     session = Session(corpus.world("corner1"), f"Put the cup on the shelf for {sys.argv[3]} {number}.", corpus.lexicon)
     for line in sys.argv[5:]:
         session.do(parse_instruction(line))
-    Archive(corpus, wait=60).save(session, who=sys.argv[3])
+    Archive(corpus, wait=60).save(session)
 """
 
 
@@ -73,9 +73,7 @@ def test_what_is_saved_is_found_by_everything_that_reads_demonstrations(table: C
     again = Corpus(table.folder, table.directory)
     assert again.demonstrations("shown") == [found]
     assert faults(table, file) == []
-    assert archive.save(shown(table), who="Ann", when="2026-01-02").id == "shown-corner1-02"
-    last = read_demonstrations(file)[-1]
-    assert (last.who, last.when) == ("Ann", "2026-01-02")
+    assert archive.save(shown(table)).id == "shown-corner1-02"
 
 
 def test_a_goal_is_saved_with_what_reaches_it(table: Corpus) -> None:
@@ -226,22 +224,17 @@ def test_processes_save_at_once(table: Corpus) -> None:
     assert [process.wait() for process in started] == [0] * len(names)
     found = read_demonstrations(table.directory / "shown" / "demonstrations.jsonl")
     assert [d.id for d in found] == [f"shown-corner1-{n:02d}" for n in range(1, 17)]
-    assert {(d.who, d.text) for d in found} == {
-        (name, f"Put the cup on the shelf for {name} {n}.") for name in names for n in range(8)
-    }
+    assert {d.text for d in found} == {f"Put the cup on the shelf for {name} {n}." for name in names for n in range(8)}
 
 
 @settings(max_examples=150, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(
-    text=st.text(min_size=1, max_size=40),
-    who=st.none() | st.text(alphabet=st.characters(exclude_categories=("Cs",)), max_size=10),
-)
-def test_any_text_is_read_back_as_it_was(table: Corpus, text: str, who: str | None) -> None:
+@given(text=st.text(min_size=1, max_size=40))
+def test_any_text_is_read_back_as_it_was(table: Corpus, text: str) -> None:
     try:
         session = shown(table, text)
     except TmdError:
         return
-    found = demonstration(session, session.segments(), "a-corner1-01", "a", who)
+    found = demonstration(session, session.segments(), "a-corner1-01", "a")
     line = demonstration_line(found)
     assert len(line.splitlines()) == 1
     assert read_demonstration(Path("a"), 1, line) == found

@@ -103,7 +103,7 @@ def test_where_everybody_may_come_numbers_are_served_and_foreign_names_are_not()
     from websockets.datastructures import Headers
     from websockets.http11 import Request
 
-    guard = Guard("0.0.0.0", "secret")
+    guard = Guard("0.0.0.0", 8080, "secret")
 
     def why(host: str, path: str = "/?token=secret") -> str:
         return guard.refusal(Request(path, Headers({"Host": host})))
@@ -127,6 +127,6 @@ def test_the_token_is_kept_for_its_user_alone(tmp_path: Path) -> None:
 def test_what_cannot_be_guarded_is_not_served() -> None:
     with (
         pytest.raises(TmdError, match="cannot be guarded"),
-        guarding(Guard("127.0.0.1", "x"), lambda *_: None, lambda _, page: page),
+        guarding(Guard("127.0.0.1", 0, "x"), lambda *_: None, lambda _, page: page),
     ):
         pass

@@ -1,14 +1,16 @@
-"""What is offered for an object is what PDDL says of it, and the reasons are those of the preconditions."""
+"""What is offered for an object are its ground actions, and reasons are those of the preconditions."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom
-from tmd.pddl.semantics import applicable
+from tmd.pddl.plan_file import parse_instruction
+from tmd.pddl.task import Bits
 from tmd.studio.applicable_actions import Offers
 from tmd.view.wording import Wording
 from tmd.world.corpus import Corpus
@@ -25,54 +27,46 @@ def first_world(name: str) -> World:
 
 
 @pytest.mark.parametrize("domain", DOMAINS)
-def test_offers_are_the_ground_actions_and_apply_where_pddl_says_so(domain: str) -> None:
+def test_offers_are_the_ground_actions(domain: str) -> None:
     world = first_world(domain)
     offers = Offers(world)
-    state = world.task.init
-    decoded = world.task.decode(state)
-    seen = {offer.instruction for group in offers.anywhere(state) for offer in group.offers}
+    seen = {operator.instruction for operator in offers.of(None)}
+    assert all(not instruction.args for instruction in seen)
     for name in world.objects.types_of:
-        groups = offers.of(name, state)
-        assert [(g.applies, g.action) for g in groups] == sorted(
-            ((g.applies, g.action) for g in groups), key=lambda key: (not key[0], key[1])
-        )
-        for group in groups:
-            assert [o.applies for o in group.offers] == sorted((o.applies for o in group.offers), reverse=True)
-            for offer in group.offers:
-                assert group.action == offer.instruction.name
-                assert name in offer.instruction.args
-                assert offer.applies == applicable(offer.instruction, decoded, world.task.problem)
-                assert "?" not in offer.why
-                seen.add(offer.instruction)
+        parts = {part for _, part in world.profiles.parts.get(name, ())}
+        found = [operator.instruction for operator in offers.of(name)]
+        assert all(not i.args or {name, *parts} & set(i.args) for i in found)
+        assert found == sorted(found, key=lambda i: name not in i.args)  # its own first
+        seen.update(found)
     assert seen == set(world.task.by_instruction)
 
 
+def reasons(world: World, state: Bits) -> Callable[[str], str]:
+    wording, decoded = Wording(world.task.problem), world.task.decode(state)
+    return lambda line: wording.broken(parse_instruction(line), decoded)
+
+
 def test_a_reason_says_what_is_missing_or_in_the_way(kitchen1: World) -> None:
-    offers = Offers(kitchen1)
-    found = {
-        str(offer.instruction): offer.why
-        for group in offers.of("fridge1", kitchen1.task.init, parts=True)
-        for offer in group.offers
-    }
-    assert found["find(fridge1)"] == ""
-    assert found["open(fridge1_door)"] == "needs: fridge1_door is within reach"
-    assert found["keep(mug1, fridge1, in)"] == "needs: mug1 is in a hand"
-    assert {o.why for g in offers.of("milk1", kitchen1.task.init) for o in g.offers if g.action == "find"} == {
-        "not while milk1 is behind a closed door"
-    }
+    why = reasons(kitchen1, kitchen1.task.init)
+    assert why("find(fridge1)") == ""
+    assert why("open(fridge1_door)") == "needs: fridge1_door is within reach"
+    assert why("keep(mug1, fridge1, in)") == "needs: mug1 is in a hand"
+    assert why("find(milk1)") == "not while milk1 is behind a closed door"
 
 
 def test_reasons_look_into_quantifiers_and_disjunctions(kitchen1: World) -> None:
     tea = first_world("04_tea")
-    found = {str(o.instruction): o.why for g in Offers(tea).of("cup1", tea.task.init) for o in g.offers}
-    assert found["grasp(cup1)"] == "needs: counter1 is within reach"
+    assert reasons(tea, tea.task.init)("grasp(cup1)") == "needs: counter1 is within reach"
     state = kitchen1.task.init
-    for line in ("find", "moveto", "grasp"):
-        state = next(o for o in kitchen1.task.operators if o.instruction == (line, ("mug1",))).apply(state)
-    for name in ("find", "moveto"):
-        state = next(o for o in kitchen1.task.operators if o.instruction == (name, ("fridge1",))).apply(state)
-    found = {str(o.instruction): o.why for g in Offers(kitchen1).of("mug1", state) for o in g.offers}
-    assert found["keep(mug1, fridge1, in)"] == "not while the inside of fridge1 is behind a closed door"
+    for name, thing in (
+        *((n, "mug1") for n in ("find", "moveto", "grasp")),
+        ("find", "fridge1"),
+        ("moveto", "fridge1"),
+    ):
+        state = next(o for o in kitchen1.task.operators if o.instruction == (name, (thing,))).apply(state)
+    assert (
+        reasons(kitchen1, state)("keep(mug1, fridge1, in)") == "not while the inside of fridge1 is behind a closed door"
+    )
 
 
 def test_facts_in_words_or_as_they_are_written(kitchen1: World) -> None:
@@ -89,4 +83,4 @@ def test_facts_in_words_or_as_they_are_written(kitchen1: World) -> None:
 
 def test_an_unknown_object_is_named(kitchen1: World) -> None:
     with pytest.raises(TmdError, match=r"there is no object 'mug' \(did you mean"):
-        Offers(kitchen1).of("mug", kitchen1.task.init)
+        Offers(kitchen1).of("mug")

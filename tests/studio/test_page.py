@@ -8,8 +8,7 @@ from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.studio.applicable_actions import Offers
-from tmd.studio.object_info import about
-from tmd.studio.panels.html import StepLine, changed, fragment, goal_list, notice, object_facts, refused, step_list
+from tmd.studio.panels.html import StepLine, changed, goal_list, notice, object_facts, step_list
 from tmd.view.goals import in_words
 from tmd.world.world import World
 
@@ -54,8 +53,8 @@ def test_the_step_that_was_taken_last_is_told_by_a_sign_too() -> None:
 
 def test_an_object_is_told_in_words(kitchen1: World) -> None:
     wording = Offers(kitchen1).wording
-    whole = object_facts(about("stove1", kitchen1, kitchen1.task.init), wording.fact)
-    knob = object_facts(about("stove1_knob1", kitchen1, kitchen1.task.init), wording.fact)
+    whole = object_facts("stove1", kitchen1, kitchen1.task.init, wording.fact)
+    knob = object_facts("stove1_knob1", kitchen1, kitchen1.task.init, wording.fact)
     assert "<h4>stove1: stove</h4>" in whole and "stove1_knob1" in whole
     assert "of stove1</h4>" in knob and "stove1_burner1" in knob.partition("What controls what")[2]
 
@@ -79,10 +78,3 @@ def test_what_is_said_alike_is_told_apart(kitchen1: World) -> None:
     alike = [parse_instruction(line) for line in ("release(pot1)", "throw_up()", "throw(up)")]
     told = Offers(kitchen1).wording.by_words(alike)
     assert list(told) == ["Let pot1 fall", "throw up: throw_up()", "throw up: throw(up)"] and [*told.values()] == alike
-
-
-def test_what_cannot_be_done_is_listed_with_what_it_lacks(kitchen1: World) -> None:
-    offers = Offers(kitchen1)
-    html = refused(offers.of("kettle1", kitchen1.task.init))
-    assert "grasp(kettle1)" in html and "✗" in html
-    assert fragment("x").count("<style>") == 1

@@ -36,9 +36,6 @@ def check(found: Session) -> None:
     for number, step in enumerate(found.steps, start=1):
         before = world.task.decode(state)
         state = world.task.encode(apply(step.instruction, before, world.task.problem))
-        changes = found.changes(number)
-        assert frozenset(changes.added) == world.task.decode(state) - before
-        assert frozenset(changes.removed) == before - world.task.decode(state)
         if number == found.cursor:
             assert found.state == state
     if found.cursor == 0:

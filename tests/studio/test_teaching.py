@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shutil
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
@@ -131,10 +130,9 @@ def test_what_is_in_no_file_is_not_learned(table: Corpus) -> None:
 def test_what_is_learned_in_the_background_is_what_tmd_ground_has(table: Corpus) -> None:
     teacher = Teacher(table)
     teacher.learn_one(show(table, "corner1", "Hide the cup on the shelf.", TABLE))
-    training = teacher.retrain()
-    assert teacher.learning and teacher.retrain() is training
-    assert training.wait(120)
-    assert training.share == 1.0 and not teacher.learning
+    teacher.retrain()
+    assert teacher.learning
+    assert teacher.wait(120) and not teacher.learning
     later = Corpus(table.folder, table.directory)
     assert same(teacher.knowledge, study(later))
     assert same(teacher.knowledge, known(later))
@@ -144,15 +142,11 @@ def test_what_is_learned_in_the_background_is_what_tmd_ground_has(table: Corpus)
 
 def test_what_is_saved_while_it_is_learned_is_learned_once_more(table: Corpus) -> None:
     teacher = Teacher(table)
-    first = teacher.retrain()
-    while not first.share:  # it has read the files
-        time.sleep(0.001)
+    teacher.retrain()
     teacher.learn_one(show(table, "corner1", "Hide the cup on the shelf.", TABLE))
-    assert teacher.retrain() is first or first.trained
+    teacher.retrain()
     assert "hide" in teacher.knowledge.library.verbs()
-    while teacher.learning:  # until all is learned
-        time.sleep(0.001)
-    assert teacher.training is not None and teacher.training.wait(120)
+    assert teacher.wait(120) and not teacher.learning
     assert same(teacher.knowledge, study(Corpus(table.folder, table.directory)))
 
 
@@ -161,22 +155,22 @@ def test_what_others_save_is_known_with_the_next_sentence(table: Corpus) -> None
     assert answer(teacher, "Polish the cup on the shelf.", "corner1") == []
     show(Corpus(table.folder, table.directory), "corner1", "Polish the cup on the shelf.", TABLE)
     assert answer(teacher, "Polish the cup on the shelf.", "corner1") == TABLE
-    assert teacher.training is not None and teacher.training.wait(120)
+    assert teacher.wait(120)
     assert same(teacher.knowledge, known(Corpus(table.folder, table.directory)))
 
 
 def test_learning_that_fails_or_is_stopped_changes_nothing(table: Corpus) -> None:
-    teacher = Teacher(table)
+    teacher, stopped = Teacher(table), Teacher(table)
     before = teacher.knowledge
-    training = teacher.retrain()
-    teacher.close()
-    with pytest.raises(TmdError, match="learning was stopped"):
-        training.wait()
-    assert not teacher.learning
     (table.directory / "shown").mkdir()
     (table.directory / "shown" / "demonstrations.jsonl").write_text("[]\n")
-    with pytest.raises(TmdError, match="a demonstration is a JSON object"):
-        teacher.retrain().wait(120)
+    for one, message in ((stopped, "learning was stopped"), (teacher, "a demonstration is a JSON object")):
+        one.retrain()
+        if one is stopped:
+            one.close()
+        with pytest.raises(TmdError, match=message):
+            one.wait(120)
+        assert not one.learning
     assert teacher.knowledge is before
 
 
@@ -187,7 +181,8 @@ def test_that_nothing_is_to_be_done_is_a_correction_that_is_saved_and_learned_fr
     saved = Archive(table).save(correction.session())
     assert saved.instructions == () and [str(i) for i in saved.proposed or ()] == TABLE[:1]
     teacher = Teacher(table)
-    assert teacher.retrain().wait(120)
+    teacher.retrain()
+    assert teacher.wait(120)
     assert saved in table.demonstrations()
     assert answer(teacher, "Put the cup on the shelf.", "corner1")
 
@@ -198,9 +193,8 @@ def test_where_nothing_can_be_kept_it_is_learned_all_the_same(
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
     teacher = Teacher(table)
-    training = teacher.retrain()
-    assert training.wait(120)
-    assert training.trained is not None
+    teacher.retrain()
+    assert teacher.wait(120)
     assert same(teacher.knowledge, study(table))
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import xml.etree.ElementTree as ET
 from html.parser import HTMLParser
 
 VOID = {"meta", "img", "br", "link", "input", "hr"}
@@ -47,14 +46,3 @@ class Reader(HTMLParser):
 
     def of_class(self, name: str) -> list[dict[str, str]]:
         return [attributes for _, attributes in self.elements if name in attributes.get("class", "").split()]
-
-
-def lists(text: str) -> list[ET.Element]:
-    """The lists of an object graph: of the object, and of each of its parts."""
-    return ET.fromstring(text).findall("ul")
-
-
-def lines(text: str, kind: str | None = None) -> list[str]:
-    """The lines of an object graph; those of one class, if asked for."""
-    found = ET.fromstring(text).iter("li")
-    return ["".join(element.itertext()) for element in found if kind is None or element.get("class") == kind]

@@ -29,21 +29,9 @@ def main() -> None:
         from tmd.cli.program import run
 
         code = int(run(sys.argv[1:]))
-    except ModuleNotFoundError as error:  # too early for tmd.cli.errors
-        if error.name is None or error.name.startswith("tmd"):
-            raise
-        code = _missing(error.name)
     except KeyboardInterrupt:  # before the command heard of signals, or after
         from tmd.diagnostics import ExitCode
 
         sys.stderr.write("error: interrupted\n")
         code = ExitCode.INTERRUPTED
     sys.exit(code)
-
-
-def _missing(package: str) -> int:
-    from tmd.diagnostics import ExitCode
-
-    hint = "install tmd again, with all that it needs: pip install tell-me-dave"
-    sys.stderr.write(f"error: the package {package} is missing or damaged\nhint: {hint}\n")
-    return ExitCode.MISSING_TOOL

@@ -97,8 +97,6 @@ def fault_of(error: BaseException, command: str = "tmd") -> Fault:
         return Fault(
             ExitCode.MISSING_TOOL, message, hint="install tmd again, with all that it needs: pip install tell-me-dave"
         )
-    if isinstance(error, RuntimeError) and str(error).startswith("Symlink loop"):  # of Path.resolve
-        return Fault(ExitCode.BAD_INPUT, one_line(str(error)), hint="name a file that is there")
     return _internal(error)
 
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 
-from tmd.cli.grounding import answer, remarks
+from tmd.cli.grounding import Answer, answer, remarks
 from tmd.cli.options import ReadingOptions
 from tmd.cli.plans import exit_code, why_invalid, why_none
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.json_record import json_value
-from tmd.pddl.model import TRUE, Instruction, Problem
+from tmd.pddl.model import TRUE, Problem
 from tmd.pddl.plan_file import Plan, read_plan
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import read_text
@@ -26,21 +27,6 @@ ASKED, CHANGED = "asked", "changed"
 """Goals by name, for a text: what it asks for, and everything that its plan changes."""
 
 
-@dataclass(frozen=True, slots=True)
-class ExportRequest:
-    """The options that say what is to be exported."""
-
-    source: str
-    domain: str | None
-    plan: Path | None
-    planner: str | None
-    text: str | None
-    goal: str | None
-    seconds: float | None
-    memory: int | None
-    reading: ReadingOptions
-
-
 class NotPlannedError(Exception):
     """There is no plan that works, which is an answer of the command; with the reason and the exit code."""
 
@@ -49,47 +35,62 @@ class NotPlannedError(Exception):
         self.code = code
 
 
-def planned_source(roots: Roots, asked: ExportRequest) -> Planned:
-    """Return the problem and the plan that were asked for.
+def planned_source(
+    roots: Roots,
+    source: str,
+    *,
+    domain: str | None,
+    plan: Path | None,
+    goal: str | None,
+    planner: str | None,
+    text: str | None,
+    reading: ReadingOptions,
+    **limits: Any,  # noqa: ANN401 - arguments of solve
+) -> Planned:
+    """Return the problem and the plan that were asked for; the arguments are those of ``tmd export``.
 
     Raises:
         NotPlannedError: There is no plan, or it does not work.
         TmdError: Something is missing or wrong.
         click.UsageError: An option has no meaning for this source.
     """
-    path = Path(asked.source)
-    of_text = asked.text is not None or path.suffix == ".json"
-    if asked.goal in (ASKED, CHANGED) and not of_text:
-        raise click.UsageError(f"--goal {asked.goal} is for a text, or for what tmd ground --json printed")
+    path = Path(source)
     if path.suffix == ".json":
-        return _of_json(roots, path, asked)
-    if path.suffix == ".pddl" and asked.text is None:
-        problem = roots.problem(path, asked.domain)
-        return _planned(with_goal(problem, asked.goal) if asked.goal else problem, asked)
-    return _of_environment(roots, asked)
+        return _of_json(roots, path, domain, goal)
+    unclear = click.UsageError(f"for the environment {source} give one of --text, --text-file, --plan and --goal")
+    if text is not None:
+        if plan:
+            raise unclear
+        corpus, world = roots.world(source, domain)
+        return _of_text(answer(corpus, world, source, text, reading, planner=planner), world.task.problem, goal)
+    if goal in (ASKED, CHANGED):
+        raise click.UsageError(f"--goal {goal} is for a text, or for what tmd ground --json printed")
+    if path.suffix == ".pddl":
+        problem = roots.problem(path, domain)
+    elif plan or goal:
+        problem = replace(roots.world(source, domain)[1].task.problem, goal=TRUE)
+    else:
+        raise unclear
+    if goal:
+        problem = with_goal(problem, goal)
+    if plan:
+        found = read_plan(plan)
+        return _checked(problem, found, whole=path.suffix != ".pddl" and not goal)
+    solution = solve(problem, planner or AUTO, **limits)
+    if isinstance(solution, Solved):
+        return planned(problem, solution.plan)
+    raise NotPlannedError(why_none(solution), exit_code(solution))
 
 
-def _of_environment(roots: Roots, asked: ExportRequest) -> Planned:
-    if not (asked.text or asked.plan or asked.goal) or (asked.text and asked.plan):
-        raise click.UsageError(f"for the environment {asked.source} give one of --text, --text-file, --plan and --goal")
-    corpus, world = roots.world(asked.source, asked.domain)
-    problem = replace(world.task.problem, goal=TRUE)  # what a PDDL environment has as its goal nobody asked for
-    if asked.text is not None:
-        found = answer(corpus, world, asked.source, asked.text, asked.reading, planner=asked.planner)
-        if found.code:
-            raise NotPlannedError(remarks(found.grounded)[-1].strip().partition(": ")[2], found.code)
-        best = found.record().plans[0]
-        return _checked(problem, found.grounded.plans[0].instructions, _goal(asked, best.goal))
-    if asked.goal:
-        return _planned(with_goal(problem, asked.goal), asked)
-    assert asked.plan is not None
-    plan = read_plan(asked.plan)
-    _refuse(problem, plan)
-    return _checked(problem, plan.instructions, None)
+def _of_text(found: Answer, problem: Problem, goal: str | None) -> Planned:
+    """Return the best plan of a text. Where two readings of the text differ there is none."""
+    if found.code:
+        raise NotPlannedError(remarks(found.grounded)[-1].strip().partition(": ")[2], found.code)
+    return _first_plan(found.record, problem, goal)
 
 
-def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned:
-    """Return a plan of ``tmd ground --json``."""
+def _of_json(roots: Roots, path: Path, domain: str | None, goal: str | None) -> Planned:
+    """Return the first plan of ``tmd ground --json``, with another goal if one is given."""
     hint = "give what tmd ground --json wrote"
     value = json_value(read_text(path), str(path), hint=hint)
     if not isinstance(value, dict) or "plans" not in value:
@@ -97,47 +98,29 @@ def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned:
     told = GroundingRecord.from_value(value, str(path))
     if not told.plans:
         raise NotPlannedError(f"{path} has no plan", ExitCode.NOT_GROUNDED)
-    _, world = roots.world(told.environment, asked.domain or told.domain)
-    best = told.plans[0]
-    return _checked(world.task.problem, tuple(step.instruction for step in best.steps), _goal(asked, best.goal))
+    return _first_plan(told, roots.world(told.environment, domain or told.domain)[1].task.problem, goal)
 
 
-def _goal(asked: ExportRequest, stated: str | None) -> str | None:
-    """Return the goal for the plan of a text; ``None`` for everything that the plan changes.
+def _first_plan(told: GroundingRecord, problem: Problem, goal: str | None) -> Planned:
+    """Return the first plan of a text, and as its goal what the text asks for unless another is given.
 
     Raises:
         TmdError: What the text asks for is wanted, and not known.
     """
-    if asked.goal == ASKED and stated is None:
+    best = told.plans[0]
+    if goal == ASKED and best.goal is None:
         raise TmdError(
             "what the text asks for is not known: it was grounded by a model without goals",
             hint=f"ground it again, or take --goal {CHANGED}",
         )
-    if asked.goal in (None, ASKED):
-        return stated
-    return None if asked.goal == CHANGED else asked.goal
+    wanted = best.goal if goal in (None, ASKED) else None if goal == CHANGED else goal
+    plan = Plan(tuple(step.instruction for step in best.steps))
+    return _checked(with_goal(problem, wanted) if wanted else replace(problem, goal=TRUE), plan, whole=not wanted)
 
 
-def _checked(problem: Problem, plan: tuple[Instruction, ...], goal: str | None) -> Planned:
-    """Return a plan that reaches ``goal``; where none is stated, what the plan brings about is its goal."""
-    wanted = with_goal(problem, goal) if goal else problem
-    _refuse(wanted, Plan(plan))
-    return planned(wanted if goal else with_outcome(problem, plan), plan)
-
-
-def _planned(problem: Problem, asked: ExportRequest) -> Planned:
-    """Return a problem with the plan in the file that was named, or else with that of a planner."""
-    if asked.plan:
-        plan = read_plan(asked.plan)
-        _refuse(problem, plan)
-        return planned(problem, plan.instructions)
-    found = solve(problem, asked.planner or AUTO, seconds=asked.seconds, memory=asked.memory)
-    if isinstance(found, Solved):
-        return planned(problem, found.plan)
-    raise NotPlannedError(why_none(found), exit_code(found))
-
-
-def _refuse(problem: Problem, plan: Plan) -> None:
+def _checked(problem: Problem, plan: Plan, *, whole: bool) -> Planned:
+    """Return a plan that works; its goal is what it brings about where the ``whole`` of that is wanted."""
     fault = why_invalid(problem, plan)
     if fault:
         raise NotPlannedError(fault, ExitCode.INVALID_PLAN)
+    return planned(with_outcome(problem, plan.instructions) if whole else problem, plan.instructions)

@@ -29,25 +29,16 @@ from tmd.readers.interface import Question, Usage
 from tmd.records.grounding import GroundingRecord
 from tmd.view.goals import ShownGoal, in_words
 from tmd.view.grounding_record import flat, grounding_record, option_texts
-from tmd.world.corpus import Corpus
+from tmd.world.corpus import Corpus, is_environment_file
 from tmd.world.world import World
 
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """A grounded text, with where and how that was done.
-
-    Attributes:
-        grounded: The plans.
-        domain: The name of the domain.
-        environment: The environment as it was given.
-        made_with: What decides the outcome, text and environment excepted.
-    """
+    """A grounded text, and the record that ``tmd ground --json`` prints."""
 
     grounded: Grounded
-    domain: str
-    environment: str
-    made_with: dict[str, object]
+    record: GroundingRecord
 
     @property
     def code(self) -> ExitCode:
@@ -55,11 +46,6 @@ class Answer:
         if self.grounded.reason:
             return ExitCode.NOT_GROUNDED
         return ExitCode.OK if self.grounded.question is None else ExitCode.QUESTION
-
-    def record(self) -> GroundingRecord:
-        """Return what ``tmd ground --json`` prints."""
-        file = environment_file(self.environment)
-        return grounding_record(self.grounded, domain=self.domain, environment_file=file, made_with=self.made_with)
 
 
 def answer(
@@ -96,32 +82,24 @@ def answer(
         "trim": grounded.config.trim,
         "top": options.get("top", 1),
     }
-    return Answer(grounded, corpus.folder.name, environment, made_with)
-
-
-def environment_file(name: str) -> str | None:
-    """Return the file of an environment as it was given; ``None`` for the name of a bundled one."""
-    path = Path(name)
-    return name if path.suffix or "/" in name or path.is_file() else None
+    file = environment if is_environment_file(environment) else None
+    record = grounding_record(grounded, domain=corpus.folder.name, environment_file=file, made_with=made_with)
+    return Answer(grounded, record)
 
 
 def ask_on_terminal(problem: Problem, question: Question) -> int | None:
-    """Ask the user a question on standard error; ``None`` for an empty line, and where standard input ends."""
+    """Ask the user a question on standard error; ``None`` for 0 or an empty line, and where standard input ends."""
     texts = option_texts(question, problem)
     click.echo(question.text, err=True)
     for number, text in enumerate(texts, start=1):
         click.echo(f"  {number}. {text}", err=True)
-    while True:
-        try:
-            given = click.prompt("Number (empty: the first with a plan)", default="", show_default=False, err=True)
-        except click.Abort:
-            click.echo(err=True)
-            return None
-        if not given.strip():
-            return None
-        if given.strip().isdecimal() and 1 <= int(given) <= len(texts):
-            return int(given) - 1
-        click.echo(f"Give a number from 1 to {len(texts)}.", err=True)
+    try:
+        numbers = click.IntRange(0, len(texts))
+        given = click.prompt("Number (0: the first with a plan)", default=0, show_default=False, type=numbers, err=True)
+    except click.Abort:
+        click.echo(err=True)
+        return None
+    return int(given) - 1 if given else None
 
 
 _MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}

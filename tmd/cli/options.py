@@ -46,8 +46,6 @@ def _gathered(name: str, kind: Callable[..., object], *options: _Decorator) -> C
         @wraps(command)
         def gathering(*args: Any, **given: Any) -> Any:  # noqa: ANN401 - what the command takes and gives
             made = kind(**{option: given.pop(option) for option in names})
-            if isinstance(made, ReadingOptions):
-                made.check()
             return command(*args, **{name: made}, **given)
 
         others = len(getattr(gathering, "__click_params__", ()))
@@ -64,16 +62,13 @@ overwrite_option = click.option(
 )
 
 
-def environment_option(about: str) -> _Decorator:
-    """Return the required option ``--environment``; ``about`` is its help."""
-    return click.option("--environment", required=True, metavar="FILE|NAME", help=about)
-
-
-def seed_option(about: str = "Random seed.") -> _Decorator:
-    """Return the option ``--seed``."""
-    return click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help=about)
-
-
+environment_option = click.option(
+    "--environment",
+    required=True,
+    metavar="FILE|NAME",
+    help="An environment (YAML), or the name of a bundled one; to ground a text, also a PDDL problem.",
+)
+seed_option = click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
 environment_domain_option = click.option(
     "--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default."
 )
@@ -135,14 +130,39 @@ class GivenText:
         return short_enough(self.read())
 
 
-def text_options(about: str = "") -> Callable[[_Command], Callable[..., Any]]:
-    """Return a decorator that adds ``--text``, with more ``about`` it, and ``--text-file``, gathered as ``spoken``."""
-    return _gathered(
-        "spoken",
-        GivenText,
-        click.option("--text", metavar="TEXT", help=f"What was said{about}."),
-        click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input."),
-    )
+text_options = _gathered(
+    "spoken",
+    GivenText,
+    click.option("--text", metavar="TEXT", help="What was said."),
+    click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input."),
+)
+"""``--text`` and ``--text-file``, gathered as ``spoken``."""
+
+
+def name_list(*choices: str) -> Callable[[click.Context, click.Parameter, str | None], tuple[str, ...] | None]:
+    """Return a callback of an option for names with commas between them: each once, in the order given.
+
+    Args:
+        choices: The names that there are, all of which ``all`` stands for; any name if none are given.
+    """
+
+    def parse(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[str, ...] | None:
+        if value is None:
+            return None
+        found = tuple(dict.fromkeys(name.strip() for name in value.split(",") if name.strip()))
+        if not found:
+            raise click.BadParameter("it names nothing", ctx, param)
+        if found == ("all",) and choices:
+            return choices
+        for name in found if choices else ():
+            if name not in choices:
+                from tmd.pddl.reading.syntax import nearest
+
+                hint = nearest(name, choices) or f"there are {', '.join(choices)}, all"
+                raise click.BadParameter(f"there is no '{name}': {hint}", ctx, param)
+        return found
+
+    return parse
 
 
 class _Memory(click.IntRange):
@@ -152,19 +172,20 @@ class _Memory(click.IntRange):
         return int(super().convert(value, param, ctx)) * _MEGABYTE
 
 
-class _Seconds(click.FloatRange):
-    """A time that can pass: not nan, which is below no limit."""
+class NumberRange(click.FloatRange):
+    """A number: not nan, which is below no limit."""
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401
+        """Return the number."""
         found = float(super().convert(value, param, ctx))
-        return found if found == found else self.fail(f"'{value}' is no time.", param, ctx)
+        return found if found == found else self.fail(f"'{value}' is not a number.", param, ctx)
 
 
 limit_options = _together(
     click.option(
         "--time-limit",
         "seconds",
-        type=_Seconds(min=0, min_open=True),
+        type=NumberRange(min=0, min_open=True),
         metavar="SECONDS",
         help="Stop the planner after this time; 300 by default.",
     ),
@@ -196,13 +217,17 @@ robot_options = _gathered(
 
 @dataclass(frozen=True, slots=True)
 class ReadingOptions:
-    """The options that say how requests are read; the fields are the options."""
+    """The options that say how requests are read; the fields are the options.
+
+    Raises:
+        click.UsageError: There are options for a language model without ``--reader llm``.
+        ModelError: There is no model, or no key for a server that needs one.
+    """
 
     reader: str = "rules"
     llm_model: str | None = None
     llm_url: str | None = None
     llm_cache: CacheMode = "on"
-    llm_timeout: float = 600.0
     verify: bool = False
 
     def settings(self) -> ModelSettings | None:
@@ -211,15 +236,9 @@ class ReadingOptions:
             return None
         from tmd.readers.llm.client import ModelSettings
 
-        return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache, timeout=self.llm_timeout)
+        return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache)
 
-    def check(self) -> None:
-        """Refuse options of a language model where none is asked, and settings with which none can be.
-
-        Raises:
-            click.UsageError: There are options for a language model without ``--reader llm``.
-            ModelError: There is no model, or no key for a server that needs one.
-        """
+    def __post_init__(self) -> None:
         given = [f.name for f in fields(self) if f.name != "reader" and getattr(self, f.name) != f.default]
         settings = self.settings()
         if settings is not None:
@@ -247,14 +266,6 @@ reading_options = _gathered(
         show_default=True,
         help="Use replies that were kept; 'only' never asks the server.",
     ),
-    click.option(
-        "--llm-timeout",
-        type=click.FloatRange(0.1, 86_400),
-        default=600.0,
-        show_default=True,
-        metavar="SECONDS",
-        help="How long to wait for a reply.",
-    ),
     click.option("--verify", is_flag=True, help="Ask the language model whether the plan does what was asked."),
 )
 """The options that say how a request is read, gathered as ``reading``."""
@@ -278,11 +289,6 @@ grounding_options = _gathered(
         "--beam",
         type=click.IntRange(0, _MOST),
         help=f"How many states to follow from clause to clause, {PRESETS[DEFAULT].beam} by default; 0 follows all.",
-    ),
-    click.option(
-        "--trim",
-        type=click.IntRange(0, _MOST),
-        help="How many leading instructions of a template may be dropped; any by default.",
     ),
 )
 """The options of ``tmd ground`` that say how, gathered as ``options``: arguments of ``answer``."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import nullcontext, suppress
-from io import TextIOBase, TextIOWrapper
+from io import TextIOWrapper
 from typing import TextIO
 
 from tmd.format.json_layout import lay_out
@@ -21,10 +21,7 @@ def open_closed_streams() -> None:
         try:
             os.fstat(number)
         except OSError:
-            opened = os.open(os.devnull, os.O_RDWR)
-            if opened != number:
-                os.dup2(opened, number)
-                os.close(opened)
+            os.open(os.devnull, os.O_RDWR)  # gets the lowest number that is free
             os.set_inheritable(number, True)
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - it stays open
 
@@ -44,30 +41,3 @@ def _write(stream: TextIO, text: str) -> None:
         stream.reconfigure(encoding="utf-8", errors="backslashreplace")
     stream.write(text)
     stream.flush()
-
-
-class ErrorStream(TextIOBase):
-    """Standard error for libraries that write to a file: what cannot be written is dropped, as by :func:`emit`.
-
-    It is the one of the time it was made: a bar on a terminal puts itself in the place of ``sys.stderr``, and would
-    write to itself for ever.
-    """
-
-    encoding = "utf-8"
-
-    def __init__(self) -> None:
-        self._stream = sys.stderr
-
-    def write(self, text: str) -> int:
-        """Write a text, and return its length."""
-        with suppress(OSError):
-            _write(self._stream, text)
-        return len(text)
-
-    def isatty(self) -> bool:
-        """Return whether it is a terminal."""
-        return self._stream.isatty()
-
-    def fileno(self) -> int:
-        """Return the file descriptor, which gives the width."""
-        return self._stream.fileno()

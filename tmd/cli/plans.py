@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 from tmd.cli.grounding import Answer, remarks
 from tmd.diagnostics import ExitCode, TmdError
@@ -14,7 +16,6 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import validate
 from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
-from tmd.records.grounding import GroundingRecord
 from tmd.robot.monitor.listeners import Order
 
 
@@ -60,24 +61,23 @@ class Orders:
     Attributes:
         orders: The plan.
         code: ``OK``, or what the program ends with because there is none.
-        status: ``not_grounded``, ``question``, ``unreachable``, ``gave_up`` or ``invalid_plan``; empty for a plan.
         remarks: Lines for standard error.
-        grounding: What ``tmd ground --json`` prints of the text; nothing where there was none.
+        given: Fields of the run's record: what ``tmd ground --json`` prints of the text, or the goal.
     """
 
     orders: tuple[Order, ...]
     code: ExitCode = ExitCode.OK
-    status: str = ""
     remarks: tuple[str, ...] = ()
-    grounding: GroundingRecord | None = None
+    given: Mapping[str, Any] = field(default_factory=lambda: {"grounding": None})
 
 
 def orders_of_text(answer: Answer) -> Orders:
     """Return the best plan of a text. Where two readings of the text differ there is none: the robot does not guess."""
-    told, record = tuple(remarks(answer.grounded)), answer.record()
+    told = tuple(remarks(answer.grounded))
+    given = {"grounding": answer.record}
     if answer.code:
-        return Orders((), answer.code, answer.code.name.lower(), told, record)
-    return Orders(tuple(orders_of(answer.grounded)), remarks=told, grounding=record)
+        return Orders((), answer.code, told, given)
+    return Orders(tuple(orders_of(answer.grounded)), remarks=told, given=given)
 
 
 def orders_of_goal(goal: str, problem: Problem, planner: str | None) -> Orders:
@@ -86,12 +86,11 @@ def orders_of_goal(goal: str, problem: Problem, planner: str | None) -> Orders:
     Raises:
         TmdError: The goal is wrong, or the planner is unknown, not installed or refuses the problem.
     """
-    name = planner or AUTO
-    answer = solve(with_goal(problem, goal, "--goal"), name)
+    given = {"grounding": None, "goal": goal}
+    answer = solve(with_goal(problem, goal, "--goal"), planner or AUTO)
     if isinstance(answer, Solved):
-        return Orders(tuple(map(Order, answer.plan)))
-    status = str(answer_json(answer, name)["status"])
-    return Orders((), exit_code(answer), status, (f"no plan: {why_none(answer)}\n",))
+        return Orders(tuple(map(Order, answer.plan)), given=given)
+    return Orders((), exit_code(answer), (f"no plan: {why_none(answer)}\n",), given)
 
 
 def orders_of_file(path: Path, problem: Problem) -> Orders:
@@ -105,7 +104,7 @@ def orders_of_file(path: Path, problem: Problem) -> Orders:
         raise TmdError(f"{path}: the plan has no instructions", hint="write one (name argument ...) a line")
     fault = why_invalid(problem, plan)
     if fault:
-        return Orders((), ExitCode.INVALID_PLAN, "invalid_plan", (f"invalid: {fault}\n",))
+        return Orders((), ExitCode.INVALID_PLAN, (f"invalid: {fault}\n",))
     return Orders(tuple(map(Order, plan.instructions)))
 
 

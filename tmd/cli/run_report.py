@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Literal, Self
+from typing import Literal, Self
 
 from tmd.cli.output import emit
 from tmd.cli.plans import Orders
@@ -31,8 +31,6 @@ from tmd.robot_trials.plan_runner import StepRecorder
 
 _FACTS = 2
 """Maximum number of facts of each kind on a line."""
-_SILENCE = 10.0
-"""Seconds of no movement after which the current search is shown."""
 
 
 class RunReport(StepRecorder):
@@ -52,8 +50,6 @@ class RunReport(StepRecorder):
         super().__init__()
         self._asked = asked
         self._journal = journal
-        self._begun = self._last_told = 0.0
-        self._title: Title | None = None
         self._as_json = as_json
         self._width = max((len(str(order.instruction)) for order in orders), default=0)
         self._origin = max((len(_origin(order)) for order in orders), default=0)
@@ -62,24 +58,13 @@ class RunReport(StepRecorder):
 
     def prepare(self, session: SimulationSession) -> tuple[Self]:
         """Report the plan when its simulation is ready; see :data:`tmd.robot.run_plan.Prepare`."""
-        session.cell.doing = self._looks_for
         self._print(f"plan: {self.heading}\n")
         self._log(PlanEvent(event="plan", **self._asked.given()))
         return (self,)
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """Log the beginning of an instruction, which the log of a killed run ends with."""
-        self._title, self._begun = title, time.monotonic()
-        self._last_told = self._begun
         self._log(BeginEvent(event="begin", number=title.number, instruction=str(title.instruction)))
-
-    def _looks_for(self, doing: str) -> None:
-        """Print a sign of life on standard error where an instruction takes long."""
-        now = time.monotonic()
-        if self._as_json or self._title is None or now - self._last_told < _SILENCE:
-            return
-        self._last_told = now
-        emit(f"       {self._title.instruction}: {now - self._begun:.0f} s, looking for {doing}\n", error=True)
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """Print and log an instruction that is over."""
@@ -114,7 +99,7 @@ class RunReport(StepRecorder):
 
 def without_plan(asked: RunRequest, orders: Orders) -> dict[str, object]:
     """Return the record of a run that has no plan."""
-    ended = {"status": orders.status, "reason": orders.remarks[-1].strip()}
+    ended = {"status": orders.code.name.lower(), "reason": orders.remarks[-1].strip()}
     nothing = {"steps": (), "repairs": 0, "seconds": 0.0}
     return RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value()
 
@@ -178,13 +163,17 @@ class RunLog:
     Every line is written at once, so that the log of a run that was killed can be read.
 
     Args:
-        path: Where it goes; it is not touched before the first line.
+        path: Where it goes.
+
+    Raises:
+        OutputError: It cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        self._file: IO[str] | None = None
         self._ended = False
+        with self._checked():
+            self._file = path.open("w", encoding="utf-8", buffering=1)
 
     def __enter__(self) -> Self:
         return self
@@ -192,15 +181,14 @@ class RunLog:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        if self._file is None:
-            return
         try:
             if kind is not None and not self._ended and not isinstance(error, OutputError):
                 interrupted = issubclass(kind, KeyboardInterrupt)
                 status: Literal["interrupted", "error"] = "interrupted" if interrupted else "error"
                 self.write(EndEvent(event="end", status=status, reason=str(error) or None))
         finally:
-            self._close(error)
+            with suppress(OSError):  # what was not written was told by then
+                self._file.close()
 
     def write(self, entry: JsonRecord) -> None:
         """Write one line.
@@ -208,26 +196,16 @@ class RunLog:
         Raises:
             OutputError: It cannot be written.
         """
-        try:
-            if self._file is None:
-                self._file = self._path.open("w", encoding="utf-8", buffering=1)
+        with self._checked():
             self._file.write(entry.to_line())
-            self._ended = isinstance(entry, EndEvent)
-        except OSError as error:
-            raise self._error(error) from error
+        self._ended = isinstance(entry, EndEvent)
 
-    def _close(self, error: BaseException | None) -> None:
-        """Close the file; a full disk is reported unless something worse happened."""
-        file, self._file = self._file, None
+    @contextmanager
+    def _checked(self) -> Iterator[None]:
         try:
-            if file is not None:
-                file.close()
-        except OSError as full:
-            if not isinstance(error, Exception):
-                raise self._error(full) from full
-
-    def _error(self, error: OSError) -> OutputError:
-        return OutputError(
-            f"{self._path} cannot be written: {error.strerror or error}",
-            hint="check that the directory exists, that you may write there and that the disk has room",
-        )
+            yield
+        except OSError as error:
+            raise OutputError(
+                f"{self._path} cannot be written: {error.strerror or error}",
+                hint="check that the directory exists, that you may write there and that the disk has room",
+            ) from error

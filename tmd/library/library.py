@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from weakref import WeakKeyDictionary
 
@@ -80,22 +80,6 @@ class Library:
                     found.add(template)
         return found
 
-    def extended(self, taught: Iterable[Taught], order: Mapping[str, int]) -> Library:
-        """Return a library with more templates, as if all had been learned together.
-
-        Args:
-            taught: What is new.
-            order: For each demonstration by its id its place in the corpus.
-        """
-        new = list(taught)
-        found = Library(self.lexicon)
-        templates = [t for own in self._by_verb.values() for t in own] + [t for part in new for t in part.templates]
-        for template in sorted(templates, key=lambda t: order[t.source]):
-            found.add(template)
-        unaligned = [*self.unaligned, *(pair for part in new for pair in part.unaligned)]
-        found.unaligned = sorted(unaligned, key=lambda pair: order[pair[0]])
-        return found
-
     def templates(self, verb: str) -> Sequence[Template]:
         """Return the templates of a canonical verb."""
         return self._by_verb.get(verb, ())
@@ -168,40 +152,23 @@ def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], Wor
     """
     library = Library(lexicon)
     for demonstration in demonstrations:
-        taught = teach(demonstration, world_of(demonstration.environment), lexicon)
-        library.unaligned += taught.unaligned
-        for template in taught.templates:
-            library.add(template)
-    return library
-
-
-@dataclass(frozen=True, slots=True)
-class Taught:
-    """The templates of one demonstration."""
-
-    templates: tuple[Template, ...]
-    unaligned: tuple[tuple[str, str], ...]
-
-
-def teach(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Taught:
-    """Make the templates of a demonstration."""
-    templates: list[Template] = []
-    unaligned: list[tuple[str, str]] = []
-    for lesson in lessons(demonstration, world, lexicon):
-        if lesson.clause is None:
-            unaligned.append((demonstration.id, lesson.text))
-        else:
-            template = generalise(
-                demonstration.id,
-                lesson.clause,
-                demonstration.environment,
-                lesson.instructions,
-                lesson.states,
-                world.profiles,
-                world.mentions,
+        world = world_of(demonstration.environment)
+        for lesson in lessons(demonstration, world, lexicon):
+            if lesson.clause is None:
+                library.unaligned.append((demonstration.id, lesson.text))
+                continue
+            library.add(
+                generalise(
+                    demonstration.id,
+                    lesson.clause,
+                    demonstration.environment,
+                    lesson.instructions,
+                    lesson.states,
+                    world.profiles,
+                    world.mentions,
+                )
             )
-            templates.append(template)
-    return Taught(tuple(templates), tuple(unaligned))
+    return library
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ from tmd.robot.pr2.urdf import packaged_robot
 from tmd.robot.run_plan import Filming, PlanRun, Prepare, run_plan
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.video.captions import pillow
-from tmd.robot.video.film import TILE, open_movie
+from tmd.robot.video.film import open_movie
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
@@ -45,7 +45,7 @@ class PlanRunner:
     """A simulated robot that carries out one plan; a context that opens the files of the run and closes them.
 
     The fields are an environment, its domain, the environment as PDDL, and arguments of
-    :meth:`tmd.domain_kit.DomainKit.run_plan`; ``size`` is that of the pictures of film and sheet, in pixels.
+    :meth:`tmd.domain_kit.DomainKit.run_plan`.
     """
 
     room: Environment
@@ -57,7 +57,6 @@ class PlanRunner:
     repairs: int = MOST_REPAIRS
     video: Path | None = None
     strip: Path | None = None
-    size: tuple[int, int] | None = None
     trajectory: Path | None = None
     rate: float | None = None
     robot: str | None = None
@@ -75,7 +74,7 @@ class PlanRunner:
             pillow()
         self._stack = ExitStack()
         self._recording = self._stack.enter_context(open_trajectory(self.trajectory)) if self.trajectory else None
-        self._movie = self._stack.enter_context(open_movie(self.video, self.size)) if self.video else None
+        self._movie = self._stack.enter_context(open_movie(self.video)) if self.video else None
         return self
 
     def __exit__(self, *error: Any) -> None:  # noqa: ANN401 - as contexts have it
@@ -115,7 +114,7 @@ class PlanRunner:
             self.problem,
             orders,
             prepare=lambda session: (*prepare(session), *recorders(session, recording, rate)),
-            filming=Filming(heading, text, self._movie, self.strip, self.size or TILE) if filmed else None,
+            filming=Filming(heading, text, self._movie, self.strip) if filmed else None,
             planner=self.planner,
             repairs=self.repairs,
             kinematic=self.kinematic,

@@ -9,7 +9,7 @@ from pathlib import Path
 from threading import Lock
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.model import Instruction, State
+from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.task import Bits
 from tmd.robot.assets.room import build_room
 from tmd.robot.skills.skill_file import visible
@@ -104,6 +104,12 @@ class Reel:
     def facts(self, step: int) -> State:
         """Return the facts after a number of steps."""
         return self.setting.world.task.decode(self.states[step])
+
+    def changes(self, step: int) -> tuple[list[GroundAtom], list[GroundAtom]]:
+        """Return the facts that a step made true, and those that it made false, sorted; none for the beginning."""
+        before, after = self.states[max(step - 1, 0)], self.states[step]
+        names = self.setting.world.task.names
+        return names(after & ~before), names(before & ~after)
 
     def picture(self, step: int) -> Picture | None:
         """Return the picture after a number of steps; ``None`` where there is nothing to see."""

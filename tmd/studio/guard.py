@@ -66,19 +66,16 @@ class Guard:
 
     Args:
         host: The address that is listened at.
+        port: The port, which distinguishes the cookies of several studios.
         token: What a visitor must know.
     """
 
-    def __init__(self, host: str, token: str) -> None:
+    def __init__(self, host: str, port: int, token: str) -> None:
         self._token = token
+        self._cookie = f"tmd-studio-{port}"
         self._everywhere = host in _ANY
         names = {host} if not self._everywhere else {socket.gethostname().lower(), socket.getfqdn().lower()}
         self._names = _LOCAL | {name.lower() for name in names}
-        self._port = 0
-
-    def listen(self, port: int) -> None:
-        """Set the port, which distinguishes the cookies of several studios."""
-        self._port = port
 
     def refusal(self, request: Request) -> str:
         """Return why a request is refused; empty where it is not."""
@@ -86,7 +83,7 @@ class Guard:
         if len(hosts) != 1 or not self._own(hosts[0]):
             return "this is not an address of the studio; use the one that it printed"
         origins = request.headers.get_all("Origin")
-        if any(urlsplit(origin).netloc != hosts[0] or not _web(origin) for origin in origins):
+        if any(origin not in (f"http://{hosts[0]}", f"https://{hosts[0]}") for origin in origins):
             return "another page may not speak to the studio"
         if not self._knows(request):
             return "the token is missing or wrong: open the whole address that tmd studio printed"
@@ -121,10 +118,6 @@ class Guard:
         found = cookies.get(self._cookie)
         return found.value if found is not None else ""
 
-    @property
-    def _cookie(self) -> str:
-        return f"tmd-studio-{self._port}"
-
     def answer(self, request: Request) -> Response | None:
         """Return a refusal, or the page's address without the token; ``None`` to go on."""
         why = self.refusal(request)
@@ -137,10 +130,6 @@ class Guard:
             cookie = f"{self._cookie}={self._token}; HttpOnly; SameSite=Strict; Path=/; Max-Age=31536000"
             return response(HTTPStatus.SEE_OTHER, "", {"Location": target, "Set-Cookie": cookie})
         return None
-
-
-def _web(origin: str) -> bool:
-    return urlsplit(origin).scheme in ("http", "https")
 
 
 def _said(request: Request) -> list[str]:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
-
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.reading.syntax import nearest
@@ -12,55 +9,29 @@ from tmd.pddl.task import Bits
 from tmd.world.world import PART_OF, World
 
 
-@dataclass(frozen=True, slots=True)
-class About:
-    """One object in one state. Facts are sorted; :class:`~tmd.view.wording.Wording` puts them into words.
+def about(name: str, world: World, state: Bits) -> dict[str, list[GroundAtom]]:
+    """Return the facts about ``name`` in ``state`` by heading, each sorted.
 
-    Attributes:
-        name: The object.
-        kind: Its class.
-        whole: What it is a part of, if of anything.
-        parts: Its parts.
-        states: What is so now of it alone: *mug1 is hot*.
-        relations: What is so now of it and another object: *mug1 is on counter1*.
-        edges: What never changes between it and another object: *stove1_knob1 controls stove1_burner1*.
-        traits: What never changes about it alone: *mug1 may stand on a burner*.
-    """
-
-    name: str
-    kind: str
-    whole: str | None
-    parts: tuple[str, ...]
-    states: tuple[GroundAtom, ...]
-    relations: tuple[GroundAtom, ...]
-    edges: tuple[GroundAtom, ...]
-    traits: tuple[GroundAtom, ...]
-
-
-def about(name: str, world: World, state: Bits) -> About:
-    """Return the facts about ``name`` in ``state``.
-
-    ``whole`` and ``parts`` record that two objects belong together; edges that hold both ways add nothing, and are
-    left out.
+    States are those of it alone (*mug1 is hot*), relations those of it and another object (*mug1 is on counter1*), and
+    the rest never changes (*stove1_knob1 controls stove1_burner1*); edges that hold both ways add nothing, and are left
+    out.
 
     Raises:
         TmdError: There is no such object.
     """
     require_object(name, world)
-    profiles, static = world.profiles, world.task.static
-    states, relations = _divided(name, world.task.names(state), world)
-    traits, edges = _divided(name, static, world)
-    traits = tuple(trait for trait in traits if not _empty(trait, world))
-    return About(
-        name,
-        world.mentions.kinds.get(name, ""),
-        profiles.wholes.get(name),
-        tuple(part for _, part in profiles.parts.get(name, ())),
-        states,
-        relations,
-        tuple(e for e in edges if e.predicate != PART_OF and e._replace(args=e.args[::-1]) not in static),
-        traits,
-    )
+    static, constants = world.task.static, world.profiles.constants
+
+    def shared(atom: GroundAtom) -> bool:
+        return any(argument != name and argument not in constants for argument in atom.args)
+
+    now = [atom for atom in world.task.names(state) if name in atom.args]
+    always = [atom for atom in sorted(static) if name in atom.args and atom.predicate != PART_OF and shared(atom)]
+    return {
+        "States": [atom for atom in now if not shared(atom)],
+        "Relations": [atom for atom in now if shared(atom)],
+        "What controls what": [atom for atom in always if atom._replace(args=atom.args[::-1]) not in static],
+    }
 
 
 def require_object(name: str, world: World) -> None:
@@ -72,24 +43,3 @@ def require_object(name: str, world: World) -> None:
     known = world.objects.types_of
     if name not in known:
         raise TmdError(f"there is no object '{name}'", hint=nearest(name, list(known), what="objects"))
-
-
-def _empty(trait: GroundAtom, world: World) -> bool:
-    """Return whether it says of a thing and itself what is so of each, such as that it belongs to itself."""
-    if len(trait.args) < 2 or len(set(trait.args)) > 1:
-        return False
-    alike = (trait._replace(args=(name,) * len(trait.args)) for name in world.profiles.objects)
-    return all(atom in world.task.static for atom in alike)
-
-
-def _divided(
-    name: str, atoms: Iterable[GroundAtom], world: World
-) -> tuple[tuple[GroundAtom, ...], tuple[GroundAtom, ...]]:
-    """Divide the atoms that mention ``name`` into those of it alone and those of another object as well."""
-    alone: list[GroundAtom] = []
-    shared: list[GroundAtom] = []
-    for atom in sorted(atoms):
-        if name in atom.args:
-            others = any(a != name and a not in world.profiles.constants for a in atom.args)
-            (shared if others else alone).append(atom)
-    return tuple(alone), tuple(shared)

@@ -10,21 +10,17 @@ from __future__ import annotations
 import gzip
 import json
 import secrets
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import asdict, dataclass
 from functools import cache
 from http import HTTPStatus
 from importlib.resources import files
 from threading import Lock
-from typing import TYPE_CHECKING, Annotated, TypeAlias
-from urllib.parse import parse_qs, urlencode
+from typing import TYPE_CHECKING, Annotated
+from urllib.parse import parse_qsl, urlencode
 
-from pydantic import BaseModel, Field, TypeAdapter, ValidationError
+from pydantic import BaseModel, Field, ValidationError
 
-from tmd.diagnostics import TmdError
-from tmd.inference.ranking import PlanStep
-from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.guard import response
 
 if TYPE_CHECKING:
@@ -45,10 +41,8 @@ EVENT = "tmdevent"
 _PATIENCE = 5.0
 # Characters of an event, or of an address, that are read.
 _LONGEST = 20_000
-# Steps of a plan that a window kept that are read.
-_MOST_STEPS = 1_000
-# Digits of a number in an address.
-_WHOLE = 6
+# Numbers in an address are smaller.
+_MOST = 1_000_000
 
 
 def answer(_connection: ServerConnection, request: Request) -> Response | None:
@@ -83,8 +77,7 @@ def _path(request: Request) -> str:
     return request.path.partition("?")[0]
 
 
-@dataclass(frozen=True, slots=True)
-class PageLink:
+class PageLink(BaseModel, frozen=True):
     """View of a window as its address states it.
 
     Attributes:
@@ -97,53 +90,22 @@ class PageLink:
 
     environment: str = ""
     say: str = ""
-    plan: int = 1
-    step: int = 0
+    plan: Annotated[int, Field(ge=1, lt=_MOST)] = 1
+    step: Annotated[int, Field(ge=0, lt=_MOST)] = 0
     tab: str = ""
 
     def query(self) -> str:
         """Return the address, from the question mark on."""
-        told = {name: value for name, value in asdict(self).items() if value != getattr(_NOWHERE, name)}
+        told = self.model_dump(exclude_defaults=True)
         return f"?{urlencode(told)}" if told else ""
 
 
-_NOWHERE = PageLink()
-
-
 def read_link(query: str) -> PageLink:
-    """Read an address; invalid parts are left out."""
+    """Read an address; an invalid one leads to the beginning."""
     try:
-        said = {name: values[0] for name, values in parse_qs(query.lstrip("?")[:_LONGEST]).items()}
+        return PageLink.model_validate(dict(parse_qsl(query.lstrip("?")[:_LONGEST])))
     except ValueError:
-        return _NOWHERE
-    return PageLink(
-        said.get("environment", ""),
-        said.get("say", ""),
-        _number(said, "plan", 1),
-        _number(said, "step", 0),
-        said.get("tab", ""),
-    )
-
-
-def plan_to_json(plan: Sequence[PlanStep]) -> str:
-    """Return a plan as a window keeps it; empty for none."""
-    return json.dumps([[str(s.instruction), s.clause, s.latent] for s in plan]) if plan else ""
-
-
-_ROWS = TypeAdapter(Annotated[list[tuple[str, int, bool]], Field(max_length=_MOST_STEPS)])
-
-
-def read_plan(kept: str) -> tuple[PlanStep, ...]:
-    """Return the plan that a window kept; empty where it kept none, or an invalid one."""
-    try:
-        rows = _ROWS.validate_json(kept, strict=True)
-        return tuple(PlanStep(parse_instruction(line), clause, latent) for line, clause, latent in rows)
-    except (ValidationError, TmdError):
-        return ()
-
-
-_Width: TypeAlias = Annotated[int, Field(ge=0, lt=10**_WHOLE)]
-_Part: TypeAlias = Annotated[float, Field(ge=0, le=1)]
+        return PageLink()
 
 
 class Event(BaseModel):
@@ -152,42 +114,25 @@ class Event(BaseModel):
     Attributes:
         number: Its number in the window.
         dark: Whether the system became dark.
-        width: The new width of the window in pixels.
         tab: The tab that was opened.
         step: The step that was clicked, in ``list``.
         list: The panel of the step.
         clicked: Whether the picture was clicked.
-        over: A place in the picture, from (0, 0) at the upper left to (1, 1) at the lower right.
-        asked: The number of the question about it.
-        move: The step that was dragged to the place of step ``to``.
-        to: That step.
     """
 
     number: int
     dark: bool | None = None
-    width: _Width = 0
     tab: str = ""
     step: int | None = None
     list: str = ""
     clicked: bool = False
-    over: tuple[_Part, _Part] | None = None
-    asked: int = 0
-    move: int | None = None
-    to: int | None = None
 
 
 class _Stored(BaseModel):
-    """State of a window when it was loaded: its address, whether its system is dark, its width, and its last plan."""
+    """State of a window when it was loaded: its address, and whether its system is dark."""
 
     search: str = ""
     dark: bool = False
-    width: _Width = 0
-    plan: str = ""
-
-
-def _number(said: Mapping[str, str], name: str, usual: int) -> int:
-    text = said.get(name, "")
-    return int(text) if text.isascii() and text.isdecimal() and len(text) <= _WHOLE else usual
 
 
 class Window:
@@ -199,9 +144,7 @@ class Window:
 
     Attributes:
         dark: Whether its system is dark.
-        width: Pixels from its left to its right; 0 where it does not say.
         link: The view that its address had when it was loaded.
-        plan: The plan that it showed before; empty for none.
     """
 
     def __init__(self, client: ClientHandle, told: Callable[[Event], None]) -> None:
@@ -210,9 +153,8 @@ class Window:
             stored = _Stored.model_validate_json(client.local_storage.get_item(KEY, timeout=_PATIENCE) or "{}")
         except (RuntimeError, TimeoutError, ValidationError):
             stored = _Stored()
-        self.dark, self.width = stored.dark, stored.width
-        self.link, self.plan = read_link(stored.search), read_plan(stored.plan)
-        self._kept, self._kept_plan = self.link, self.plan
+        self.dark = stored.dark
+        self.link = self._kept = read_link(stored.search)
         self._told = told
         self._seen = 0
         self._lock = Lock()
@@ -237,18 +179,11 @@ class Window:
             new, self._seen = number > self._seen, max(number, self._seen)
             return new
 
-    def keep(self, link: PageLink, plan: tuple[PlanStep, ...]) -> None:
-        """Let the address say what is looked at, and the window keep the plan, to show it at once when it is back."""
-        if plan != self._kept_plan:
-            self._kept_plan = plan
-            self._tell({"plan": plan_to_json(plan)})
+    def keep(self, link: PageLink) -> None:
+        """Let the address say what is looked at."""
         if link != self._kept:
             self._kept = link
             self._tell({"link": link.query()})
-
-    def call(self, asked: object, words: str) -> None:
-        """Name the object under the pointer, for the event ``asked``; empty for none."""
-        self._tell({"name": {"asked": asked, "words": words}})
 
     def show_tab(self, name: str) -> None:
         """Open a tab."""

@@ -7,7 +7,6 @@ import logging
 import socket
 import time
 import warnings
-from collections.abc import Callable
 from contextlib import redirect_stdout, suppress
 from importlib import import_module
 from io import StringIO
@@ -62,8 +61,7 @@ class Server:
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         self.studio = studio
         self.token = kept_token(studio.drafts.directory)
-        guard = Guard(host, self.token)
-        guard.listen(port)
+        guard = Guard(host, port, self.token)
         self._lock = Lock()
         self._visitors: dict[int, Visitor] = {}
         with redirect_stdout(StringIO()), guarding(guard, page.answer, page.with_script):  # it greets in its own way
@@ -82,6 +80,8 @@ class Server:
         visitor = Visitor(self.studio, client, self._identity(client))
         with self._lock:
             self._visitors[client.client_id] = visitor
+            if self.studio.teacher.learning:
+                visitor.learning(on=True)
         visitor.guarded(visitor.come_back)(None)
 
     def _identity(self, client: ClientHandle) -> str:
@@ -115,23 +115,22 @@ class Server:
             self.studio.drafts.leave(visitor.identity)
 
     def _follow(self) -> None:
-        """Show the progress of learning to every visitor."""
+        """Tell every visitor when learning begins and when it ends."""
         told = False
         while not self._ended.wait(_LOOK):
-            learning, training = self.studio.teacher.learning, self.studio.teacher.training
-            if learning or told:
+            learning = self.studio.teacher.learning
+            if learning != told:
+                told = learning
                 with self._lock:
                     visitors = list(self._visitors.values())
                 for visitor in visitors:
-                    visitor.learning(training.share if learning and training is not None else None)
-            told = learning
+                    visitor.learning(on=learning)
 
-    def serve(self, ended: Event | None = None, tick: Callable[[], None] = lambda: None) -> None:
+    def serve(self, ended: Event | None = None) -> None:
         """Serve until ``ended`` is set, or until the user stops it."""
         wait = ended or Event()
-        while not wait.is_set():
-            tick()
-            time.sleep(0.2)
+        while not wait.wait(0.2):  # signals are seen in between
+            pass
 
     def close(self) -> None:
         """Stop serving, and what is learned meanwhile."""

@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable
 from contextlib import suppress
-from datetime import datetime
 from functools import cache
-from itertools import count
 from pathlib import Path
 from threading import RLock
 
@@ -15,21 +11,17 @@ from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.studio.applicable_actions import Offers
 from tmd.studio.demonstrations.clause_spans import clean
-from tmd.studio.demonstrations.demo_store import FILE, Archive
+from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.environment_edit import EditedEnvironment
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.meshes import Figure
 from tmd.world.compile import compile_problem
 from tmd.world.corpus import Corpus
-from tmd.world.demonstration import Demonstration, read_demonstrations
+from tmd.world.demonstration import Demonstration
 from tmd.world.environment import load_environment
 from tmd.world.world import make_world
-
-SKILLS = "skills.yaml"
-_CHANGED = re.compile(r"_changed\d+$")
 
 
 class Studio:
@@ -72,39 +64,6 @@ class Studio:
             raise TmdError(f"there is no environment '{start}'", hint=nearest(start, names))
         self.start = start or names[0]
 
-    def changed(self, setting: Setting, change: Callable[[EditedEnvironment], object]) -> str:
-        """Make a changed environment for a visitor, and return its name; both files stay.
-
-        Raises:
-            TmdError: It cannot be changed so.
-        """
-        edited = EditedEnvironment(setting.path, self.corpus.folder)
-        change(edited)
-        with self._lock:
-            taken = {*self.corpus.environments(), *self._extra}
-            stem = _CHANGED.sub("", setting.name)
-            name = next(name for n in count(1) if (name := f"{stem}_changed{n}") not in taken)
-            self._extra[name] = edited.write(self.drafts.directory / "environments", name)
-            try:
-                self.setting(name)
-            except TmdError:
-                del self._extra[name]
-                raise
-        return name
-
-    def keep_environment(self, setting: Setting, name: str) -> str:
-        """Save an environment among those of the domain, and return its name.
-
-        Raises:
-            TmdError: There is one of that name, or it cannot be written.
-        """
-        if name in self.corpus.environments():
-            raise TmdError(f"there is an environment '{name}' already", hint="take another name")
-        with self._lock:
-            edited = EditedEnvironment(setting.path, self.corpus.folder)
-            self.corpus.take_in(edited.write(self.corpus.directory / "environments", name))
-        return name
-
     def environments(self) -> list[str]:
         """Return the names of the environments, sorted."""
         return sorted({*self.corpus.environments(), *self._extra})
@@ -139,10 +98,6 @@ class Studio:
         with self._lock:
             return _figure()
 
-    def executable(self, setting: Setting) -> bool:
-        """Return whether a robot could carry plans out: there are shapes, and the domain has skills."""
-        return setting.look is not None and (self.corpus.folder.path / SKILLS).is_file()
-
     def session(self, setting: Setting, text: str) -> Session:
         """Return a demonstration of a text, at its beginning.
 
@@ -152,21 +107,18 @@ class Studio:
         self.archive.refuse(setting.world)
         return Session(setting.world, text, self.corpus.lexicon, habits=self.teacher.habits)
 
-    def save(self, session: Session, task: str, who: str, *, when: bool, goal: str | None = None) -> Demonstration:
+    def save(self, session: Session, task: str, goal: str | None = None) -> Demonstration:
         """Save a demonstration: the next text is grounded with it, and the rest is learned in the background.
 
         Args:
             session: The demonstration.
             task: What it is an example of.
-            who: The name of the person; empty where it is not recorded.
-            when: Whether the time is recorded.
             goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
         Raises:
             TmdError: It cannot be saved; nothing is written.
         """
-        time = datetime.now().astimezone().isoformat(timespec="seconds") if when else None
-        saved = self.archive.save(session, task, who=who or None, when=time, goal=goal)
+        saved = self.archive.save(session, task, goal=goal)
         self.teacher.learn_one(saved)
         self.teacher.retrain()
         return saved
@@ -174,15 +126,6 @@ class Studio:
     def examples(self, name: str) -> list[str]:
         """Return the example texts of an environment."""
         return self._texts.get(name, [])
-
-    def nearest_example(self, text: str, name: str) -> str:
-        """Return the example text of an environment with most words of ``text``; empty for none."""
-        words = set(text.lower().split())
-
-        def alike(known: str) -> tuple[int, int]:
-            return len(words & set(known.lower().split())), -len(known)
-
-        return max(self.examples(name), key=alike, default="")
 
     def warm(self) -> None:
         """Ground a text, so that what is compiled and looked up once is there when the first visitor asks."""
@@ -197,20 +140,19 @@ def example_texts(corpus: Corpus) -> dict[str, list[str]]:
     """Return the texts of a domain by environment: always the same, in the same order.
 
     First come those of demonstrations, by task: the first of each task in the environment, so each can be carried out
-    there. Then come those of ``pNN-*.nl``, whose names end with the environment. Files that cannot be read are left
-    out.
+    there. Then come those of ``pNN-*.nl``, whose names end with the environment.
+
+    Raises:
+        TmdError: One of the files is wrong.
     """
     found: dict[str, dict[str, str]] = {name: {} for name in corpus.environments()}
-    for task in corpus.tasks():
-        with suppress(TmdError):
-            for each in read_demonstrations(corpus.directory / task / FILE):
-                if each.environment in found:
-                    found[each.environment].setdefault(task, each.text)
+    for each in corpus.demonstrations():
+        if each.environment in found:
+            found[each.environment].setdefault(each.task, each.text)
     for path in sorted(corpus.directory.glob("*.nl")):
         environment = path.stem.rpartition("-")[2]
         if environment in found:
-            with suppress(TmdError):
-                found[environment][f"~{path.stem}"] = clean(read_text(path))
+            found[environment][f"~{path.stem}"] = clean(read_text(path))
     return {name: list(dict.fromkeys(text for _, text in sorted(texts.items()))) for name, texts in found.items()}
 
 

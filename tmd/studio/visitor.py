@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable, Sequence
-from functools import partial
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,13 +13,13 @@ from tmd.diagnostics import TmdError, install_extra
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
 from tmd.robot.monitor.listeners import Title
-from tmd.robot.sim.pose import Pose, Vector
-from tmd.studio.demonstrations.session import DemonstratedStep, Session
+from tmd.robot.sim.pose import Vector
+from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import Event, PageLink, Window
 from tmd.studio.panels.context import PanelContext, Played, put
 from tmd.studio.panels.correct_panel import CorrectPanel
-from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
+from tmd.studio.panels.demonstrate_panel import DemonstratePanel
 from tmd.studio.panels.html import fragment, notice
 from tmd.studio.panels.object_panel import ObjectPanel
 from tmd.studio.panels.player_panel import PlayerPanel
@@ -36,14 +35,11 @@ if TYPE_CHECKING:
 
 # Pixels of the panel beside the 3D view: two fifths of the window, between these.
 WIDTH, LEAST_WIDTH = 430, 330
-# Pixels: in a window of this width or less viser puts the panel before the lower part of the view.
-NARROW = 576
-# How much of the view it covers there.
-SHEET = 0.6
 WELCOME = (
     "Welcome. Say: type what is to be done, or take an example, and press Enter. Demonstrate: show how it is done, and "
     "the next sentence uses it. Correct: change a plan that was made."
 )
+LEARNING = "Learning from what was saved. Go on meanwhile; plans may still change at its end."
 ROOM, EYES = "the whole room", "with the robot's eyes"
 # Seconds within which a click in the picture is the one that an object was pointed at with.
 _CLICK = 1.5
@@ -61,7 +57,7 @@ class Visitor(PanelContext):
         self._first_person = False
         self._aimed: tuple[float, Vector] = (0.0, (0.0, 0.0, 0.0))
         self.scenery: Scenery | None = None
-        with self._lock:  # who is quick waits until everything is there
+        with self.lock:  # who is quick waits until everything is there
             self._furnish()
 
     def _furnish(self) -> None:
@@ -70,7 +66,6 @@ class Visitor(PanelContext):
         gui.set_panel_label("tmd studio")
         self.window = Window(self.client, lambda event: self.guarded(lambda: self._happened(event))(None))
         self._theme(dark=self.window.dark)
-        self._width = self.window.width
         gui.main_panel.dock_right()
         gui.main_panel.set_width(min(WIDTH, max(LEAST_WIDTH, self.client.camera.image_width * 2 // 5)))
         self.setting = studio.setting(studio.start)
@@ -78,8 +73,7 @@ class Visitor(PanelContext):
         self._message = gui.add_html(
             notice(WELCOME, "Click on a thing in the picture to see what it is. Ctrl-K lists commands and their keys.")
         )
-        self._bar_title = gui.add_html("", visible=False)
-        self._bar = gui.add_progress_bar(0.0, visible=False)
+        self._learning = gui.add_html(fragment(f"<p>{LEARNING}</p>"), visible=False)
         self._blind = gui.add_html("")
         self._where = self.dropdown("Environment", studio.environments())
         put(self._where, studio.start)
@@ -108,7 +102,7 @@ class Visitor(PanelContext):
         if link.environment in self.studio.environments() and link.environment != self.setting.name:
             self.enter(link.environment)
         if link.say:
-            self.say.come_back(link, self.window.plan)
+            self.say.come_back(link)
         if link.tab in TABS:
             self._tab = link.tab
             self.window.show_tab(link.tab)
@@ -124,9 +118,6 @@ class Visitor(PanelContext):
         """Handle an event that the page's own script sends."""
         if event.dark is not None:
             self._theme(dark=event.dark)
-        elif event.width:
-            self._width = event.width
-            self._camera()
         elif event.tab in TABS:
             self._tab = event.tab
             self.keep_link()
@@ -135,19 +126,14 @@ class Visitor(PanelContext):
             if event.list in owners:
                 self.stop()
                 owners[event.list].goto(event.step)
-        elif event.clicked:  # in the picture; a click on an object has come before
-            if time.monotonic() - self._pointed_at > _CLICK:
-                self.select(None)
-        elif event.over is not None:
-            self.window.call(event.asked, self._called(*event.over))
-        elif event.move is not None and event.to is not None:
-            self.correct.move(event.move, event.to)
+        elif event.clicked and time.monotonic() - self._pointed_at > _CLICK:  # a click on an object has come before
+            self.select(None)
 
     def keep_link(self) -> None:
         """Let the window's address say what is looked at."""
         plan, step, text = self.say.looked_at()
         tab = self._tab if self._tab != "Say" else ""
-        self.window.keep(PageLink(self.setting.name, text, plan, step, tab), self.say.listed())
+        self.window.keep(PageLink(environment=self.setting.name, say=text, plan=plan, step=step, tab=tab))
 
     def show_tab(self, name: str) -> None:
         """Open a tab."""
@@ -181,8 +167,8 @@ class Visitor(PanelContext):
         look = self.setting.look
         self.scenery = None
         self._view.visible = self._names.visible = look is not None
-        graphs = "How its objects belong together is drawn under Object."
-        self._blind.content = "" if look is not None else notice(self.setting.blind, graphs)
+        listed = "Its objects are listed under Object."
+        self._blind.content = "" if look is not None else notice(self.setting.blind, listed)
         if look is None:
             self.client.scene.add_label("/blind", "no picture of this environment")
             return
@@ -222,25 +208,6 @@ class Visitor(PanelContext):
         self._pointed_at = time.monotonic()
         self.guarded(lambda: self.select(name))(None)
 
-    def _called(self, across: float, down: float) -> str:
-        """Return the name of what is seen at a place of the picture, the part's where it is one; empty for none."""
-        camera, scenery = self.client.camera, self.scenery
-        if scenery is None:
-            return ""
-        high = np.tan(camera.fov / 2)
-        w, x, y, z = camera.wxyz
-        ahead = Pose((0.0, 0.0, 0.0), (x, y, z, w))  # a camera looks along z, and its y is down
-        ray = ahead.apply(((2 * across - 1) * high * camera.aspect, (2 * down - 1) * high, 1.0))
-        found = scenery.first_hit(camera.position.tolist(), ray)
-        if found is None:
-            return ""
-        name, link = found
-        world = self.setting.world
-        parts = {part for _, part in world.profiles.parts.get(name, ())}
-        name = part if (part := f"{name}_{link}") in parts else name
-        kind = world.mentions.kinds.get(name, "")
-        return name if name.rstrip("_0123456789").endswith(kind) else f"{name}: {kind.replace('_', ' ')}"
-
     # the camera
 
     def _camera(self) -> None:
@@ -251,8 +218,7 @@ class Visitor(PanelContext):
         if self._first_person:
             eye, target = self.scenery.eyes(picture)
         else:
-            covered = SHEET if (self._width or camera.image_width) <= NARROW else 0.0
-            eye, target = self.scenery.overview(camera.fov, camera.aspect, covered)
+            eye, target = self.scenery.overview(camera.fov, camera.aspect)
         self._aimed = camera.aspect, eye
         with self.client.atomic():
             camera.up_direction = (0.0, 0.0, 1.0)
@@ -310,20 +276,11 @@ class Visitor(PanelContext):
         """Plan the text of a saved demonstration again, and report whether the plan uses it."""
         self.say.saved(demonstration)
 
-    def learning(self, share: float | None) -> None:
-        """Show the progress of learning; ``None`` when it is done."""
-        self._bar.visible = self._bar_title.visible = share is not None
-        if share is None:
+    def learning(self, *, on: bool) -> None:
+        """Show that something is being learned, or that it is done."""
+        self._learning.visible = on
+        if not on:
             self.guarded(self.say.learned)(None)
-            return
-        self._bar_title.content = fragment(
-            f"<p>Learning from what was saved: {share:.0%}. Go on meanwhile; plans may still change at its end.</p>"
-        )
-        put(self._bar, round(100 * share))
-
-    def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
-        """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""
-        self.demonstrate.take(session, goal, taken)
 
     # keys
 
@@ -340,9 +297,5 @@ class Visitor(PanelContext):
             ("Undo", "U", self.demonstrate.undo),
             ("Redo", "R", self.demonstrate.redo),
             ("Keep the demonstration: save it", "K", self.demonstrate.save),
-            *(
-                (f"Demonstrate: do what is numbered {n}", str(n), partial(self.demonstrate.do_numbered, n))
-                for n in range(1, NUMBERED + 1)
-            ),
         ):
             gui.add_command(label, hotkey=key).on_trigger(self.guarded(act))  # type: ignore[arg-type]

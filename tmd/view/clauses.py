@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import SequenceMatcher
 from html import escape
 from itertools import groupby, pairwise
 
@@ -16,7 +15,6 @@ from tmd.view.meaning import meanings
 from tmd.world.world import World
 
 VERB, OBJECT = "verb", "object"
-_SHORTEST_SLIP, _ALIKE = 4, 0.8
 # Maximum number of words that do not count within a phrase: "the cup of hot coffee".
 _WIDER = 3
 
@@ -60,18 +58,10 @@ def _verb(tokens: Sequence[Token], verb: str) -> list[int]:
     stems = [(words.verb(token.text) or (token.text,))[0] for token in tokens]
     place = next((i for i, found in enumerate(stems) if found == stem), None)
     if place is None:
-        place = next((i for i, found in enumerate(stems) if _is_slip(found, stem)), None)
-    if place is None:
         return []
     behind = range(place + 1, len(tokens))
     rest = [next((i for i in behind if tokens[i].text == particle), None) for particle in particles]
     return [place, *(i for i in rest if i is not None)]
-
-
-def _is_slip(written: str, meant: str) -> bool:
-    """Return whether the parser may have read a word as another: it corrects typing errors."""
-    shorter = min(len(written), len(meant))
-    return shorter >= _SHORTEST_SLIP and SequenceMatcher(None, written, meant).ratio() >= _ALIKE
 
 
 def _objects(tokens: Sequence[Token], clause: Clause, used: Collection[int]) -> Iterator[tuple[str, str, list[int]]]:
@@ -87,16 +77,11 @@ def _forms(word: str) -> frozenset[str]:
 
 def _words_of(free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[int]:
     """Return the narrowest run of free places with all of ``words``; with their head alone where there is none."""
-    corrected = {
-        place: forms | {w for w in words for form in forms if _is_slip(form, w)} for place, forms in free.items()
-    }
-    for known in (free, corrected):
-        starts = [place for place, forms in known.items() if forms & set(words)]
-        found = (_run_from(start, known, words) for start in starts)
-        runs = [run for run in found if len(run) == len(words)]
-        if runs:
-            return min(runs, key=lambda run: (run[-1] - run[0], run[0]))
-    return [place for place in starts if words[-1] in corrected[place]][:1]
+    starts = [place for place, forms in free.items() if forms & set(words)]
+    runs = [run for start in starts if len(run := _run_from(start, free, words)) == len(words)]
+    if runs:
+        return min(runs, key=lambda run: (run[-1] - run[0], run[0]))
+    return [place for place in starts if words[-1] in free[place]][:1]
 
 
 def _run_from(start: int, free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[int]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -25,8 +26,6 @@ from tmd.world.world import World
 
 # The lines of a file that are not blank, with their numbers.
 Lines = Sequence[tuple[int, str]]
-# Plans with more steps are refused: such a page cannot be read.
-MAX_STEPS = 10_000
 _KINDS = "give what tmd ground --json or tmd run --json printed, a log of tmd run, or a plan file"
 
 
@@ -43,7 +42,6 @@ class ViewRequest:
     environment: str | None = None
     domain: str | None = None
     problem: Path | None = None
-    strip: Path | None = None
 
     @property
     def name(self) -> str:
@@ -55,18 +53,13 @@ class ViewRequest:
         """The file."""
         return Path(self.source)
 
-    @property
-    def beside(self) -> Path:
-        """The default file of the page."""
-        return self.path.with_suffix(".html")
-
     def only(self, *meant: str) -> None:
         """Refuse options other than ``meant``, for which a kind of file has no use.
 
         Raises:
             OptionError: One of them was given.
         """
-        for name in ("problem", "environment", "domain", "strip"):
+        for name in ("problem", "environment", "domain"):
             if name not in meant and getattr(self, name) is not None:
                 raise OptionError(f"--{name} has no meaning for {self.name}", hint="leave it out")
 
@@ -77,14 +70,12 @@ class FoundSubject:
 
     Attributes:
         subject: The subject of the page.
-        beside: The default file of the page.
         remarks: Lines for standard error.
         locations: Where the steps of a plan file stand.
         of_text: Whether there is a text that should have a plan.
     """
 
     subject: Subject
-    beside: Path
     remarks: tuple[str, ...] = ()
     locations: tuple[Location, ...] = ()
     of_text: bool = False
@@ -122,13 +113,7 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
     if not lines:
         raise TmdError(f"{asked.name} is empty", hint=_KINDS)
     of_json = lines[0][1].lstrip().startswith(("{", "["))
-    found = _of_json(roots, asked, text, lines) if of_json else _plan_found(roots, asked, text)
-    if len(found.subject.steps) > MAX_STEPS:
-        raise TmdError(
-            f"{asked.name}: the plan has {len(found.subject.steps):,} steps; at most {MAX_STEPS:,} are shown",
-            hint="cut the plan",
-        )
-    return found
+    return _of_json(roots, asked, text, lines) if of_json else _plan_found(roots, asked, text)
 
 
 def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> FoundSubject:
@@ -137,7 +122,7 @@ def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> Found
     except TmdError:
         first = _object(asked, text)
     if "event" in first or ("mode" in first and "steps" in first):
-        asked.only("environment", "domain", "strip")
+        asked.only("environment", "domain")
         run, done = _run(asked, first, lines)
         return _record_found(asked, run, _scene(roots, asked, run.domain, run.environment, run.environment_file), done)
     if "plans" in first:
@@ -192,7 +177,7 @@ def _record_found(
         title = title_of("A plan that the robot carried out" if told.text is None else told.text, world.name)
         steps = tuple(PlannedStep(order.instruction) for order in told.plan)
         subject = Subject(title, world.task.problem, steps, said, ran=done, strip=strip, made=rows)
-    return FoundSubject(subject, asked.beside, of_text=subject.said is not None)
+    return FoundSubject(subject, of_text=subject.said is not None)
 
 
 def _run(asked: ViewRequest, first: Mapping[str, Any], lines: Lines) -> tuple[RunRequest, Ran]:
@@ -211,22 +196,13 @@ def _ended(end: RunRecord | EndEvent, steps: tuple[RanStep, ...]) -> Ran:
 
 
 def _strip(asked: ViewRequest, recorded: str | None) -> str:
-    """Return the filmstrip of a run as a ``data:`` address: the one that was named, else what lies beside the log."""
-    path = asked.strip
-    if path is None and asked.source != STANDARD:
-        names = ([Path(recorded).name] if recorded else []) + [asked.path.with_suffix(".png").name]
-        path = next((asked.path.parent / name for name in names if (asked.path.parent / name).is_file()), None)
-    if path is None:
+    """Return the filmstrip that lies beside the log of a run as a ``data:`` address; empty for none."""
+    if asked.source == STANDARD:
         return ""
-    hint = "give what tmd run --strip wrote"
-    try:
-        found = read_bytes(path)
-    except OSError as error:
-        raise TmdError(f"{path} cannot be read: {error.strerror}", hint=hint) from None
-    if found.startswith(_PNG):
-        return f"data:image/png;base64,{b64encode(found).decode()}"
-    if asked.strip is not None:
-        raise TmdError(f"{path} is not a PNG picture", hint=hint)
+    for name in filter(None, (recorded and Path(recorded).name, asked.path.with_suffix(".png").name)):
+        with suppress(OSError):
+            found = read_bytes(asked.path.parent / name)
+            return f"data:image/png;base64,{b64encode(found).decode()}" if found.startswith(_PNG) else ""
     return ""
 
 
@@ -265,4 +241,4 @@ def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     steps = tuple(PlannedStep(instruction) for instruction in plan.instructions)
     subject = Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where))
     told = f"warning: {plan.overlap}: instructions overlap in time; they are taken one after the other\n"
-    return FoundSubject(subject, asked.beside, (told,) if plan.overlap else (), plan.locations)
+    return FoundSubject(subject, (told,) if plan.overlap else (), plan.locations)

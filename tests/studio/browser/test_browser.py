@@ -205,10 +205,7 @@ def test_shown_by_clicks_saved_learned_and_used(kitchen_studio: Served, browser:
             press(page, words)
             page.locator(f"ol:visible > li:nth-child({number}) [aria-current=step]").wait_for()
             if number == 6:
-                page.get_by_text("Not possible now, and why").click()
-                page.get_by_text("✗").first.wait_for()
-                page.screenshot(path=screens / "05-what-can-be-done-and-what-not.png")
-                page.get_by_text("Not possible now, and why").click()
+                page.screenshot(path=screens / "05-what-can-be-done.png")
         page.screenshot(path=screens / "06-boiled.png")
         press(page, "Undo")
         page.locator(f"ol:visible > li:nth-child({len(BOIL) - 1}) [aria-current=step]").wait_for()
@@ -232,20 +229,9 @@ def test_an_object_is_pointed_at(kitchen_studio: Served, browser: Browser, scree
     with visiting(browser, kitchen_studio) as page:
         tab(page, "Object")
         choose(page, "Object", "stove1")
-        page.locator(".tmd-graph", has_text="stove1").first.wait_for()
+        page.get_by_role("heading", name="stove1: stove").wait_for()
         page.get_by_text("What controls what").first.wait_for()
         page.screenshot(path=screens / "09-object.png")
-        choose(page, "Object", "fridge1")  # one that is opened in the page can be closed again
-        page.get_by_role("heading", name="fridge1: fridge").wait_for()
-        page.get_by_text("Change the world").click()
-        choose(page, "Its state", "door: opened")
-        press(page, "Make it so")
-        told(page, "Changed: fridge1: door: opened.")
-        tab(page, "Say")
-        say(page, "Close the fridge.")
-        told(page, "Planned in")
-        page.get_by_text("✓ reaches its goals").wait_for()
-        assert list(map(first_line, shown(page))) == ["Go and stand before fridge1", "Close fridge1_door"]
 
 
 def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
@@ -264,8 +250,7 @@ def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: 
         choose(page, "Instruction", "Look around until cup1 is in view")
         press(page, "Insert behind this step")
         page.locator("ol:visible > li").filter(has_text="Look around until cup1 is in view").wait_for()
-        press(page, "Done: look at it, and save it")
-        press(page, "Save (K)")
+        press(page, "Save the correction")
         told(page, "Saved as shown-kitchen1-01")
         record = json.loads(corpus.read_text().splitlines()[-1])
         assert record["proposed"] == before
@@ -342,7 +327,7 @@ def test_by_keys_alone(table_studio: Served, browser: Browser, screens: Path) ->
         keys.press("Enter")
         page.locator("ol:visible > li:nth-child(1) [aria-current=step]").wait_for()
         stroke(page, "u", page.get_by_text("No steps yet."))
-        stroke(page, "1", page.locator("ol:visible > li:nth-child(1) [aria-current=step]"))
+        stroke(page, "r", page.locator("ol:visible > li:nth-child(1) [aria-current=step]"))
         keys.press("k")
         told(page, "Saved as shown-corner2-01")
         page.get_by_role("alert").filter(has_text="Saved as shown-corner2-01").first.wait_for()
@@ -356,7 +341,10 @@ HASTE = """async (words) => {
     value.set.call(box, typed);
     box.dispatchEvent(new Event("input", { bubbles: true }));
   }
-  dispatchEvent(new Event("resize")); // the page's own script has something to tell as well
+  const step = document.body.appendChild(document.createElement("span"));
+  step.dataset.step = "0";
+  step.click(); // the page's own script has something to tell as well
+  step.remove();
 }"""
 """Types something, and something else at once."""
 
@@ -415,35 +403,6 @@ def test_a_question_of_the_language_model_is_answered(browser: Browser, tmp_path
         finally:
             served.kill()
     assert len(model.bodies) == 1
-
-
-NAMED = {(0.2, 0.6): "counter1", (0.195, 0.44): "kettle1", (0.5, 0.3): "cupboard1_door", (0.8, 0.6): "fridge1"}
-"""Parts of the picture's width and height, and what is there."""
-
-
-def rest(page: Page, x: float, y: float, seen: Locator) -> None:
-    """Rest the pointer at a place until something is seen; where the page was slow to be there, once more."""
-    from playwright.sync_api import TimeoutError as NotInTime
-
-    for _ in range(4):
-        page.mouse.move(x, y)
-        with suppress(NotInTime):
-            return seen.wait_for(timeout=WAIT / 4)
-        page.mouse.move(x, 5)
-    raise AssertionError(f"{seen} is not seen")
-
-
-def test_the_pointer_names_what_it_rests_on(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
-    with visiting(browser, kitchen_studio, 1280, 800) as page:
-        place = page.locator("canvas").first.bounding_box()
-        assert place is not None
-        tip = page.get_by_role("tooltip")
-        for (across, down), name in NAMED.items():
-            named = tip.get_by_text(name, exact=True)
-            rest(page, place["x"] + place["width"] * across, place["y"] + place["height"] * down, named)
-        page.screenshot(path=screens / "14-named.png")
-        page.mouse.move(place["x"] + 5, place["y"] + 5)
-        tip.wait_for(state="detached")
 
 
 def test_what_visitors_type_is_text(kitchen_studio: Served, browser: Browser, screens: Path) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmd.cli.errors import fault_of, one_line, pointed
-from tmd.cli.options import PATH, json_option, learned_option, seed_option
+from tmd.cli.options import PATH, VARIABLE, json_option, seed_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, OutputError, TmdError
 from tmd.world.roots import Roots
@@ -70,13 +70,13 @@ def _next_steps(domain: str, start: str, made: Scaffold) -> str:
     "--out",
     type=PATH,
     metavar="DIR",
-    help="Save in DIR/DOMAIN, for `tmd ground --learned DIR`; learned/ beside the demonstrations by default.",
+    envvar=VARIABLE,
+    help=f"Save in DIR/DOMAIN, for `tmd ground --learned DIR`; ${VARIABLE}, or learned/ beside the demonstrations.",
 )
-@learned_option
 @click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
-@seed_option()
+@seed_option
 @click.pass_obj
-def learn(roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int) -> None:
+def learn(roots: Roots, domain: str, out: Path | None, no_weights: bool, seed: int) -> None:
     """Learn from the demonstrations of DOMAIN, and save it.
 
     `tmd ground` uses what was saved for as long as the domain, its environments and demonstrations, and tmd itself, are
@@ -88,7 +88,7 @@ def learn(roots: Roots, domain: str, out: Path | None, learned: Path | None, no_
     if not no_weights and sys.stderr.isatty():
         emit("the weights take a while to learn; --no-weights leaves them out\n", error=True)
     corpus = roots.corpus(roots.folder(domain))
-    emit(_learned_text(corpus, learn_domain(corpus, out or learned, weights=not no_weights, seed=seed)))
+    emit(_learned_text(corpus, learn_domain(corpus, out, weights=not no_weights, seed=seed)))
 
 
 def _learned_text(corpus: Corpus, found: LearnedDomain) -> str:
@@ -215,15 +215,13 @@ def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
     files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix == SUFFIX]
     for file in files:
         try:
-            if not format_file(file, write=not only_check):
-                continue
+            if format_file(file, write=not only_check):
+                changed += 1
+                emit(f"{file}: {'would be reformatted' if only_check else 'reformatted'}\n")
         except OutputError:
             raise
         except TmdError as error:
             failed.append(error)
-            continue
-        changed += 1
-        emit(f"{file}: {'would be reformatted' if only_check else 'reformatted'}\n")
     for fault in failed:
         emit(fault_of(fault).text(), error=True)
     emit(f"{len(files)} file(s): {changed} {'to change' if only_check else 'changed'}, {len(failed)} failed\n")
@@ -234,37 +232,27 @@ def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
 
 @click.command("compile", short_help="Compile object graphs to PDDL.")
 @click.argument("what", metavar="DOMAIN|ENVIRONMENT.yaml")
-@click.option("--check", is_flag=True, help="Write nothing; end with 13 if the domain.pddl there has drifted.")
 @click.option("--output", type=PATH, metavar="FILE", help="Write the PDDL problem to this file.")
 @click.option("--goal", metavar="CONDITION", help='The goal of the PDDL problem, such as "(hot pot1)".')
 @click.pass_obj
-def compile(roots: Roots, what: str, check: bool, output: Path | None, goal: str | None) -> ExitCode:
+def compile(roots: Roots, what: str, output: Path | None, goal: str | None) -> None:
     """Compile a domain folder to its domain.pddl, or an environment to a PDDL problem.
 
     The domain.pddl is written into the folder, the problem to standard output.
     """
-    if Path(what).suffix not in (".yaml", ".yml"):
-        if output or goal:
-            raise click.UsageError("--output and --goal are for environments")
-        return _domain(roots, what, check)
-    if check:
-        raise click.UsageError("--check is for domains")
-    return _environment(roots, Path(what), output, goal)
+    if Path(what).suffix in (".yaml", ".yml"):
+        _environment(roots, Path(what), output, goal)
+        return
+    if output or goal:
+        raise click.UsageError("--output and --goal are for environments")
 
-
-def _domain(roots: Roots, name: str, check: bool) -> ExitCode:
     from tmd.world.compile import update_domain
 
-    folder = roots.sources(name)
-    target, changed = folder.path / "domain.pddl", update_domain(folder, write=not check)
-    if check:
-        emit(f"{target} {'has drifted: run `tmd compile`' if changed else 'is up to date'}\n")
-        return ExitCode.FAULTS_FOUND if changed else ExitCode.OK
-    emit(f"{target} {'written' if changed else 'was up to date'}\n")
-    return ExitCode.OK
+    folder = roots.sources(what)
+    emit(f"{folder.path / 'domain.pddl'} {'written' if update_domain(folder) else 'was up to date'}\n")
 
 
-def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None) -> ExitCode:
+def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None) -> None:
     from tmd.files import write_text
     from tmd.pddl.reading.reader import with_goal
     from tmd.pddl.writer import format_problem
@@ -278,4 +266,3 @@ def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None
         write_text(output, text)
     else:
         emit(text)
-    return ExitCode.OK

@@ -5,14 +5,14 @@ from __future__ import annotations
 import logging
 import re
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmd.cli.options import PATH, seed_option
-from tmd.cli.output import ErrorStream, emit
+from tmd.cli.options import PATH, NumberRange, name_list, seed_option
+from tmd.cli.output import emit
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
@@ -26,27 +26,20 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-
-    bar = Progress(*columns, console=Console(file=cast(IO[str], ErrorStream())))
+    bar = Progress(*columns, console=Console(stderr=True))
     task = bar.add_task(what, total=None)
 
     def tell(done: int, total: int) -> None:
-        bar.update(task, completed=done, total=total)
-        if not bar.live.is_started:
+        with suppress(OSError):  # the run goes on where nobody can read it
+            bar.update(task, completed=done, total=total)
             bar.start()
 
     try:
         yield tell
     finally:
         if bar.live.is_started:
-            bar.stop()
-
-
-class _ToUser(logging.Handler):
-    """A log handler that shows warnings to the user."""
-
-    def emit(self, record: logging.LogRecord) -> None:
-        emit(f"{record.getMessage()}\n", error=True)
+            with suppress(OSError):
+                bar.stop()
 
 
 @contextmanager
@@ -54,7 +47,8 @@ def warnings_shown() -> Iterator[None]:
     """Show the user what a run warns of meanwhile, such as a damaged part."""
     from tmd.evaluation.runs.run_directory import LOG
 
-    log, handler = logging.getLogger(LOG), _ToUser(logging.WARNING)
+    log, handler = logging.getLogger(LOG), logging.StreamHandler()
+    handler.setLevel(logging.WARNING)
     log.addHandler(handler)
     try:
         yield
@@ -85,31 +79,6 @@ def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
     return tuple(sorted(found))
 
 
-def names(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[str, ...] | None:
-    """Parse an option of names: each name once, in the order given (a callback of :mod:`click`).
-
-    Raises:
-        click.BadParameter: It names nothing.
-    """
-    if value is None:
-        return None
-    found = tuple(dict.fromkeys(name.strip() for name in value.split(",") if name.strip()))
-    if not found:
-        raise click.BadParameter("it names nothing", ctx, param)
-    return found
-
-
-def probability(ctx: click.Context, param: click.Parameter, value: float) -> float:
-    """Check a number from 0 to below 1 (a callback of :mod:`click`).
-
-    Raises:
-        click.BadParameter: It is another number, or ``nan``.
-    """
-    if not 0 <= value < 1:
-        raise click.BadParameter(f"{value} is not in the range 0 to below 1", ctx, param)
-    return value
-
-
 @click.command("experiment", short_help="Train, predict, score, print the table.")
 @click.option("--task", required=True, metavar="NAME|all", help="The task, such as ramen.")
 @click.option(
@@ -123,28 +92,22 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
     help="Where VEIL-500 is; $VEIL500_DIR by default.",
 )
 @click.option("--domain", default="kitchen", show_default=True, help="The domain of the bundled data.")
-@click.option("--train-tasks", callback=names, metavar="A,B", help="Training tasks; by default those of the protocol.")
+@click.option(
+    "--train-tasks", callback=name_list(), metavar="A,B", help="Training tasks; by default those of the protocol."
+)
 @click.option("--train-environments", callback=numbers, metavar="1-8", help="Train in these environments only.")
 @click.option("--test-environments", callback=numbers, metavar="9,10", help="Test in these environments only.")
 @click.option(
     "--drop-sentences",
-    type=float,
-    callback=probability,
+    type=NumberRange(0, 1, max_open=True),
     default=0.0,
     metavar="P",
     help="Leave each sentence of a test text out with this probability.",
 )
-@click.option("--models", callback=names, metavar="A,B", help="The rows of the table; the usual ones by default.")
-@seed_option()
+@click.option("--models", callback=name_list(), metavar="A,B", help="The rows of the table; the usual ones by default.")
+@seed_option
 @click.option("--jobs", type=click.IntRange(1), help="Processes; one for each processor by default.")
-@click.option(
-    "--backend",
-    type=click.Choice(["joblib", "dask"]),
-    default="joblib",
-    show_default=True,
-    help="Processes on this machine, or a cluster.",
-)
-@click.option("--scheduler", metavar="tcp://HOST:PORT", help="The cluster's scheduler.")
+@click.option("--scheduler", metavar="tcp://HOST:PORT", help="Work on the cluster of this dask scheduler.")
 @click.option(
     "--step",
     type=click.Choice(["all", "robot", "report"]),
@@ -162,7 +125,6 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
 def experiment(
     roots: Roots,
     /,
-    backend: str,
     scheduler: str | None,
     jobs: int | None,
     models: tuple[str, ...] | None,
@@ -175,10 +137,10 @@ def experiment(
 
     A run that was stopped goes on where it was when the same command is given again.
     """
-    if (backend == "dask") != (scheduler is not None):
-        raise click.UsageError("--backend dask and --scheduler tcp://HOST:PORT go together")
     if step == "robot" and robot == "off":
         raise click.UsageError("--step robot and --robot off do not go together")
+
+    from joblib import cpu_count
 
     from tmd.evaluation.runs.config import ExperimentConfig
 
@@ -187,9 +149,9 @@ def experiment(
         models=models or (),
         domains=roots.domains,
         problems=roots.problems,
-        backend=backend,
+        backend="joblib" if scheduler is None else "dask",
         scheduler=scheduler,
-        jobs=jobs or _processors(),
+        jobs=jobs or max(1, int(cpu_count())),  # on a cluster, fewer than the machine has
         **settings,
     )
     _run(config, step, robot or ("kinematic" if step == "robot" else "off"))
@@ -217,13 +179,6 @@ def _trials(config: ExperimentConfig, mode: str) -> None:
     for trial in trials.found:
         why = f": {trial.reason}" if trial.reason else ""
         emit(f"robot in {trial.asked.environment}: {trial.status.replace('_', ' ')}{why}\n")
-
-
-def _processors() -> int:
-    """Return the processors that this process may use: on a cluster, fewer than the machine has."""
-    from joblib import cpu_count
-
-    return max(1, int(cpu_count()))
 
 
 @click.group("data")

@@ -23,12 +23,6 @@ if TYPE_CHECKING:
 @click.option(
     "--domain", "domain_name", metavar="NAME|FILE", help="The domain; otherwise the environment's or problem's own."
 )
-@click.option(
-    "--strip",
-    type=PATH,
-    metavar="FILE.png",
-    help="Of a run: its filmstrip; beside the log if not.",
-)
 @click.option("--out", metavar="FILE|-", help="The page; beside what it shows by default. - is standard output.")
 @click.pass_obj
 def view(
@@ -37,7 +31,6 @@ def view(
     environment: str | None,
     problem: Path | None,
     domain_name: str | None,
-    strip: Path | None,
     out: str | None,
 ) -> ExitCode:
     """Write one HTML page: what was said, what it means here, the plan step by step, and the candidates.
@@ -50,9 +43,11 @@ def view(
     from tmd.view.page import render
     from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
-    found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, strip))
-    target = out or (STANDARD if source == STANDARD else str(found.beside))
-    _refuse_to_overwrite(target, source, problem, strip)
+    found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem))
+    target = out or (STANDARD if source == STANDARD else str(Path(source).with_suffix(".html")))
+    for path in (source, problem):
+        if path is not None and target != STANDARD and Path(target).resolve() == Path(path).resolve():
+            raise click.UsageError(f"the page would overwrite {path}: give another --out")
     page = render(found.subject)
     if target == STANDARD:
         emit(page.html)
@@ -64,15 +59,7 @@ def view(
     return found.ending(page.verdict)
 
 
-def _refuse_to_overwrite(target: str, *shown: str | Path | None) -> None:
-    """Refuse to write a page over a file that it shows."""
-    for path in shown:
-        if path is not None and target != "-" and Path(target).resolve() == Path(path).resolve():
-            raise click.UsageError(f"the page would overwrite {path}: give another --out")
-
-
 LOCAL = "127.0.0.1"
-USUAL = "kitchen"
 
 
 @click.command("studio", short_help="Watch plans, correct them and demonstrate, in the browser.")
@@ -122,4 +109,4 @@ def _opened(roots: Roots, domain: str | None, environment: str | None) -> tuple[
     if path is not None and domain is None:
         bundled = path.suffix == ".pddl" and path.parent.name == "environments"
         domain = path.parent.parent.name if bundled else load_environment(path).domain
-    return roots.corpus(roots.folder(domain or USUAL)), path
+    return roots.corpus(roots.folder(domain or "kitchen")), path

@@ -15,6 +15,7 @@ from tmd.cli.options import (
     GivenText,
     json_option,
     limit_options,
+    name_list,
     overwrite_option,
     reading_options,
     text_options,
@@ -27,13 +28,15 @@ if TYPE_CHECKING:
     from tmd.pddl.model import Problem
 
 
+FORMATS = ("adl", "ipc", "strips", "durative", "plansys2", "bt", "sas")
+"""The forms of an export, the default first."""
+
+
 @click.command("plan", short_help="Find a plan for a PDDL problem.")
 @click.argument("domain")
 @click.argument("problem", type=PATH)
 @click.option("--planner", metavar="NAME", help="auto (default), kairos, fast-downward, in-process or up:ENGINE.")
-@click.option(
-    "--optimal/--satisficing", default=False, help="Only a plan that is proven to be optimal, or any (the default)."
-)
+@click.option("--optimal", is_flag=True, help="Only a plan that is proven to be optimal.")
 @limit_options
 @click.option("--output", type=PATH, metavar="FILE", help="Write the plan to this file.")
 @json_option
@@ -125,12 +128,11 @@ def _read(roots: Roots, domain: str, name: str) -> Problem:
     Raises:
         TmdError: It is missing or wrong.
     """
-    from tmd.pddl.reading.reader import read_problem
-
     path = Path(name)
     if path.suffix not in (".yaml", ".yml") and (path.is_file() or path.suffix or len(path.parts) > 1):
-        return read_problem(path, roots.domain(domain))
+        return roots.problem(path, domain)
     from tmd.pddl.model import TRUE
+    from tmd.pddl.reading.reader import read_problem
     from tmd.world.compile import compile_problem
     from tmd.world.environment import load_environment
 
@@ -141,24 +143,22 @@ def _read(roots: Roots, domain: str, name: str) -> Problem:
     return compile_problem(load_environment(found), folder)
 
 
-_ALL = "all"
-
-
 @click.command("export", short_help="Write a problem and its plan for other tools.")
 @click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json")
 @click.argument("directory", type=PATH, metavar="DIR")
 @click.option(
     "--format",
     "formats",
-    multiple=True,
+    callback=name_list(*FORMATS),
+    default=FORMATS[0],
     metavar="A,B|all",
-    help="adl (default), ipc, strips, durative, plansys2, bt, sas.",
+    help=f"{FORMATS[0]} (default), {', '.join(FORMATS[1:])}.",
 )
 @click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
 @click.option("--plan", type=PATH, metavar="FILE", help="Take this plan; otherwise one is found.")
 @click.option("--planner", metavar="NAME", help="As for tmd plan, or for tmd ground where there is a text.")
 @limit_options
-@text_options(", for an environment (YAML or PDDL)")
+@text_options
 @reading_options
 @click.option(
     "--goal",
@@ -175,7 +175,7 @@ def export(
     formats: Sequence[str],
     spoken: GivenText,
     overwrite: bool,
-    **options: Any,  # noqa: ANN401 - fields of ExportRequest
+    **options: Any,  # noqa: ANN401 - arguments of planned_source
 ) -> ExitCode:
     """Write a problem and a plan for it into DIR.
 
@@ -184,19 +184,18 @@ def export(
     12 or 20 where none is found. One format fills DIR, several a directory each. A format that fails does not keep the
     others back: why is told, and the exit code is that of the first failure.
     """
-    from tmd.cli.export_source import ExportRequest, NotPlannedError, planned_source
+    from tmd.cli.export_source import NotPlannedError, planned_source
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
 
-    names = _chosen(formats)
     check_directory(directory, overwrite=overwrite)
-    request = ExportRequest(source, text=spoken.request() if spoken else None, **options)
+    text = spoken.request() if spoken else None
     try:
-        found = planned_source(roots, request)
+        found = planned_source(roots, source, text=text, **options)
     except NotPlannedError as none:
         emit(f"{'invalid' if none.code is ExitCode.INVALID_PLAN else 'no plan'}: {none}\n", error=True)
         return none.code
-    written = chosen_files(found, names)
+    written = chosen_files(found, formats)
     failures = written.failures
     if not written.files:
         raise next(iter(failures.values()))
@@ -206,22 +205,3 @@ def export(
     for name, error in failures.items():
         emit(f"not written: {name}: {one_line(str(error))}\n", error=True)
     return next((error.exit_code for error in failures.values()), ExitCode.OK)
-
-
-def _chosen(given: Sequence[str]) -> list[str]:
-    """Return the names of the formats that were asked for, each once.
-
-    Raises:
-        click.UsageError: There is no such format.
-    """
-    from tmd.export.formats import DEFAULT, FORMATS
-    from tmd.pddl.reading.syntax import nearest
-
-    names = [name.strip() for text in given or (DEFAULT,) for name in text.split(",")]
-    if names == [_ALL]:
-        return list(FORMATS)
-    for name in names:
-        if name not in FORMATS:
-            hint = nearest(name, list(FORMATS)) or f"there are {', '.join(FORMATS)}, all"
-            raise click.UsageError(f"there is no format '{name}': {hint}")
-    return list(dict.fromkeys(names))

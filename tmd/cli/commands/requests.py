@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 @click.command("parse", short_help="Split a text into verb clauses.")
-@text_options()
+@text_options
 @click.option("--domain", "domain_name", metavar="NAME", help="Use the words of this domain as well.")
 @json_option
 @click.pass_obj
@@ -47,8 +47,8 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
 
 
 @click.command("ground", short_help="Ground a text in an environment: ranked, validated plans.")
-@environment_option("An environment (YAML), a PDDL problem, or the name of a bundled environment.")
-@text_options()
+@environment_option
+@text_options
 @environment_domain_option
 @grounding_options
 @reading_options
@@ -86,11 +86,12 @@ def ground(
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
     if ask and spoken.text_file == "-":
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
-    request, settings = spoken.request(), reading.settings()
+    request = spoken.request()
+    settings = reading.settings() if show_prompt else None
     if show_prompt and settings is None:
         raise click.UsageError("--show-prompt is for --reader llm")
     corpus, world = roots.world(environment, domain_name)
-    if show_prompt and settings is not None:
+    if settings is not None:
         from tmd.readers.llm.reader import llm_reader
 
         prompt = llm_reader(corpus, settings).prompt(request, world, world.task.init)
@@ -99,8 +100,7 @@ def ground(
     asking = partial(ask_on_terminal, world.task.problem) if ask else None
     found = answer(corpus, world, environment, request, reading, ask=asking, **options)
     if as_json:
-        record = found.record()
-        emit((record.goal_only() if goal_only else record).to_value())
+        emit((found.record.goal_only() if goal_only else found.record).to_value())
     else:
         emit((whole_goal_text if goal_only else grounded_text)(found.grounded))
     for line in remarks(found.grounded, verbose=verbose):
@@ -162,16 +162,14 @@ def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[Sent
 def _run(
     roots: Roots, tests: Sequence[SentenceTest], learned: Path | None, options: Mapping[str, Any]
 ) -> list[SentenceResult]:
-    """Run the tests, domain after domain; the results are in the order of the tests."""
+    """Run the tests, domain after domain."""
     from tmd.domain_kit import DomainKit
 
-    found: dict[int, SentenceResult] = {}
+    found: list[SentenceResult] = []
     for domain in dict.fromkeys(test.domain for test in tests):
-        own = [number for number, test in enumerate(tests) if test.domain == domain]
         kit = DomainKit(roots.corpus(roots.folder(domain)), learned)
-        results = kit.run_sentence_tests([tests[number] for number in own], **options)
-        found.update(zip(own, results, strict=True))
-    return [found[number] for number in range(len(tests))]
+        found += kit.run_sentence_tests([test for test in tests if test.domain == domain], **options)
+    return found
 
 
 def _text(results: Sequence[SentenceResult]) -> str:
@@ -190,28 +188,18 @@ def _text(results: Sequence[SentenceResult]) -> str:
                 lines.append(f"    plan: {' '.join(result.plan)}")
             lines += [f"    warning: {warning}" for warning in result.warnings]
     for kind, own in by_kind(results).items():
-        lines.append(f"{kind}: {_passed(own)} of {len(own)}")
+        lines.append(f"{kind}: {sum(result.outcome.passed for result in own)} of {len(own)}")
     lines.append(_total(results))
     return "\n".join(lines) + "\n"
 
 
-def _passed(results: Sequence[SentenceResult]) -> int:
-    return sum(result.outcome.passed for result in results)
-
-
 def _total(results: Sequence[SentenceResult]) -> str:
-    """Return the counts on one line, with the effort of the language model where one was asked."""
+    """Return the counts on one line."""
     from tmd.evaluation.sentence_tests import summary
 
     counts = summary(results)
-    line = (
+    return (
         f"{counts.right} of {counts.n - counts.impossible} right, "
         f"{counts.wrong} wrong ({counts.wrong_warned} with a warning), {counts.refused} refused; "
         f"{counts.impossible_refused} of {counts.impossible} impossible ones refused"
-    )
-    if "seconds" not in counts.model_fields_set:
-        return line
-    return (
-        f"{line}; {counts.prompt_tokens} + {counts.completion_tokens} tokens, {counts.seconds:.1f} s, "
-        f"{counts.cached} cached, {counts.corrections} corrected"
     )

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,6 +16,7 @@ from tmd.cli.options import (
     environment_domain_option,
     environment_option,
     learned_option,
+    name_list,
     overwrite_option,
     reading_options,
     robot_options,
@@ -33,36 +33,20 @@ if TYPE_CHECKING:
     from tmd.world.folder import DomainFolder
 
 
-class _File(click.Path):
-    """A file to be written, of a kind that its suffix tells."""
+def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | None], Path | None]:
+    """Return a callback of an option for a file of a kind that its suffix tells."""
 
-    def __init__(self, *suffixes: str) -> None:
-        super().__init__(path_type=Path)
-        self._suffixes = suffixes
+    def check(ctx: click.Context, param: click.Parameter, value: Path | None) -> Path | None:
+        if value is not None and value.suffix not in suffixes:
+            raise click.BadParameter(f"'{value}' does not end in {' or '.join(suffixes)}", ctx, param)
+        return value
 
-    def convert(self, value: str | os.PathLike[str], param: click.Parameter | None, ctx: click.Context | None) -> Path:
-        path = Path(value)
-        if path.suffix not in self._suffixes:
-            self.fail(f"'{path}' does not end in {' or '.join(self._suffixes)}", param, ctx)
-        return path
-
-
-def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
-    """Return width and height in pixels, which must be even for films."""
-    if value is None:
-        return None
-    width, _, height = value.partition("x")
-    if not (width.isdigit() and height.isdigit()):
-        raise click.BadParameter(f"'{value}' is not WxH, as in 960x720", ctx, param)
-    found = int(width), int(height)
-    if any(pixels % 2 or not 80 <= pixels <= 4096 for pixels in found):
-        raise click.BadParameter(f"'{value}': width and height must be even numbers from 80 to 4096", ctx, param)
-    return found
+    return check
 
 
 @click.command("run", short_help="Let a simulated PR2 carry out what was said, and check every step.")
-@environment_option("An environment (YAML), or the name of a bundled one.")
-@text_options()
+@environment_option
+@text_options
 @click.option("--plan", "plan_file", type=PATH, metavar="FILE", help="Carry out this plan, not a text.")
 @click.option("--goal", metavar="CONDITION", help="Find a plan for this PDDL condition, such as (on a b).")
 @environment_domain_option
@@ -71,26 +55,18 @@ def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
 @click.option("--planner", metavar="NAME", help="Planner for gaps and replanning; in-process by default.")
 @click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="Maximum number of replannings.")
 @click.option("--kinematic", is_flag=True, help="Kinematic mode: no physics; faster, less realistic.")
-@seed_option()
+@seed_option
 @robot_options
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
-@click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
-@click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
-@click.option(
-    "--size", callback=_size, metavar="WxH", help="Pixels of the pictures of film and strip; 640x480 and 400x300."
-)
+@click.option("--video", type=PATH, callback=_ending(".mp4", ".gif"), metavar="FILE", help="Film: out.mp4 or out.gif.")
+@click.option("--strip", type=PATH, callback=_ending(".png"), metavar="FILE", help="A picture for each instruction.")
 @click.option("--log", type=PATH, metavar="FILE", help="Write every step to a JSON Lines file.")
 @click.option(
     "--trajectory",
-    type=_File(".jsonl", ".mcap"),
+    type=PATH,
+    callback=_ending(".jsonl", ".mcap"),
     metavar="FILE",
     help="Record joints, base and things: out.jsonl or out.mcap (ROS 2).",
-)
-@click.option(
-    "--rate",
-    type=click.FloatRange(0.1, 240.0),
-    metavar="HZ",
-    help="Samples a second of simulated time; 10 by default.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print the whole record as JSON.")
 @click.pass_obj
@@ -121,18 +97,17 @@ def run(
     """
     if sum(given is not None for given in (spoken.text, spoken.text_file, plan_file, goal)) != 1:
         raise click.UsageError("give one of --text, --text-file, --plan and --goal")
-    if settings["rate"] is not None and settings["trajectory"] is None:
-        raise click.UsageError("--rate is for --trajectory")
 
-    from tmd.cli.grounding import answer, environment_file
+    from tmd.cli.grounding import answer
     from tmd.cli.plans import orders_of_file, orders_of_goal, orders_of_text
     from tmd.cli.run_report import RunLog, RunReport, without_plan
     from tmd.files import check_writable
     from tmd.planning.backends import IN_PROCESS
     from tmd.robot.skills.results import SkillStatus
     from tmd.robot_trials.plan_runner import PlanRunner
+    from tmd.world.corpus import is_environment_file
 
-    request = spoken.request() if spoken else None
+    request = spoken.request() if spoken else ""
     room, folder = roots.room(environment, domain_name)
     if log is not None:
         check_writable(log)
@@ -146,34 +121,35 @@ def run(
         elif goal is not None:
             orders = orders_of_goal(goal, problem, planner)
         else:
-            text = request or ""
-            found = answer(corpus, world, environment, text, reading, learned=learned, planner=planner)
+            found = answer(corpus, world, environment, request, reading, learned=learned, planner=planner)
             orders = orders_of_text(found)
         for line in orders.remarks:
             emit(line, error=True)
-        file, goal_given = environment_file(environment), {} if goal is None else {"goal": goal}
-        asked = runner.request(orders.orders, request, environment_file=file, grounding=orders.grounding, **goal_given)
-        if orders.status:
+        file = environment if is_environment_file(environment) else None
+        asked = runner.request(orders.orders, request or None, environment_file=file, **orders.given)
+        if orders.code:
             if as_json:
                 emit(without_plan(asked, orders))
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
         report = RunReport(asked, orders.orders, journal, as_json=as_json)
-        ran = runner.run(orders.orders, report.prepare, report.heading, request or "")
+        ran = runner.run(orders.orders, report.prepare, report.heading, request)
         report.log_ending(ran.execution, ran.sim_steps)
     report.print_ending(ran.execution, ran.sim_steps)
     return ExitCode.NOT_EXECUTED if ran.execution.status is SkillStatus.STOPPED else ExitCode.OK
 
 
 @click.command("scene", short_help="Show an environment as the robot's room.")
-@environment_option("An environment (YAML), or the name of a bundled one.")
+@environment_option
 @environment_domain_option
 @click.option("--reach", is_flag=True, help="Print a base pose for grasping every object.")
-@seed_option("Seed for placement jitter; 0 disables it.")
+@seed_option
 @robot_options
-@click.option("--picture", type=PATH, metavar="FILE", help="A picture of the room: out.png.")
+@click.option("--picture", type=PATH, callback=_ending(".png"), metavar="FILE", help="A picture of the room: out.png.")
 @click.option("--export", type=PATH, metavar="DIR", help="Write the room for other simulators.")
-@click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), mjcf.")
+@click.option(
+    "--format", "formats", callback=name_list("urdf", "mjcf"), metavar="A,B|all", help="urdf (default), mjcf."
+)
 @overwrite_option
 @click.pass_obj
 def scene(
@@ -185,7 +161,7 @@ def scene(
     model: dict[str, Any],
     picture: Path | None,
     export: Path | None,
-    formats: Sequence[str],
+    formats: tuple[str, ...] | None,
     overwrite: bool,
 ) -> None:
     """Build the room of an environment, put a PR2 into it, and say what stands where.
@@ -194,8 +170,6 @@ def scene(
     """
     if export is None and (formats or overwrite):
         raise click.UsageError("--format and --overwrite are for --export")
-    if picture is not None and picture.suffix != ".png":
-        raise click.UsageError(f"--picture: '{picture}' does not end in .png")
 
     from tmd.robot.pr2.urdf import packaged_robot
     from tmd.robot.skills.reachability_report import survey_scene
@@ -210,15 +184,14 @@ def scene(
 
 
 def _exported(
-    room: Environment, folder: DomainFolder, directory: Path, formats: Sequence[str], overwrite: bool
+    room: Environment, folder: DomainFolder, directory: Path, formats: tuple[str, ...] | None, overwrite: bool
 ) -> list[Path]:
     """Write the files of a scene, and return their paths without those of the meshes."""
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.scene_files import FORMATS, scene_files
 
     check_directory(directory, overwrite=overwrite)
-    names = tuple(dict.fromkeys(name.strip() for text in formats or FORMATS[:1] for name in text.split(",")))
-    files = scene_files(room, folder, FORMATS if names == ("all",) else names)
+    files = scene_files(room, folder, formats or FORMATS[:1])
     write_directory(directory, files, overwrite=overwrite)
     return [directory / path for path in files if "/" not in path]
 

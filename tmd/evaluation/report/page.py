@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from tmd import __version__
+from tmd.evaluation.report.alignment import Mark
 from tmd.evaluation.report.predictions import NOTHING, SHOWN, SYMBOLS, best_and_worst, by_instruction
 from tmd.evaluation.report.rows import (
     ALPHA,
@@ -25,7 +26,6 @@ from tmd.evaluation.summary import EMPTY, average
 from tmd.inference.energy import title
 from tmd.records.fit import Fit
 from tmd.records.metrics import SUCCESS, Means, Metrics, Pair
-from tmd.view.alignment import Mark
 from tmd.view.markup import data, templates
 
 # How many weights the table of weights shows.

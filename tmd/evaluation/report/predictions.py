@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from tmd.evaluation.report.alignment import AlignedStep, Mark, align, name
 from tmd.records.prediction import PredictionRecord
-from tmd.view.alignment import AlignedStep, Mark, align, name
 
 # Stands for the instruction that is not there, on either side.
 NOTHING = "(nothing)"

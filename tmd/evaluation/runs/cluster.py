@@ -118,7 +118,7 @@ def _distributed() -> ModuleType:
         import distributed
     except ImportError:
         raise MissingToolError(
-            "--backend dask needs the package distributed, which is not installed",
+            "--scheduler needs the package distributed, which is not installed",
             hint=install_extra("cluster"),
         ) from None
     for name in _NOISY:

@@ -470,7 +470,7 @@ class Bracketer(ClauseEnds):
         return begin
 
     def _correct_object(self, at: int, begin: int) -> int:
-        """Put a thing in the place of what the sentence before acts on: "rope in the shed. No wait, the hose."
+        """Put a thing in the place of what the sentence before acts on: "the rope to the shed. No, the hose".
 
         Returns:
             Where reading goes on; 0 where that sentence acts on nothing.

@@ -2,8 +2,8 @@
 // speaks to the server through an input that is not seen.
 "use strict";
 (() => {
-  const KEY = "tmd-page", EVENT = "tmdevent", PLAN = "tmd-plan", LOOK = 1500, LATE = 350, PATIENCE = 12000;
-  const SENT = 55, BUSY = 3000, REST = 100, SOON = 15, NEAR = 6; // milliseconds; pixels
+  const KEY = "tmd-page", EVENT = "tmdevent", LOOK = 1500, PATIENCE = 12000;
+  const SENT = 55, BUSY = 3000, SOON = 15; // milliseconds
   const getItem = Storage.prototype.getItem, setItem = Storage.prototype.setItem;
   const mine = (key) => String(key).endsWith(KEY);
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -13,16 +13,13 @@
   Storage.prototype.getItem = function (key) {
     if (!mine(key)) return getItem.call(this, key);
     recent = []; // the studio begins anew with this window
-    const plan = getItem.call(sessionStorage, PLAN) || ""; // as the address, it is this window's own
-    return JSON.stringify({ search: location.search, dark: dark.matches, width: innerWidth, plan });
+    return JSON.stringify({ search: location.search, dark: dark.matches });
   };
   Storage.prototype.setItem = function (key, value) {
     if (!mine(key)) return setItem.call(this, key, value);
     const told = JSON.parse(value);
     if (told.link !== undefined) history.replaceState(null, "", told.link || location.pathname);
-    if (told.plan !== undefined) setItem.call(sessionStorage, PLAN, told.plan);
     if (told.tab) tab(told.tab, 40);
-    if (told.name !== undefined) called(told.name);
   };
 
   // Of what happens in the panel viser sends something every 50 ms at most, and of what happens meanwhile the last thing
@@ -130,12 +127,6 @@
 
   dark.addEventListener("change", () => send({ dark: dark.matches }));
 
-  let sized = 0;
-  addEventListener("resize", () => {
-    clearTimeout(sized);
-    sized = setTimeout(() => send({ width: innerWidth }), LATE);
-  });
-
   // whether the studio is there
   let instance = "", banner = null, before = null;
 
@@ -214,58 +205,6 @@
     }
   }, true);
 
-  // the name of what the pointer rests on: only the server knows where things are
-  let resting = 0, pointed = null;
-
-  function called(name) {
-    if (!pointed || pointed.asked !== name.asked || !name.words) return;
-    pointed.shown = pointed.shown || document.createElement("div");
-    pointed.shown.className = "tmd-name";
-    pointed.shown.setAttribute("role", "tooltip");
-    pointed.shown.textContent = name.words;
-    document.body.append(pointed.shown);
-    const { width, height } = pointed.shown.getBoundingClientRect();
-    pointed.shown.style.left = `${Math.max(4, Math.min(pointed.x + 12, innerWidth - width - 4))}px`;
-    pointed.shown.style.top = `${pointed.y + 16 + height < innerHeight ? pointed.y + 16 : pointed.y - height - 8}px`;
-  }
-
-  function unname() {
-    clearTimeout(resting);
-    pointed?.shown?.remove();
-    pointed = null;
-  }
-
-  addEventListener("pointermove", (event) => {
-    const { clientX: x, clientY: y, target, buttons, pointerType } = event;
-    if (pointed && target === pointed.canvas && !buttons && Math.hypot(x - pointed.x, y - pointed.y) < NEAR) return;
-    unname();
-    if (!(target instanceof HTMLCanvasElement) || buttons || pointerType !== "mouse") return;
-    resting = setTimeout(() => {
-      const place = target.getBoundingClientRect();
-      pointed = { x, y, canvas: target, asked: number + 1 };
-      send({ over: [(x - place.left) / place.width, (y - place.top) / place.height], asked: pointed.asked });
-    }, REST);
-  }, true);
-  for (const kind of ["pointerdown", "wheel", "keydown", "blur"]) addEventListener(kind, unname, true);
-  document.addEventListener("pointerleave", unname);
-
-  // a step is dragged to the place of another
-  let dragged = null;
-  addEventListener("dragstart", (event) => {
-    const found = event.target instanceof Element && event.target.closest("[data-step][draggable=true]");
-    dragged = found ? Number(found.dataset.step) : null;
-  });
-  addEventListener("dragover", (event) => {
-    if (dragged && event.target instanceof Element && event.target.closest("[data-step]")) event.preventDefault();
-  });
-  addEventListener("drop", (event) => {
-    const found = dragged && event.target instanceof Element && event.target.closest("[data-step]");
-    if (!found) return;
-    event.preventDefault();
-    send({ move: dragged, to: Number(found.dataset.step), list: "correct" });
-    dragged = null;
-  });
-
   // after each change of the page: names for what has none, the caption over the picture, the list follows
   const NAMES = { "tabler-icon-x": "Close", "tabler-icon-search": "Search commands", "tabler-icon-moon": "Dark mode",
     "tabler-icon-sun": "Light mode", "tabler-icon-chevron-down": "Fold", "tabler-icon-chevron-up": "Unfold",
@@ -334,7 +273,7 @@
       over.setAttribute("aria-hidden", "true"); // the panel says it already
       document.body.append(over);
     }
-    if (over.textContent !== said) over.textContent = said, unname(); // what stood there may be somewhere else now
+    if (over.textContent !== said) over.textContent = said;
     const canvas = document.querySelector("canvas");
     if (canvas) {
       const place = canvas.getBoundingClientRect();

@@ -12,7 +12,7 @@ well the proposals agree with them.
 from __future__ import annotations
 
 import math
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -31,6 +31,8 @@ _PASSED_OVER = 1.5
 # Number of instructions that a verb must have been shown with to count as much as all verbs together.
 _PRIOR = 5.0
 _NEVER = -1e9
+# The keys of all verbs together, and of none.
+_ALL, _NOBODY = "", "?"
 
 
 @dataclass(frozen=True)
@@ -38,50 +40,44 @@ class Habits:
     """Instructions that were carried out for each verb.
 
     Attributes:
-        done: For each canonical verb how often each instruction was carried out.
+        library: Where they were counted.
+        done: For each canonical verb how often each instruction was carried out; for all verbs together under "".
         ended: The same for the last instructions.
-        all_done: The same for all verbs together.
-        all_ended: The last ones for all verbs together.
     """
 
     library: Library | None = None
-    done: dict[str, Counter[str]] = field(default_factory=dict)
-    ended: dict[str, Counter[str]] = field(default_factory=dict)
-    all_done: Counter[str] = field(default_factory=Counter)
-    all_ended: Counter[str] = field(default_factory=Counter)
+    done: defaultdict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
+    ended: defaultdict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
 
     @staticmethod
     def of(library: Library) -> Habits:
         """Count in ``library``."""
         found = Habits(library)
         for verb in library.verbs():
-            done = found.done.setdefault(verb, Counter())
-            ended = found.ended.setdefault(verb, Counter())
             for template in library.templates(verb):
-                done.update(instruction.name for instruction in template.instructions)
-                ended[template.instructions[-1].name] += 1
-            found.all_done.update(done)
-            found.all_ended.update(ended)
+                names = [instruction.name for instruction in template.instructions]
+                for counted in (verb, _ALL):
+                    found.done[counted].update(names)
+                    found.ended[counted][names[-1]] += 1
         return found
 
     def verb(self, clause: Clause | None) -> str:
         """Return the canonical verb of a clause."""
         if clause is None or self.library is None:
-            return ""
+            return _NOBODY
         return self.library.lexicon.canonical_verb(clause.verb)
 
     def usual(self, verb: str, instruction: str) -> float:
         """Return ln P(instruction | verb) / P(instruction); 0 where nothing is known."""
-        known = self.all_done.total()
-        share = (self.all_done[instruction] + 0.5) / (known + 0.5 * (len(self.all_done) + 1))
-        own = self.done.get(verb, Counter[str]())
+        everything, own = self.done[_ALL], self.done[verb]
+        share = (everything[instruction] + 0.5) / (everything.total() + 0.5 * (len(everything) + 1))
         return math.log((own[instruction] + _PRIOR * share) / (own.total() + _PRIOR) / share)
 
     def ends(self, verb: str, instruction: str) -> float:
         """Return the probability that the instruction was the last one for the verb."""
-        share = (self.all_ended[instruction] + 0.5) / (self.all_done[instruction] + 1.0)
-        ended = self.ended.get(verb, Counter[str]())[instruction] + _PRIOR * share
-        return min(max(ended / (self.done.get(verb, Counter[str]())[instruction] + _PRIOR), 1e-3), 1 - 1e-3)
+        share = (self.ended[_ALL][instruction] + 0.5) / (self.done[_ALL][instruction] + 1.0)
+        ended = self.ended[verb][instruction] + _PRIOR * share
+        return min(max(ended / (self.done[verb][instruction] + _PRIOR), 1e-3), 1 - 1e-3)
 
 
 # Nothing was ever shown.

@@ -32,12 +32,10 @@ class Break:
 
     Attributes:
         step: Its number, from 1.
-        instruction: What it is.
         why: The broken precondition in words.
     """
 
     step: int
-    instruction: Instruction
     why: str
 
 
@@ -92,13 +90,12 @@ class Correction:
         self._known(step)
         self._history.add(self.steps[: step - 1] + self.steps[step:])
 
-    def insert(self, step: int, instruction: Instruction, clause: int | None = None) -> None:
-        """Put an instruction in, so that it becomes the step of that number.
+    def insert(self, step: int, instruction: Instruction) -> None:
+        """Put an instruction in, so that it becomes the step of that number, for the clause of the step behind it.
 
         Args:
             step: From 1; one more than there are steps appends it.
             instruction: What to do.
-            clause: The clause it serves; that of the step behind it, or of the last, where none is given.
 
         Raises:
             TmdError: The environment has no such instruction, or the plan no such place.
@@ -108,7 +105,7 @@ class Correction:
             raise TmdError(f"there is no place {step}", hint=f"the plan has {len(self.steps)} steps")
         if len(self.steps) >= MAX_STEPS:
             raise TmdError(f"a plan has at most {MAX_STEPS} steps", hint="delete some")
-        self._put_in(step, [instruction], clause)
+        self._put_in(step, [instruction])
 
     def move(self, step: int, to: int) -> None:
         """Make a step the one of another number; those between move up or down.
@@ -174,8 +171,8 @@ class Correction:
             return ()
         if self._planner is None:
             self._planner = make(IN_PROCESS, self.world.task)
-        needed = what_it_needs(found.instruction, state, self.world, self._planner)
-        self._put_in(found.step, needed, self.steps[found.step - 1].clause)
+        needed = what_it_needs(self.steps[found.step - 1].instruction, state, self.world, self._planner)
+        self._put_in(found.step, needed)
         return needed
 
     def session(self, habits: Habits = NO_HABITS) -> Session:
@@ -199,10 +196,10 @@ class Correction:
             habits=habits,
         )
 
-    def _put_in(self, step: int, instructions: Sequence[Instruction], clause: int | None) -> None:
-        """Insert instructions before the step of that number."""
+    def _put_in(self, step: int, instructions: Sequence[Instruction]) -> None:
+        """Insert instructions before the step of that number, for its clause, or for the last one at the end."""
         beside = self.steps[step - 1 : step] or self.steps[-1:]
-        owner = clause if clause is not None else beside[0].clause if beside else 0
+        owner = beside[0].clause if beside else 0
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
         self._history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
@@ -214,7 +211,7 @@ class Correction:
             operator = task.by_instruction.get(step.instruction)
             if operator is None or not operator.applicable(state):
                 why = self._wording.broken(step.instruction, task.decode(state)) or "it can never be done here"
-                return state, Break(number, step.instruction, why)
+                return state, Break(number, why)
             state = operator.apply(state)
         return state, None
 

@@ -13,7 +13,6 @@ from tmd.diagnostics import TmdError
 from tmd.files import locked, make_directory, write_bytes
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
-from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.session import Session
 from tmd.view.meaning import after
 from tmd.world.corpus import Corpus, check_executable, final_state
@@ -36,7 +35,7 @@ _WAIT = 10.0
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,59}")
 _NUMBER = re.compile(r"[0-9]{1,9}")
 _TAKEN = frozenset({"environments", "learned"})
-# Characters that a name or a date may have.
+# Characters that a name may have.
 _LONGEST = 200
 
 
@@ -83,22 +82,12 @@ class Archive:
                 hint="give it another name, and copy its file there",
             )
 
-    def save(
-        self,
-        session: Session,
-        task: str = SHOWN,
-        *,
-        who: str | None = None,
-        when: str | None = None,
-        goal: str | None = None,
-    ) -> Demonstration:
+    def save(self, session: Session, task: str = SHOWN, *, goal: str | None = None) -> Demonstration:
         """Append a demonstration to the file of its task.
 
         Args:
             session: The demonstration; all its steps, wherever it is looked at.
             task: The task it is an example of.
-            who: The name of the person; not recorded by default.
-            when: The time; not recorded by default.
             goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
         Returns:
@@ -115,12 +104,11 @@ class Archive:
         if not session.steps and not session.proposed:  # that nothing is to be done is a correction as well
             raise TmdError("nothing was demonstrated yet", hint="carry out at least one instruction")
         self.refuse(session.world)
-        who, when = (clean(value)[:_LONGEST] if value and value.strip() else None for value in (who, when))
         make_directory(file.parent)
         with locked(file.with_name(_LOCK), wait=self.wait):
             before = read_demonstrations(file) if file.exists() else []
             name = _next_id(f"{task}-{session.world.name}", before)
-            found = demonstration(session, segments, name, task, who, when, goal)
+            found = demonstration(session, segments, name, task, goal)
             line = demonstration_line(found)
             self._check(found, line, file, len(before) + 1)
             old = file.read_bytes() if file.exists() else b""
@@ -146,8 +134,6 @@ def demonstration(
     segments: tuple[Segment, ...],
     name: str,
     task: str,
-    who: str | None = None,
-    when: str | None = None,
     goal: str | None = None,
 ) -> Demonstration:
     """Return a session as a demonstration."""
@@ -155,7 +141,7 @@ def demonstration(
     end = after((i for segment in segments for i in segment.instructions), world, world.task.init)
     whole = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
     ends = _end_state(world, end)
-    return Demonstration(name, task, world.name, session.text, segments, ends, whole, who, when, goal)
+    return Demonstration(name, task, world.name, session.text, segments, ends, whole, goal=goal)
 
 
 def _end_state(world: World, end: Bits) -> tuple[str, ...]:

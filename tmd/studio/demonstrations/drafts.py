@@ -33,8 +33,6 @@ from tmd.world.world import World
 # The environment variable that names the directory of all drafts.
 VARIABLE = "TMD_STUDIO_STATE"
 _VISITOR = re.compile(r"[A-Za-z0-9_-]{1,64}")
-# Maximum number of bytes of a draft.
-_LARGEST = 1_000_000
 
 
 def place(corpus: Corpus) -> Path:
@@ -78,7 +76,6 @@ class Draft(_Kept):
         text: The text that is demonstrated.
         instructions: The instructions carried out so far.
         marks: The steps whose clause the person chose: the step's number, from 1, and the clause's, from 0.
-        proposed: The plan that is corrected, if one is.
     """
 
     SUFFIX = ".json"
@@ -87,7 +84,6 @@ class Draft(_Kept):
     text: str
     instructions: tuple[_Line, ...]
     marks: tuple[tuple[int, int], ...]
-    proposed: tuple[_Step, ...] | None
 
     @staticmethod
     def of(session: Session, task: str) -> Draft:
@@ -99,7 +95,6 @@ class Draft(_Kept):
             text=session.text,
             instructions=tuple(map(str, session.instructions)),
             marks=tuple(session.pins.items()),
-            proposed=None if session.proposed is None else _pairs(session.proposed),
         )
 
     def resume(self, world: World, lexicon: Lexicon | None = None, habits: Habits = NO_HABITS) -> Session:
@@ -114,7 +109,6 @@ class Draft(_Kept):
             lexicon,
             instructions=map(parse_instruction, self.instructions),
             pins=dict(self.marks),
-            proposed=None if self.proposed is None else _steps(self.proposed),
             habits=habits,
         )
 
@@ -244,8 +238,6 @@ class Drafts:
             if not file.exists():
                 return None
             try:
-                if file.stat().st_size > _LARGEST:
-                    raise ValueError("it is too large")
                 return form.from_text(file.read_text(encoding="utf-8"), file.name)
             except (OSError, ValueError, TmdError) as error:
                 raise TmdError(_set_aside(file, error)) from None
@@ -262,15 +254,12 @@ class Drafts:
 
 def _set_aside(file: Path, error: Exception) -> str:
     """Rename a damaged draft, and return a message about it."""
-    number = 1
-    while (aside := file.with_name(f"{file.name}.damaged-{number}")).exists():
-        number += 1
+    aside = file.with_name(f"{file.name}.damaged-{secrets.token_hex(4)}")
     reason = f"the draft of '{file.name.partition('.')[0]}' is damaged ({' '.join(str(error).split())[:200]})"
-    try:
+    with suppress(OSError):
         file.replace(aside)
-    except OSError:
-        return f"{reason}, and {file} cannot be moved"
-    return f"{reason}; it is kept as {aside}"
+        return f"{reason}; it is kept as {aside}"
+    return f"{reason}, and {file} cannot be moved"
 
 
 def _pairs(steps: Iterable[DemonstratedStep]) -> tuple[_Step, ...]:

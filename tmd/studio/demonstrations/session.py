@@ -12,7 +12,7 @@ from typing import Generic, TypeVar
 
 from tmd.diagnostics import TmdError
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.model import GroundAtom, Instruction
+from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import bind
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
@@ -74,14 +74,6 @@ class DemonstratedStep:
 
 
 @dataclass(frozen=True, slots=True)
-class StateChanges:
-    """Facts that an instruction made true, and facts that it made false, sorted."""
-
-    added: tuple[GroundAtom, ...]
-    removed: tuple[GroundAtom, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class _Version:
     """Version of a session: its steps, the states before and after each, and the marked clauses."""
 
@@ -108,7 +100,7 @@ class Session:
         clauses: The pieces of the text that steps serve, at least one.
 
     Raises:
-        TmdError: The text is empty or too long, or an instruction does not apply.
+        TmdError: The text is empty or too long, an instruction does not apply, or there is no step or clause of a pin.
     """
 
     def __init__(
@@ -129,15 +121,11 @@ class Session:
         self._habits = habits
         self._wording = Wording(world.task.problem)
         self._cursor = 0
-        states = [world.task.init]
-        done = tuple(instructions)
-        for number, instruction in enumerate(done, start=1):
-            states.append(self._applied(instruction, states[-1], number))
-        whole = self._version(done, tuple(states), self._known_pins(pins or {}, len(done)))
-        self._history = History(_first(whole, 0))
-        for steps in range(1, len(done) + 1):
-            self._history.add(_first(whole, steps))
-        self._cursor = len(done)
+        self._history = History(_Version((), (world.task.init,)))
+        for instruction in instructions:
+            self.do(instruction)
+        for step, clause in sorted((pins or {}).items()):
+            self.mark(step, clause)
 
     @property
     def steps(self) -> tuple[DemonstratedStep, ...]:
@@ -220,7 +208,8 @@ class Session:
             TmdError: There is no such step or clause.
         """
         now = self._history.current
-        self._known_step(step)
+        if not 0 < step <= len(self.steps):
+            raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
         if not 0 <= clause < len(self.clauses):
             raise TmdError(f"there is no clause {clause + 1}", hint=f"the text has {len(self.clauses)}")
         pins = {n: c for n, c in now.pins.items() if (n < step - 1 and c <= clause) or (n > step - 1 and c >= clause)}
@@ -228,17 +217,6 @@ class Session:
         at = self._cursor
         self._become(self._version(done, now.states, {**pins, step - 1: clause}))
         self._cursor = at
-
-    def changes(self, step: int) -> StateChanges:
-        """Return the facts that a step changed.
-
-        Raises:
-            TmdError: There is no such step.
-        """
-        self._known_step(step)
-        before, after = self._history.current.states[step - 1 : step + 1]
-        names = self.world.task.names
-        return StateChanges(tuple(names(after & ~before)), tuple(names(before & ~after)))
 
     def segments(self) -> tuple[Segment, ...]:
         """Return the pieces of the text with what serves each, as a demonstration has them."""
@@ -255,18 +233,6 @@ class Session:
         steps = tuple(DemonstratedStep(instruction, clause, number in pins) for number, (instruction, clause) in pairs)
         return _Version(steps, states, MappingProxyType(dict(pins)))
 
-    def _known_pins(self, pins: Mapping[int, int], count: int) -> dict[int, int]:
-        """Return the pins that are possible, with steps counted from 0."""
-        found: dict[int, int] = {}
-        for step, clause in sorted(pins.items()):
-            if 0 < step <= count and max(found.values(), default=0) <= clause < len(self.clauses):
-                found[step - 1] = clause
-        return found
-
-    def _known_step(self, step: int) -> None:
-        if not 0 < step <= len(self.steps):
-            raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
-
     def _applied(self, instruction: Instruction, state: Bits, step: int) -> Bits:
         """Return the state after ``instruction``.
 
@@ -280,12 +246,6 @@ class Session:
         bind(task.problem, instruction)
         why = self._wording.broken(instruction, task.decode(state)) or "nothing can bring it about here"
         raise TmdError(f"step {step}, {instruction}, does not apply: {why}")
-
-
-def _first(version: _Version, steps: int) -> _Version:
-    """Return the version as it was after so many steps."""
-    pins = {number: clause for number, clause in version.pins.items() if number < steps}
-    return _Version(version.steps[:steps], version.states[: steps + 1], MappingProxyType(pins))
 
 
 def _in_order(steps: Iterable[DemonstratedStep], clauses: int) -> tuple[DemonstratedStep, ...]:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
-from tmd.studio.demonstrations.session import DemonstratedStep, Session
+from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel, Setting
 from tmd.studio.panels.html import fragment, notice
 from tmd.studio.studio import Studio
@@ -61,6 +61,7 @@ class PanelContext:
         cursor: The number of steps before the state that is seen.
         owner: The panel whose steps are looked at, if any.
         selected: The object that was pointed at.
+        lock: One thing at a time happens to what is looked at.
     """
 
     setting: Setting
@@ -73,7 +74,7 @@ class PanelContext:
         self.cursor = 0
         self.owner: Played | None = None
         self.selected: str | None = None
-        self._lock = threading.RLock()
+        self.lock = threading.RLock()
         self._playing: threading.Event | None = None
         self._message: GuiHtmlHandle | None = None
         self._voice = threading.Lock()
@@ -109,15 +110,11 @@ class PanelContext:
 
     # one action at a time
 
-    def holding(self) -> threading.RLock:
-        """Return the visitor's lock: one thing at a time happens to what it looks at."""
-        return self._lock
-
     def guarded(self, act: Act) -> Callable[[object], None]:
         """Return a callback that holds the lock, and reports errors to the visitor, never by a traceback."""
 
         def called(_: object) -> None:
-            with self._lock:
+            with self.lock:
                 self._report(act)
 
         return called
@@ -212,9 +209,6 @@ class PanelContext:
 
     def saved(self, demonstration: Demonstration) -> None:
         """Plan the text of a saved demonstration again, and report whether the plan uses it."""
-
-    def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
-        """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""
 
 
 def put(handle: object, value: object) -> None:

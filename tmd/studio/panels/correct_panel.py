@@ -6,8 +6,8 @@ from collections.abc import Sequence
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
-from tmd.pddl.reading.reader import with_goal
 from tmd.studio.demonstrations.correction import Correction
+from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import CorrectionDraft
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
@@ -24,7 +24,7 @@ _EDITS = ("Delete", "Earlier", "Later", "Undo", "Redo")
 
 
 class CorrectPanel:
-    """Panel that edits a proposed plan, and passes it to the panel where demonstrations are saved."""
+    """Panel that edits a proposed plan, and saves it."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
@@ -47,7 +47,7 @@ class CorrectPanel:
             visitor.button("Let the planner put in what is missing", self._mend)
             self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
             self._goal.on_update(visitor.guarded(self._keep))
-            visitor.button("Done: look at it, and save it", self._finish, color="blue")
+            visitor.button("Save the correction", self._save, color="green")
         visitor.guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
@@ -58,20 +58,20 @@ class CorrectPanel:
         self._look_for_draft()
 
     def open(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
-        """Correct a plan for a text; what was corrected before and is not done is asked for."""
+        """Correct a plan for a text; what was corrected before and is not saved is asked for."""
         visitor = self._visitor
 
         def go() -> None:
             self._open(Correction(visitor.setting.world, text, plan, visitor.studio.corpus.lexicon))
             visitor.show_tab("Correct")
-            visitor.tell("The plan is under Correct: click on a step, drag it, delete it, or put another behind it.")
+            visitor.tell("The plan is under Correct: click on a step, move it, delete it, or put another behind it.")
 
         before = self._draft()
         if before is None:
             go()
             return
         said = " ".join(before.text.split())
-        question = f'The correction of "{said}" in {before.environment} is not done.'
+        question = f'The correction of "{said}" in {before.environment} is not saved.'
         visitor.ask("Correct this plan instead?", question, "Throw it away", go)
 
     def _open(self, correction: Correction, goal: str = "") -> None:
@@ -84,7 +84,7 @@ class CorrectPanel:
         put(self._goal, goal)
         self._refresh()
 
-    # what is not done yet
+    # what is not saved yet
 
     def _draft(self) -> CorrectionDraft | None:
         return self._visitor.studio.drafts.of(self._visitor.identity, CorrectionDraft)
@@ -93,15 +93,15 @@ class CorrectPanel:
         self._resume.visible = self._draft() is not None
 
     def resume(self) -> None:
-        """Go on with the correction that is not done."""
+        """Go on with the correction that is not saved."""
         visitor = self._visitor
         draft = self._draft()
         if draft is None:
-            raise TmdError("there is no correction that is not done")
+            raise TmdError("there is no correction that is not saved")
         if draft.environment != visitor.setting.name:
             visitor.enter(draft.environment)
         self._open(draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon), draft.goal)
-        visitor.tell("Here is the correction that is not done.")
+        visitor.tell("Here is the correction that is not saved.")
 
     def come_back(self) -> None:
         """Resume the correction after the page was loaded again, if there is one."""
@@ -131,12 +131,6 @@ class CorrectPanel:
         self._at = min(max(step, 0), len(self._going().steps))
         self._refresh()
 
-    def move(self, step: int, to: int) -> None:
-        """Drag a step to the place of another."""
-        self._going().move(step, to)
-        self._at = to
-        self._refresh()
-
     def _edit(self) -> None:
         correction, at = self._going(), self._at
         edit = chosen(self._edits)
@@ -162,11 +156,8 @@ class CorrectPanel:
     def _instructions(self) -> None:
         """Offer the instructions with an object; the planner may make possible those that do not apply."""
         name = chosen(self._with)
-        groups = self._visitor.studio.offers(self._visitor.setting.name)
-        state = self._visitor.setting.world.task.init
-        found = [] if name == NOTHING else groups.of(name, state, parts=True)
-        offers = sorted(offer.instruction for group in (*found, *groups.anywhere(state)) for offer in group.offers)
-        self._insertable = self._visitor.wording.by_words(offers)
+        operators = self._visitor.studio.offers(self._visitor.setting.name).of(None if name == NOTHING else name)
+        self._insertable = self._visitor.wording.by_words(operator.instruction for operator in operators)
         self._what.options = (NOTHING, *self._insertable)
 
     def _insert(self) -> None:
@@ -183,17 +174,14 @@ class CorrectPanel:
         said = "; ".join(map(self._visitor.wording.instruction, added))
         self._visitor.tell(f"Put in: {said}." if added else "Nothing is missing.")
 
-    def _finish(self) -> None:
-        session = self._going().session(self._visitor.studio.teacher.habits)
-        goal = self._goal.value.strip()
-        if goal:
-            with_goal(session.world.task.problem, goal, "goal")
-        self._visitor.take_over(session, goal, self._done)
-
-    def _done(self) -> None:
-        """Discard the draft of the correction, which was taken over."""
-        self._visitor.studio.drafts.discard(self._visitor.identity, CorrectionDraft)
+    def _save(self) -> None:
+        """Save the corrected plan as a demonstration of the text, and learn from it."""
+        visitor = self._visitor
+        session = self._going().session(visitor.studio.teacher.habits)
+        saved = visitor.studio.save(session, SHOWN, self._goal.value.strip() or None)
+        visitor.studio.drafts.discard(visitor.identity, CorrectionDraft)
         self.entered()
+        visitor.saved(saved)
 
     # showing
 
@@ -214,5 +202,5 @@ class CorrectPanel:
         faults = {broken.step: [f"✗ {broken.why}"]} if broken else {}
         state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
         in_words = visitor.wording.instruction
-        listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct", draggable=True)
+        listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct")
         self._text.content = fragment(f"<p role='status'>{state}</p>") + listed

@@ -2,29 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections import Counter
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
 from tmd.planning.backends import IN_PROCESS, make
-from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.demonstrations.correction import what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import Draft
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.environment_view import Reel
 from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.panels.html import StepLine, changed, fragment, refused, step_list
+from tmd.studio.panels.html import StepLine, changed, step_list
 
-OWN = "(own words)"
+if TYPE_CHECKING:
+    from viser import GuiButtonHandle
+
 NONE = "(no object)"
 NOTHING = "(nothing)"
 GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
-# Number of the instructions that apply with a hot key: 1 to 9.
-NUMBERED = 9
-# Maximum number of instructions of an action with a button each; the object itself comes before its parts.
+# Maximum number of instructions of an action with a button each.
 _FEW = 4
 
 
@@ -35,11 +34,9 @@ class DemonstratePanel:
         self._visitor = visitor
         self._session: Session | None = None
         self._reel = Reel(visitor.setting)
-        self._offered: list[Any] = []
-        self._numbered: list[Instruction] = []
-        self._waiting: dict[str, Instruction] = {}
+        self._offered: list[GuiButtonHandle] = []
+        self._more: dict[str, Instruction] = {}
         gui = visitor.client.gui
-        self._examples = visitor.dropdown("Tasks", (OWN, *self._texts()), self._take_example)
         self._text = gui.add_text("Task text", "", multiline=True, hint="What you are going to show.")
         self._begin = visitor.button("Begin", self.begin, color="blue")
         self._resume = visitor.button("Go on with what was not saved", self.resume, visible=False)
@@ -50,78 +47,45 @@ class DemonstratePanel:
         with self._do:
             self._object = visitor.dropdown("With", (NONE, *visitor.setting.names()), self._point)
             self._buttons = gui.add_folder("Possible now")
-            self._later = visitor.dropdown("Not possible yet", (NOTHING,))
-            visitor.button("Do that, and first what it needs", self._do_later)
+            self._others = visitor.dropdown("More", (NOTHING,))
+            visitor.button("Do that, and first what it needs", self._do_other)
         self._keep = gui.add_folder("Save", visible=False)
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
             self._goal = gui.add_text("Goal (optional)", "", hint=GOAL_HINT)
-            self._who = gui.add_text("Who (optional)", "")
-            self._when = gui.add_checkbox("Save the time as well", False)
             visitor.button("Save (K)", self.save, color="green")
             visitor.button("Throw away", self.discard)
-        self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False, visible=False)
-        with self._refused:
-            self._reasons = gui.add_html("")
         visitor.guarded(self._look_for_draft)(None)
 
-    def _texts(self) -> list[str]:
-        return self._visitor.studio.examples(self._visitor.setting.name)
-
-    def _take_example(self) -> None:
-        if chosen(self._examples) != OWN:
-            put(self._text, self._examples.value)
-
     def entered(self) -> None:
-        """Show the objects and examples of another environment."""
-        visitor = self._visitor
-        self._examples.options = (OWN, *self._texts())
-        put(self._examples, OWN)
-        self._object.options = (NONE, *visitor.setting.names())
+        """Show the objects of another environment."""
+        self._object.options = (NONE, *self._visitor.setting.names())
         self._close()
 
     # beginning and ending
 
     def begin(self) -> None:
-        """Begin a new demonstration of the text."""
-        visitor = self._visitor
+        """Begin a new demonstration of the text; one that was not saved is asked for."""
+        visitor, draft = self._visitor, self._draft()
 
         def go() -> None:
             self._open(visitor.studio.session(visitor.setting, self._text.value))
             visitor.tell("Point at an object, in the picture or under 'With', and choose what to do.")
 
-        self._over("Begin anew?", "Throw it away, and begin", go)
-
-    def take(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
-        """Go on with a corrected plan, and with its goal, if one was given."""
-
-        def go() -> None:
-            taken()
-            put(self._text, session.text)
-            self._open(session)
-            put(self._goal, goal)
-            self._visitor.show_tab("Demonstrate")
-            self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
-
-        self._over("Take the corrected plan instead?", "Throw it away, and take the plan", go)
-
-    def _over(self, title: str, yes: str, act: Callable[[], None]) -> None:
-        """Do what ends a demonstration that was not saved, if there is one, only if the visitor says so."""
-        draft = self._draft()
         if draft is None or not draft.instructions:
-            act()
+            go()
             return
-        count = len(draft.instructions)
+        count, said = len(draft.instructions), " ".join(draft.text.split())
         steps = f"{count} step{'' if count == 1 else 's'}"
-        said = " ".join(draft.text.split())
-        self._visitor.ask(title, f'"{said}" was shown with {steps} in {draft.environment} and is not saved.', yes, act)
+        question = f'"{said}" was shown with {steps} in {draft.environment} and is not saved.'
+        visitor.ask("Begin anew?", question, "Throw it away, and begin", go)
 
     def _open(self, session: Session) -> None:
         self._visitor.stop()
         self._session = session
         put(self._goal, "")
         self._reel = Reel(self._visitor.setting)
-        for handle in (self._edit, self._do, self._keep, self._refused):
+        for handle in (self._edit, self._do, self._keep):
             handle.visible = True
         self._begin.label = "Start over"
         self._resume.visible = False
@@ -129,8 +93,7 @@ class DemonstratePanel:
 
     def _close(self) -> None:
         self._session = None
-        self._numbered = []
-        for handle in (self._edit, self._do, self._keep, self._refused, self._clause):
+        for handle in (self._edit, self._do, self._keep, self._clause):
             handle.visible = False
         self._begin.label = "Begin"
         self._steps.content = ""
@@ -141,7 +104,7 @@ class DemonstratePanel:
         visitor = self._visitor
         session = self._going()
         goal = self._goal.value.strip() or None
-        saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
+        saved = visitor.studio.save(session, self._task.value, goal)
         visitor.studio.drafts.discard(visitor.identity, Draft)
         self._close()
         visitor.saved(saved)
@@ -193,18 +156,11 @@ class DemonstratePanel:
         self._going().do(instruction)
         self.refresh()
 
-    def do_numbered(self, number: int) -> None:
-        """Carry out the instruction whose button has this number, from 1."""
-        self._going()
-        if number > len(self._numbered):
-            raise TmdError(f"there is no instruction {number}", hint="point at an object first")
-        self.do(self._numbered[number - 1])
-
-    def _do_later(self) -> None:
-        """Carry out an instruction that does not apply yet, after what the planner finds that it needs."""
+    def _do_other(self) -> None:
+        """Carry out an instruction after what the planner finds that it needs."""
         visitor = self._visitor
         session, world = self._going(), visitor.setting.world
-        instruction = self._waiting.get(self._later.value)
+        instruction = self._more.get(self._others.value)
         if instruction is None:
             raise TmdError("choose an instruction first", hint="point at an object")
         needed = what_it_needs(instruction, session.state, world, make(IN_PROCESS, world.task))
@@ -255,9 +211,8 @@ class DemonstratePanel:
             cursor = session.cursor
             visitor.watch(self._reel, cursor, self, [step.instruction for step in session.steps])
             titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
-            change = session.changes(cursor) if cursor else None
             wording = visitor.wording
-            gains = changed(change.added, change.removed, wording.fact) if change else []
+            gains = changed(*self._reel.changes(cursor), wording.fact)
             lines = [
                 StepLine(step.instruction, f"clause {step.clause + 1}" + (", marked" if step.marked else ""))
                 for step in session.steps
@@ -275,43 +230,28 @@ class DemonstratePanel:
             self._visitor.select(name)
 
     def offers(self) -> None:
-        """Show what can be done with the object that was pointed at, and why the rest cannot."""
+        """Offer what can be done with the object that was pointed at, now or after what it needs."""
         session, visitor = self._session, self._visitor
         if session is None:
             return
-        name = visitor.selected
-        put(self._object, name or NONE)
-        known = visitor.studio.offers(visitor.setting.name)
-        groups = [*(known.of(name, session.state, parts=True) if name else ()), *known.anywhere(session.state)]
+        put(self._object, visitor.selected or NONE)
+        operators = visitor.studio.offers(visitor.setting.name).of(visitor.selected)
+        possible = [operator.instruction for operator in operators if operator.applicable(session.state)]
+        alike = Counter[str]()
+        few = []
+        for instruction in possible:
+            alike[instruction.name] += 1
+            if alike[instruction.name] <= _FEW:
+                few.append(instruction)
         with visitor.client.atomic(), self._buttons:
             for handle in self._offered:
                 handle.remove()
-            self._offered, self._numbered = [], []
-            for group in groups:
-                self._offer(group)
-        waiting = [offer.instruction for group in groups for offer in group.offers if not offer.applies]
-        waiting.sort(key=lambda instruction: (instruction.args[:1] != (name,), instruction))
-        self._waiting = visitor.wording.by_words(waiting)
-        options = (NOTHING, *self._waiting)
-        if self._later.options != options:
-            self._later.options = options
-        self._reasons.content = fragment(refused(groups, visitor.wording.instruction))
-
-    def _offer(self, group: ActionGroup) -> None:
-        visitor = self._visitor
-        possible = [offer.instruction for offer in group.offers if offer.applies]
-        whole = visitor.selected
-        possible.sort(key=lambda instruction: (whole not in instruction.args, instruction))
-        told = [*visitor.wording.by_words(possible).items()]
-        for words, instruction in told[:_FEW]:
-            self._numbered.append(instruction)
-            number = len(self._numbered)
-            icon = f"square-number-{number}" if number <= NUMBERED else None
-            act = partial(self.do, instruction)
-            self._offered.append(visitor.button(words, act, icon=icon, hint=str(instruction)))
-        more = dict(told[_FEW:])
-        if more:
-            verb = told[0][0].split()[0].lower()
-            choice = visitor.dropdown(f"More: {verb}", tuple(more))
-            button = visitor.button(f"Do that: {verb}", lambda: self.do(more[chosen(choice)]))
-            self._offered += [choice, button]
+            self._offered = [
+                visitor.button(words, partial(self.do, instruction), hint=str(instruction))
+                for words, instruction in visitor.wording.by_words(few).items()
+            ]
+        rest = [operator.instruction for operator in operators if operator.instruction not in few]
+        self._more = visitor.wording.by_words(rest)
+        options = (NOTHING, *self._more)
+        if self._others.options != options:
+            self._others.options = options

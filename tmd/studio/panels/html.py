@@ -5,25 +5,18 @@ Colours are those of Okabe and Ito, which colour-blind people can tell apart; ea
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import holds
+from tmd.pddl.task import Bits
 from tmd.readers.interface import Usage
-from tmd.studio.applicable_actions import ActionGroup
-from tmd.studio.object_info import About
-from tmd.view.alignment import Mark, align
+from tmd.studio.object_info import about
 from tmd.view.goals import ShownGoal
 from tmd.view.markup import data, macro
-from tmd.view.wording import Wording
 from tmd.world.world import World
 
-# Maximum number of reasons listed why instructions do not apply.
-MOST = 30
-# Maximum number of instructions named for each.
-_NAMED = 6
 _TEMPLATE = "studio.html.j2"
 
 
@@ -53,8 +46,6 @@ def step_list(
     *,
     in_words: Callable[[Instruction], str] = str,
     of: str = "",
-    folded: Collection[int] = (),
-    draggable: bool = False,
 ) -> str:
     """Render numbered steps in words; the instruction shows on hover, and below the step that was taken last.
 
@@ -65,8 +56,6 @@ def step_list(
         faults: The faults of steps, by number.
         in_words: Puts an instruction into words.
         of: The panel whose steps they are; it is sent each click on a step.
-        folded: The numbers of steps that are counted instead of listed.
-        draggable: Whether a step can be dragged to the place of another.
     """
     wrong = faults or {}
     steps = [
@@ -76,11 +65,10 @@ def step_list(
             "words": in_words(line.instruction),
             "faults": wrong.get(number, ()),
             "gains": gains if number == current else (),
-            "folded": number in folded and number != current and not wrong.get(number),
         }
         for number, line in enumerate(lines, start=1)
     ]
-    return fragment(macro(_TEMPLATE, "step_list", steps, current, of, draggable))
+    return fragment(macro(_TEMPLATE, "step_list", steps, current, of))
 
 
 def judgement(outcome: str, lines: Iterable[str]) -> str:
@@ -106,57 +94,12 @@ def changed(
     return [macro(_TEMPLATE, "changed_fact", sign, atom, in_words(atom)) for sign, atom in signed]
 
 
-def object_facts(known: About, in_words: Callable[[GroundAtom], str]) -> str:
-    """Render an object: its class, its parts, and the facts about it by kind."""
-    return macro(_TEMPLATE, "object_facts", known, in_words)
-
-
-def refused(groups: Iterable[ActionGroup], in_words: Callable[[Instruction], str] = str) -> str:
-    """Render the instructions that do not apply by the reason, the reason of most of them first."""
-    reasons: dict[str, list[Instruction]] = {}
-    for group in groups:
-        for offer in group.offers:
-            if not offer.applies:
-                reasons.setdefault(offer.why, []).append(offer.instruction)
-    order = sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0]))
-    return macro(_TEMPLATE, "refused", order, MOST, _NAMED, in_words)
-
-
-def side_by_side(plans: Sequence[RankedPlan], world: World, wording: Wording) -> str:
-    """Render the first plan beside each other one, step by step, and the difference of their final states."""
-    return "".join(
-        macro(
-            _TEMPLATE,
-            "side_by_side",
-            number,
-            _rows(plans[0], plan, wording),
-            _ends(plans[0], plan, number, world, wording),
-        )
-        for number, plan in enumerate(plans[1:], start=2)
-    )
-
-
-def _rows(one: RankedPlan, other: RankedPlan, wording: Wording) -> list[tuple[str, str]]:
-    """Align two plans, with a sign at each step that is in one of them only."""
-    left, right = one.instructions, other.instructions
-    rows = []
-    for line in align([*map(str, left)], [*map(str, right)]):
-        x = "" if line.predicted is None else wording.instruction(left[line.predicted])
-        y = "" if line.gold is None else wording.instruction(right[line.gold])
-        rows.append((x, y) if line.mark is Mark.MATCH else (x and f"− {x}", y and f"+ {y}"))
-    return rows
-
-
-def _ends(one: RankedPlan, other: RankedPlan, number: int, world: World, wording: Wording) -> list[tuple[int, str]]:
-    """Return the facts that hold after one of two plans only, each with the number of that plan."""
-    names = world.task.names
-    only = ((1, names(one.state & ~other.state)), (number, names(other.state & ~one.state)))
-    return [
-        (plan, wording.fact(atom))
-        for plan, atoms in only
-        for atom in sorted(atoms)
-        if not atom.args or atom.args[0] not in world.profiles.constants
-    ]
+def object_facts(name: str, world: World, state: Bits, in_words: Callable[[GroundAtom], str]) -> str:
+    """Render an object: its class, its parts, and the facts about it by heading."""
+    profiles, kind = world.profiles, world.mentions.kinds.get(name, "object")
+    parts = [part for _, part in profiles.parts.get(name, ())]
+    found = about(name, world, state)
+    return macro(_TEMPLATE, "object_facts", name, kind, profiles.wholes.get(name), parts, found, in_words)
 
 
 def effort(usage: Usage | None) -> str:

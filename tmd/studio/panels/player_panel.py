@@ -60,7 +60,7 @@ class PlayerPanel:
 
     def _go(self, step: int) -> None:
         visitor = self._visitor
-        with visitor.holding():
+        with visitor.lock:
             if visitor.owner is not None:
                 visitor.owner.goto(min(max(step, 0), self._last))
 

@@ -6,18 +6,16 @@ import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from functools import partial
 from html import escape
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import RefusalKind, TmdError
-from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded, why_refused
 from tmd.inference.ranking import PlanStep
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.plan_file import format_plan
-from tmd.pddl.validator import Status, validate
-from tmd.pddl.writer import format_problem
 from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.clause_spans import clean
@@ -32,7 +30,6 @@ from tmd.studio.panels.html import (
     fragment,
     goal_list,
     judgement,
-    side_by_side,
     step_list,
 )
 from tmd.view.candidates import candidates
@@ -49,8 +46,9 @@ if TYPE_CHECKING:
 # How many plans are ranked.
 TOP = 3
 OWN = "(own words)"
+SKILLS = "skills.yaml"
 RULES, LLM = "rules", "language model"
-_FILES = ("plan", "problem", "page")
+_FILES = ("plan", "page")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,10 +71,6 @@ class Request:
         formula = self.answers.get(question.step)
         return None if formula is None or formula not in formulas else formulas.index(formula)
 
-    def answered(self, step: int, formula: Formula) -> Request:
-        """Return the request with one more answer."""
-        return replace(self, answers={**self.answers, step: formula})
-
 
 class SayPanel:
     """Panel that plans a text, and shows the plans."""
@@ -86,7 +80,6 @@ class SayPanel:
         self._grounded: Grounded | None = None
         self._request: Request | None = None
         self._waiting: PageLink | None = None
-        self._plans: list[tuple[PlanStep, ...]] = []
         self._reels: list[Reel] = []
         self._asked: list[ShownGoal] = []
         self._step = 0
@@ -105,8 +98,6 @@ class SayPanel:
         self._judged = gui.add_html("")
         self._which = visitor.dropdown("Plan", ("1",), lambda: self._choose(self._number()), visible=False)
         self._goals = gui.add_html("")
-        self._fold = gui.add_checkbox("Main steps only", False, visible=False)
-        self._fold.on_update(visitor.guarded(self._look))
         self._steps = gui.add_html("")
         self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False, visible=False)
         with self._more:
@@ -142,10 +133,10 @@ class SayPanel:
 
     def _clear(self) -> None:
         """Remove all plans; the picture shows the beginning."""
-        self._grounded, self._request, self._waiting, self._plans, self._reels = None, None, None, [], []
+        self._grounded, self._request, self._waiting, self._reels = None, None, None, []
         self._button.disabled = False
         self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
-        for handle in (self._question, self._which, self._fold, self._more, self._after):
+        for handle in (self._question, self._which, self._more, self._after):
             handle.visible = False
         self._visitor.watch(Reel(self._visitor.setting), 0)
 
@@ -160,19 +151,41 @@ class SayPanel:
         text = clean(self._text.value)
         self._plan(Request(text, self._chosen_reader()))
 
-    def _plan(self, request: Request) -> None:
-        """Ground a request, and show the best plan; in the background where a language model is asked."""
+    def _plan(self, request: Request, link: PageLink | None = None) -> None:
+        """Ground a request in the background, and show the plan that ``link`` names, the best one by default."""
         visitor = self._visitor
-        self._waiting = link = PageLink(visitor.setting.name, request.text)
-        self._step = 0
+        self._waiting = asked = link or PageLink(environment=visitor.setting.name, say=request.text)
+        self._button.disabled = request.reader is not None
         if request.reader is None:
             visitor.tell("Planning …")
-            self._plan_again(link, request)
-            return
-        # the answer may take minutes: the visitor is not held, and none of viser's few threads waits for it
-        self._button.disabled = True
-        visitor.tell("Asking the language model …", "To wait no longer, choose the reader 'rules'.")
-        visitor.behind(lambda: self._plan_again(link, request))
+        else:
+            visitor.tell("Asking the language model …", "To wait no longer, choose the reader 'rules'.")
+        visitor.behind(lambda: self._plan_behind(asked, request))
+
+    def _plan_behind(self, link: PageLink, request: Request) -> None:
+        """Ground a request, while the visitor may do something else; nothing is shown if that is another request."""
+        visitor = self._visitor
+        begun = time.perf_counter()
+        try:
+            grounded = self._ground(request)
+        except TmdError:
+            if self._waiting is not link:
+                return
+            raise
+        finally:
+            with visitor.lock:
+                if self._waiting is link:
+                    self._button.disabled = False
+        took = time.perf_counter() - begun
+        with visitor.lock:
+            if self._waiting is not link:
+                return  # another text was planned meanwhile
+            free = visitor.owner in (None, self)
+            place = link.plan - 1 if link.plan <= len(grounded.plans) else 0
+            self._show(grounded, place, link.step, watch=free, request=request)
+            if free or request.reader is not None:
+                self._tell(grounded, took)
+        visitor.keep_link()
 
     def _ground(self, request: Request) -> Grounded:
         visitor = self._visitor
@@ -207,62 +220,18 @@ class SayPanel:
         self._clear()
         self._plan(request)
 
-    def come_back(self, link: PageLink, kept: tuple[PlanStep, ...]) -> None:
-        """Show the plan that the window kept at once, and plan what its address says in the background."""
-        visitor = self._visitor
+    def come_back(self, link: PageLink) -> None:
+        """Plan what the address of the window says, in the background."""
         put(self._text, link.say)
-        self._waiting, self._step = link, link.step
-        problem = visitor.setting.world.task.problem
-        works = (Status.VALID, Status.GOAL_NOT_REACHED)  # an environment has no goal
-        if kept and validate(problem, [step.instruction for step in kept]).status in works:
-            self._plans, self._reels = [kept], [self._played(kept)]
-            self._which.options = ("1",)
-            self._fold.visible = True
-            self.goto(link.step)
-            visitor.tell("Here is the plan that you looked at; it is planned again in the background.")
-        else:
-            visitor.tell("Planning …")
-        visitor.behind(lambda: self._plan_again(link, Request(clean(link.say))))
-
-    def _plan_again(self, link: PageLink, request: Request) -> None:
-        """Plan a request, while the visitor may do something else; nothing is shown if that is another request."""
-        visitor = self._visitor
-        begun = time.perf_counter()
-        try:
-            grounded = self._ground(request)
-        except TmdError:
-            if self._waiting is not link:
-                return
-            raise
-        finally:
-            with visitor.holding():
-                if self._waiting is link:
-                    self._button.disabled = False
-        took = time.perf_counter() - begun
-        with visitor.holding():
-            if self._waiting is not link:
-                return  # another text was planned meanwhile
-            before, step = self._plans, self._step
-            found = [plan.steps for plan in grounded.plans]
-            place = found.index(before[0]) if before and before[0] in found else link.plan - 1
-            free = visitor.owner in (None, self)
-            self._show(grounded, place if place < len(found) else 0, step, watch=free, request=request)
-            other = bool(before) and before[0] not in found
-            if free or other or request.reader is not None:
-                self._tell(grounded, took, _OTHER if other else None)
-        visitor.keep_link()
+        self._plan(Request(clean(link.say)), link)
 
     def looked_at(self) -> tuple[int, int, str]:
         """Return the number of the plan that is shown, the step, and the sentence, for the window's address."""
         if self._waiting is not None:
-            return self._waiting.plan, self._step, self._waiting.say
+            return self._waiting.plan, self._waiting.step, self._waiting.say
         if self._grounded is None:
             return 1, 0, ""
         return (self._number() + 1 if self._reels else 1), self._step, self._grounded.parsed.text
-
-    def listed(self) -> tuple[PlanStep, ...]:
-        """Return the plan that is shown; empty for none."""
-        return self._plans[self._number()] if self._plans else ()
 
     def saved(self, demonstration: Demonstration) -> None:
         """Plan the text of what was saved again, show that, and say whether it is what was shown."""
@@ -296,17 +265,17 @@ class SayPanel:
         studio = self._visitor.studio
         return studio.teacher.ground(saved.text, studio.setting(saved.environment).world, top=TOP)
 
-    def _tell(self, grounded: Grounded, took: float, more: str | None = None) -> None:
-        """Report the number of plans, with ``more`` about them, or the reason why there is none."""
+    def _tell(self, grounded: Grounded, took: float) -> None:
+        """Report the number of plans, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            more = more or (_ASKED if grounded.question is not None else None)
+            more = _ASKED if grounded.question is not None else None
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
             return
-        example = visitor.studio.nearest_example(parsed.text, visitor.setting.name)
-        tried = f"try: {' '.join(example.split())}" if example else None
+        example = get_close_matches(parsed.text, visitor.studio.examples(visitor.setting.name), n=1, cutoff=0)
+        tried = f"try: {' '.join(example[0].split())}" if example else None
         if grounded.refused is not None:
             clause, refused = grounded.refused
             shown = "show it under Demonstrate" if refused.kind is RefusalKind.UNKNOWN_VERB else None
@@ -340,19 +309,16 @@ class SayPanel:
         self._request = request or Request(grounded.parsed.text)
         self._button.disabled = False
         self._put_question(grounded, self._request)
-        world = self._visitor.setting.world
-        self._plans = [plan.steps for plan in grounded.plans]
-        self._reels = [self._played(plan) for plan in self._plans]
+        self._reels = [self._played(plan.steps) for plan in grounded.plans]
         found = bool(grounded.plans)
-        for handle in (self._which, self._fold, self._after):
+        for handle in (self._which, self._after):
             handle.visible = found
-        self._robot.visible = self._visitor.studio.executable(self._visitor.setting)
+        folder, look = self._visitor.studio.corpus.folder, self._visitor.setting.look
+        self._robot.visible = look is not None and (folder.path / SKILLS).is_file()
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         self._energies.content = fragment(
-            side_by_side(grounded.plans, world, self._visitor.wording)
-            + candidates(grounded.plans, lines, grounded.rejected, narrow=True)
-            + effort(grounded.usage)
+            candidates(grounded.plans, lines, grounded.rejected, narrow=True) + effort(grounded.usage)
         )
         if not found:
             unseen = () if grounded.refused is not None else grounded.unseen
@@ -381,7 +347,8 @@ class SayPanel:
             self._asked_for.content = fragment(f"<p>{escape(question.text)}</p>")
             texts = option_texts(question, grounded.world.task.problem)
             for option, text in zip(question.options, texts, strict=True):
-                answer = partial(self._answer, grounded, request.answered(question.step, option.formula))
+                answered = replace(request, answers={**request.answers, question.step: option.formula})
+                answer = partial(self._answer, grounded, answered)
                 self._options.append(visitor.button(text, answer, hint=flat(option.formula)))
 
     def _number(self) -> int:
@@ -416,6 +383,10 @@ class SayPanel:
             self._step = min(max(step, 0), self._last())
             self._list()
 
+    def _listed(self) -> tuple[PlanStep, ...]:
+        """Return the plan that is shown; empty for none."""
+        return self._grounded.plans[self._number()].steps if self._grounded is not None and self._reels else ()
+
     def _last(self) -> int:
         return len(self._reels[self._number()].states) - 1 if self._reels else 0
 
@@ -424,7 +395,7 @@ class SayPanel:
             return
         reel = self._reels[self._number()]
         if watch:
-            self._visitor.watch(reel, self._step, self, [step.instruction for step in self.listed()])
+            self._visitor.watch(reel, self._step, self, [step.instruction for step in self._listed()])
         problem = self._visitor.setting.world.task.problem
         self._goals.content = goal_list(self._asked, reel.facts(self._step), problem)
         self._list()
@@ -435,30 +406,13 @@ class SayPanel:
         if not self._reels:
             return
         reel = self._reels[self._number()]
-        gains: list[str] = []
         wording = self._visitor.wording
-        if self._step:
-            before, now = reel.facts(self._step - 1), reel.facts(self._step)
-            gains = changed(sorted(now - before), sorted(before - now), wording.fact)
+        gains = changed(*reel.changes(self._step), wording.fact)
         lines = [
             StepLine(s.instruction, f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
-            for s in self.listed()
+            for s in self._listed()
         ]
-        folded = self._only_there(reel) if self._fold.value else ()
-        self._steps.content = step_list(lines, self._step, gains, in_words=wording.instruction, of="say", folded=folded)
-
-    def _only_there(self, reel: Reel) -> set[int]:
-        """Return the numbers of the steps that only change facts about constants, such as the robot."""
-        world = self._visitor.setting.world
-        constants, states = world.profiles.constants, reel.states
-        return {
-            number
-            for number in range(1, len(states))
-            if all(
-                atom.args and atom.args[0] in constants
-                for atom in world.task.names(states[number - 1] ^ states[number])
-            )
-        }
+        self._steps.content = step_list(lines, self._step, gains, in_words=wording.instruction, of="say")
 
     # what next
 
@@ -470,7 +424,7 @@ class SayPanel:
             self._visitor.open_correction(parsed.text, steps)
 
     def _download(self) -> None:
-        """Send the plan, the problem with the text's goal, or the page of `tmd view` as a file."""
+        """Send the plan, or the page of `tmd view`, as a file."""
         grounded = self._grounded
         if grounded is None or not grounded.plans:
             raise TmdError("there is no plan to download", hint="plan something first")
@@ -481,8 +435,6 @@ class SayPanel:
         name = self._visitor.setting.name
         if kind == "plan":
             file, content = f"{name}.plan", format_plan(plans[0].instructions)
-        elif kind == "problem":
-            file, content = f"{name}.pddl", format_problem(asked_problem(looked_at) or grounded.world.task.problem)
         else:
             from tmd.view.page import render
             from tmd.view.subject import text_subject
@@ -499,7 +451,6 @@ class SayPanel:
 
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
-_OTHER = "It gives another plan now than the one that you looked at before."
 _ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."

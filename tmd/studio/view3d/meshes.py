@@ -6,19 +6,16 @@ import io
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tmd.robot.assets.colours import robot_colour
-from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree, origin
-from tmd.robot.pr2.urdf import HEAD, TORSO, TUCKED, prepare
+from tmd.robot.pr2.urdf import ARM, HEAD, TORSO, TUCKED, prepare
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.urdf_files import CUBE
-from tmd.robot.video.symbolic_renderer import HANDS
 
 if TYPE_CHECKING:
     import trimesh
@@ -28,8 +25,11 @@ _GREY = (0.7, 0.7, 0.72, 1.0)
 _TORSO = 0.15
 # Radians: it looks down a little.
 _NOD = 0.35
-# From where the posture of an arm that holds something is sought.
-_OUT = (0.0, 0.3, 0.0, -1.2, 0.0, -0.6, 0.0)
+# Radians: an arm that holds something in front of the body, where a scene without a simulator draws what is held.
+_HOLDING = {
+    "right": (-0.621, -0.466, -1.799, -2.015, -2.906, -1.293, -1.169),
+    "left": (0.621, -0.466, 1.799, -2.015, 2.906, -1.293, 1.169),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,20 +155,6 @@ class Figure:
         """Return the joint positions of the robot with a number of things in its hands, the right one first."""
         positions = {TORSO: _TORSO, HEAD[1]: _NOD}
         for index, side in enumerate(("right", "left")):
-            joints, arm = self._arms[side]
-            positions |= dict(zip(joints, arm if index < held else TUCKED[side], strict=True))
+            angles = _HOLDING[side] if index < held else TUCKED[side]
+            positions |= {f"{side[0]}_{joint}": angle for joint, angle in zip(ARM, angles, strict=True)}
         return positions
-
-    @cached_property
-    def _arms(self) -> dict[str, tuple[tuple[str, ...], tuple[float, ...]]]:
-        """The postures that hold something: in front of the body, as a scene without a simulator draws it."""
-        frames = self._tree.forward({TORSO: _TORSO}, self._tree.links, {self._tree.root: np.eye(4)})
-        up = Pose.from_matrix(frames["base_link"])
-        found = {}
-        for side, place in zip(("right", "left"), HANDS, strict=True):
-            arm = ArmKinematics(self._tree, side)
-            tool = up.inverse() * Pose((place[0] - 0.03, place[1], place[2] + 0.05))
-            seed = _OUT if side == "left" else tuple(-v if i in (0, 2, 4) else v for i, v in enumerate(_OUT))
-            solved = arm.solve(tool, _TORSO, seed)
-            found[side] = (arm.joints, solved[0] if solved else TUCKED[side])
-        return found

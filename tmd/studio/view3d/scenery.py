@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +15,6 @@ from tmd.studio.environment_view import Look
 from tmd.studio.view3d.meshes import Figure
 
 if TYPE_CHECKING:
-    from trimesh import Trimesh
     from viser import (
         FrameHandle,
         GlbHandle,
@@ -57,7 +56,6 @@ class Scenery:
         self._pointed = pointed
         self._frames: dict[str, FrameHandle] = {}
         self._links: dict[tuple[str, str], GlbHandle | MeshHandle] = {}
-        self._meshes: dict[tuple[str, str], Trimesh] = {}
         self._robot: dict[str, GlbHandle] = {}
         self._marks: list[LineSegmentsHandle | LabelHandle] = []
         self._named: list[LabelHandle] = []
@@ -85,7 +83,7 @@ class Scenery:
                     node = scene.add_glb(path, piece.glb())
                 node.on_click(lambda _, name=name: self._pointed(name))  # type: ignore[misc]
                 place = name, ROOT if piece.link == _ROOT else piece.link
-                self._links[place], self._meshes[place] = node, piece.mesh
+                self._links[place] = node
         for piece in self._figure.pieces if self._figure else ():
             self._robot[piece.link] = scene.add_glb(f"/robot/{piece.link}", piece.glb())
 
@@ -166,35 +164,17 @@ class Scenery:
             self._scene.add_label(f"/objects/{name}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
         ]
 
-    def first_hit(self, eye: Sequence[float], ray: Sequence[float]) -> tuple[str, str] | None:
-        """Return the object and its link that are seen first from ``eye`` along ``ray``, looking through the robot.
-
-        As clicks are: what is found is what a click there points at.
-        """
-        nearest, found = float("inf"), None
-        for (name, link), node in self._links.items():
-            frame, pose = self._poses.get(f"/objects/{name}"), self._poses.get(node.name)
-            if frame is None or pose is None or self._colours.get((name, link), (1.0,))[-1] == 0:
-                continue
-            back = (frame * pose).inverse()
-            start, way = np.array(back.apply(eye)), back.matrix() @ np.asarray(ray)
-            distance = _distance(self._meshes[name, link], start, way)
-            if distance < nearest:
-                nearest, found = distance, (name, link)
-        return found
-
     def eyes(self, picture: Picture) -> tuple[Vector, Vector]:
         """Return the place of the robot's camera, and the point that it looks at."""
         robot = picture.robot
         return robot.apply((0.2, 0.0, _EYE)), robot.apply((0.9, 0.0, 1.0))
 
-    def overview(self, fov: float, aspect: float, covered: float = 0.0) -> tuple[Vector, Vector]:
+    def overview(self, fov: float, aspect: float) -> tuple[Vector, Vector]:
         """Return the nearest place, from the open side of the room, from where everything is seen; and what to look at.
 
         Args:
             fov: Radians that are seen from the lower to the upper edge of the view.
             aspect: The view's width divided by its height.
-            covered: How much of the view, from below, something else is in front of.
         """
         points = np.concatenate([self._corners(name) for name in self._frames])
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
@@ -206,7 +186,7 @@ class Scenery:
             half = (deep + distance) * np.tan(fov / 2)  # metres from the middle of the view to its edge, at each point
             if half.min() <= 0 or (across > _FILL * half * aspect).any():
                 continue
-            least, most = (high - _FILL * half).max(), (high - (2 * covered - _FILL) * half).min()
+            least, most = (high - _FILL * half).max(), (high + _FILL * half).min()
             if least <= most:
                 shift = (least + most) / 2
                 break
@@ -223,25 +203,6 @@ class Scenery:
 def _vector(values: NDArray[np.float64]) -> Vector:
     x, y, z = values.tolist()
     return x, y, z
-
-
-def _distance(mesh: Trimesh, start: NDArray[np.float64], way: NDArray[np.float64]) -> float:
-    """Return the distance from ``start`` to the surface in units of ``way``; infinite without a hit."""
-    low, high = mesh.bounds
-    with np.errstate(divide="ignore", invalid="ignore"):
-        ends = np.array([(low - start) / way, (high - start) / way])
-    if np.nanmax(ends.min(axis=0)) > np.nanmin(ends.max(axis=0)):  # it passes the box
-        return np.inf
-    corner, *others = (mesh.triangles[:, index] for index in range(3))
-    one, two = (other - corner for other in others)
-    across = np.cross(way, two)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        scale = 1 / (one * across).sum(axis=1)
-        u = scale * ((start - corner) * across).sum(axis=1)
-        turned = np.cross(start - corner, one)
-        v, far = scale * (turned @ way), scale * (turned * two).sum(axis=1)
-        met = far[(u >= 0) & (v >= 0) & (u + v <= 1) & (far > 0)]
-    return float(met.min(initial=np.inf))
 
 
 def _edges(low: tuple[float, ...], high: tuple[float, ...]) -> NDArray[np.float64]:
