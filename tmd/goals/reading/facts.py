@@ -17,6 +17,7 @@ from tmd.goals.words import (
     table,
     words_of,
 )
+from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.nouns import words_in_name
 from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
 from tmd.pddl.model import OBJECT, Atom, Formula, GroundAtom
@@ -83,7 +84,11 @@ class Facts:
             ways = (self.grounder.ground(condition, {"?x": one}, ("?x",), moments) for one in self._with_near(name))
             return next((way for way in ways if way != FALSE), FALSE)  # a lamp is brighter by its knob
         found = self.state_of(state_words(word), name)
-        return self._emptied(name) if found is None and word in words_of("empty") else found
+        if found is None and word in words_of("empty"):
+            return self._emptied(name)
+        prefix = next(filter(word.startswith, sorted(section("undoing"))), "") if found is None else ""
+        undone = self.attribute(word.removeprefix(prefix), name, moments) if prefix else None
+        return found if undone is None else negation(undone)  # "unopened"
 
     def is_so(self, word: str, name: str, moments: Moments) -> bool | None:
         """Return whether ``name`` is as an adjective says now; ``None`` for one that nothing here explains."""

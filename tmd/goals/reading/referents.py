@@ -498,8 +498,9 @@ class Referents:
             inside = (t for r, t in self.relations_of(noun, reading.clause) if is_relation(r, "inside"))
             places = (*context.targets("inside"), reading.memory.recent, *(self.targets(t, reading) for t in inside))
             names = next(filter(None, (self.nouns.contained(p, types, reading.state) for p in places)), ())
-        else:
-            names = self.nouns.constants(noun, types, reading.state)
+        else:  # "cooked noodles" are another substance than noodles
+            nouns = (*(f"{word}_{noun}" for word in context.phrase.attributes), noun)
+            names = next(filter(None, (self.nouns.constants(n, types, reading.state) for n in nouns)), ())
         spoken_of = noun in reading.memory.bound and not context.phrase.other
         return self._by_now(names, types, reading) if spoken_of else names
 
@@ -631,8 +632,9 @@ class Referents:
         """Return what *except* takes away."""
         found: dict[str, None] = {}
         for target in (target for relation, target in relations if is_relation(relation, "excepting")):
-            names = self._where_it_was_said(target, self.targets(target, reading), reading)
             phrase = reading.clause.phrase(target)
+            alike, _ = self.nouns.narrowed(self.targets(target, reading), phrase, reading.moments)  # "the full one"
+            names = self._where_it_was_said(target, alike, reading)
             placed = any(is_relation(relation, "place") for relation, _ in self.relations_of(target, reading.clause))
             one = is_one(target) or (placed and bool(names))  # "the bottle on the shelf"
             one = one or (phrase.definite and not phrase.plural and self._is_kind(target, names))

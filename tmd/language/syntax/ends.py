@@ -63,10 +63,11 @@ class ClauseEnds(Words):
 
     def _relative_end(self, at: int) -> int:
         """End a relative clause where the main clause goes on: "the chair that stands there to the desk"."""
-        verb = said = False
+        verb = said = done = False
         for place in range(at + 1, self._clause_end(at)):
-            if verb and (self.kind(place) is K.CC or (said and self.follows(place, "FINITE|AUX"))):
-                return place  # "everything that is empty | goes in the bin"
+            if verb and (self.kind(place) is K.CC or ((said or done) and self.follows(place, "FINITE|AUX"))):
+                return place  # "everything that is empty | goes in the bin", "… that was washed | goes on the shelf"
+            done = done or (verb and self.kind(place) is K.PARTICIPLE)
             if self.follows(place, "INF AUX") or self._goes_on(at, place, verb=verb, said=said):
                 return place
             said = said or (verb and (self.follows(place, "HEAD|ADJ") or self.among(place, "there_words")))
