@@ -374,7 +374,8 @@ def test_a_correction_that_is_not_saved_is_there_again(server: Server) -> None:
 
         again.told("Here is the correction that is not saved.")
         again.shows("Step 1 does not apply.")
-        assert again.elements[again.find("What must hold at the end")]["value"] == "(at cup1 shelf1 on)"
+        goal = again.find("What must hold at the end")
+        again.until(lambda: again.elements[goal]["value"] == "(at cup1 shelf1 on)")
         again.shows("reaches its goals")  # the plan that is made meanwhile takes nothing away
         again.press("Correct this plan")
         again.shows("in corner1 is not saved.")
