@@ -20,6 +20,7 @@ from tmd.goals.reasons import forms, placed, why_impossible
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said, the_word
 from tmd.language.clause import NounPhrase, Quantifier
+from tmd.language.lexicon.lexicon import section
 from tmd.pddl.ground_formula import (
     FALSE,
     TRUE,
@@ -463,7 +464,9 @@ class RowReader:
     ) -> Refusal | None:
         """Return a refusal for a place that no slot of the row takes, where each must have one."""
         every = reading.strict or row.source == ACTIONS
-        if not every or not any(self.referents.unplaced(unit, *pair, reading) for pair in leftover):
+        whither = section("arrivals") - section("static")  # "run water into the kettle" is more than to run water
+        told = [pair for pair in leftover if every or pair[0] in whither]
+        if not any(self.referents.unplaced(unit, *pair, reading) for pair in told):
             return None
         message = f"'{text_of(reading.clause)}' says a place that nothing is known of"
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
