@@ -59,7 +59,7 @@ def write_bytes(path: str | Path, data: bytes) -> None:
         OutputError: It cannot be written; what stood there before still stands.
     """
     given = Path(path)
-    try:
+    with writing(given):
         target = real(given)
         mode = _mode(target)
         if mode is not None and not stat.S_ISREG(mode):
@@ -76,9 +76,20 @@ def write_bytes(path: str | Path, data: bytes) -> None:
             with suppress(OSError):
                 draft.unlink(missing_ok=True)
             raise
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Report what the system says against writing ``path``.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    try:
+        yield
     except OSError as error:
         raise OutputError(
-            f"{given} cannot be written: {error.strerror or error}",
+            f"{path} cannot be written: {error.strerror or error}",
             hint="check that the directory exists, that you may write there and that the disk has room",
         ) from error
 

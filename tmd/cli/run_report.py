@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Literal, Self
@@ -11,6 +11,7 @@ from typing import Literal, Self
 from tmd.cli.output import emit
 from tmd.cli.plans import Orders
 from tmd.diagnostics import OutputError
+from tmd.files import writing
 from tmd.json_record import JsonRecord
 from tmd.pddl.model import GroundAtom
 from tmd.records.run import (
@@ -172,7 +173,7 @@ class RunLog:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._ended = False
-        with self._checked():
+        with writing(self._path):
             self._file = path.open("w", encoding="utf-8", buffering=1)
 
     def __enter__(self) -> Self:
@@ -196,16 +197,6 @@ class RunLog:
         Raises:
             OutputError: It cannot be written.
         """
-        with self._checked():
+        with writing(self._path):
             self._file.write(entry.to_line())
         self._ended = isinstance(entry, EndEvent)
-
-    @contextmanager
-    def _checked(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            raise OutputError(
-                f"{self._path} cannot be written: {error.strerror or error}",
-                hint="check that the directory exists, that you may write there and that the disk has room",
-            ) from error

@@ -8,14 +8,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from math import cos, sin
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
 
 from tmd.diagnostics import MissingToolError, OutputError, install_extra
+from tmd.files import writing
 from tmd.records.trajectory import SampleLine, SceneLine, pose_record
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
@@ -79,7 +79,7 @@ class TrajectoryFile:
         if self._file is None:
             return
         try:
-            with self._errors():
+            with writing(self._path):
                 self._finish()
                 self._file.close()
         except OutputError:
@@ -94,7 +94,7 @@ class TrajectoryFile:
         Raises:
             OutputError: It cannot be written.
         """
-        with self._errors():
+        with writing(self._path):
             self._file = self._make()
             self._begin(what)
 
@@ -104,18 +104,8 @@ class TrajectoryFile:
         Raises:
             OutputError: It cannot be written.
         """
-        with self._errors():
+        with writing(self._path):
             self._add(sample)
-
-    @contextmanager
-    def _errors(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            raise OutputError(
-                f"{self._path} cannot be written: {error.strerror or error}",
-                hint="check that the directory exists, that you may write there and that the disk has room",
-            ) from error
 
     def _make(self) -> IO[Any]:
         return self._path.open("w", encoding="utf-8", newline="")

@@ -13,7 +13,7 @@ from tmd.robot.monitor.executor import MOST_REPAIRS
 from tmd.robot.monitor.listeners import Listener, Order
 from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import Execution
-from tmd.robot.video.film import TILE, Film
+from tmd.robot.video.film import Film
 from tmd.robot.video.movie_file import MovieFile
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
@@ -24,13 +24,12 @@ Prepare = Callable[[SimulationSession], Sequence[Listener]]
 
 @dataclass(frozen=True, slots=True)
 class Filming:
-    """Title and request of a film or strip, and their files, if any; ``tile`` is the size of the strip's pictures."""
+    """Title and request of a film or strip, and their files, if any."""
 
     heading: str
     text: str = ""
     movie: MovieFile | None = None
     strip: Path | None = None
-    tile: tuple[int, int] = TILE
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +75,7 @@ def run_plan(
         listeners = list(prepare(session)) if prepare is not None else []
         film = None
         if filming is not None:
-            film = Film(
-                session.cell, session.skills, movie=filming.movie, strip=filming.strip is not None, tile=filming.tile
-            )
+            film = Film(session.cell, session.skills, movie=filming.movie, strip=filming.strip is not None)
             if filming.strip is not None:
                 stack.callback(film.write_strip, filming.strip)
             film.open(filming.heading, filming.text)

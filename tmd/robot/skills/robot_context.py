@@ -47,7 +47,6 @@ class Cell:
         unfit_spots: Poses of items when something could not be done with them.
         unfit_grips: Tool poses in the item's frame then, or when its contents were lost.
         until: The simulation's count of work at which an instruction is given up.
-        doing: Called with what is being looked for, while that takes long.
         moment: Called at the event of an instruction: a press, a pour, a turn.
     """
 
@@ -60,7 +59,6 @@ class Cell:
     unfit_spots: dict[str, list[Pose]] = field(default_factory=dict)
     unfit_grips: dict[str, list[Pose]] = field(default_factory=dict)
     until: float = inf
-    doing: Callable[[str], None] = _nothing
     moment: Callable[[], None] = _nothing
     _leant: dict[str, float] = field(default_factory=dict)
     _loaded: set[str] = field(default_factory=set)
@@ -79,12 +77,11 @@ class Cell:
         return bool(self.scene.shown(item)) and self.spills_from(item) is not None
 
     def look_on(self, doing: str) -> None:
-        """Report what is being looked for, and limit its cost.
+        """Limit the cost of what is being looked for.
 
         Raises:
             SkillError: The instruction has used up its budget.
         """
-        self.doing(doing)
         if self.sim.work > self.until:
             raise SkillError(SkillPhase.TIME, f"given up after about {TIME.instruction:.0f} s of computing: {doing}")
 

@@ -30,6 +30,7 @@ FPS = {".mp4": 15, ".gif": 10}
 _SHOWN = 0.8
 _FAILURE_SHOWN = 2.0
 _OPENING, _ENDING = 1.5, 2.5
+# Width and height of the pictures of a strip, without their captions.
 TILE = (400, 300)
 # Radians beside the middle of a close picture within which the robot's own head, nearer than that, is left out.
 _HEAD = 0.35
@@ -62,7 +63,6 @@ class Film:
         skills: Of the domain.
         movie: The film, from :func:`open_movie`; None: no film, only the filmstrip.
         strip: Whether to make a filmstrip.
-        tile: Width and height of its pictures without their captions.
     """
 
     def __init__(
@@ -72,7 +72,6 @@ class Film:
         *,
         movie: MovieFile | None = None,
         strip: bool = False,
-        tile: tuple[int, int] = TILE,
     ) -> None:
         pillow()
         self._cell = cell
@@ -87,7 +86,6 @@ class Film:
         self._done: set[int] = set()
         self._ran: list[ExecutedStep] = []
         self._of = 0
-        self._tile = tile
         self._event: Pixels | None = None
         if strip:
             cell.moment = self._take_event
@@ -139,7 +137,7 @@ class Film:
         if self._strip:
             # what it is about: the button while it is down, not the arm when it is tucked
             seen = self._event if badge == "ok" else None
-            picture = self._picture(self._camera.best(), self._tile) if seen is None else seen
+            picture = self._picture(self._camera.best(), TILE) if seen is None else seen
             self._tiles.append(under(picture, self._caption))
 
     def close(self, execution: Execution) -> None:
@@ -160,7 +158,7 @@ class Film:
         self._hold(_ENDING)
 
     def _take_event(self) -> None:
-        self._event = self._picture(self._camera.best(), self._tile)
+        self._event = self._picture(self._camera.best(), TILE)
 
     def _number(self, title: Title) -> str:
         """Return its place in the plan, and the number of the try after the first."""
