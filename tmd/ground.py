@@ -28,8 +28,8 @@ from tmd.inference.goal_pass import Inference
 from tmd.inference.policy.model import Policy, Reward
 from tmd.inference.proposers import proposers_of
 from tmd.inference.ranking import Inferred
-from tmd.library.library import Library
 from tmd.language.lexicon.lexicon import Lexicon
+from tmd.library.library import Library
 from tmd.pddl.grounding.ground_task import ground_condition
 from tmd.pddl.model import Atom, Formula
 from tmd.pddl.task import Cube

@@ -22,7 +22,7 @@ from tmd.pddl.model import Formula, predicates_of
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.result import Filled
-from tmd.planning.search.in_process import FirstSearch, OptimalSearch
+from tmd.planning.search.in_process import OptimalSearch
 from tmd.records.sentence_test import Outcome
 from tmd.world.roots import Roots
 from tmd.world.sentence_file import SentenceTest, domain_sentences, read_sentences
@@ -111,7 +111,8 @@ def report(rows: Sequence[dict[str, object]]) -> None:
         print(f"{kind}: {len(own)} of {count} ({100 * len(own) / max(count, 1):.1f} %)")
     ratios = [(row["steps"] / row["best"], row) for row in rows if row["best"]]  # type: ignore[operator]
     if ratios:
-        print(f"length: mean {sum(r for r, _ in ratios) / len(ratios):.3f}, above 1.5: {sum(r > 1.5 for r, _ in ratios)}")
+        mean = sum(ratio for ratio, _ in ratios) / len(ratios)
+        print(f"length: mean {mean:.3f}, above 1.5: {sum(ratio > 1.5 for ratio, _ in ratios)}")
     print(f"cheapest plan unknown: {sum(row['best'] is None for row in rows)}")
     for ratio, row in sorted(ratios, key=lambda pair: -pair[0])[:15]:
         print(f"{ratio:.2f} {row['id']} {row['steps']}/{row['best']} {row['text']}")

@@ -174,14 +174,14 @@ def check_goals(
         environments: What of them can hold is looked up there; no more are taken than needed.
         kinds: The classes, types, constants and objects that a group may name; empty where that is not known.
     """
-    if not (lexicon.goals or lexicon.attributes or lexicon.groups):
+    if not (lexicon.goals or lexicon.attributes or lexicon.groups or lexicon.restored):
         return []
     written = Written(path)
     reader = _Entries(written, domain)
     for row in lexicon.goals:
         reader.row(row)
-    for adjective in lexicon.attributes:
-        reader.adjective(adjective)
+    for condition in (*lexicon.attributes, *(lexicon.restored or ())):
+        reader.adjective(condition)
     return [
         *reader.faults,
         *_never(reader.sound, environments, written),

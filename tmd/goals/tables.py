@@ -177,10 +177,10 @@ def _with_bases(own: GoalTable, lexicon: Lexicon, domain: Domain) -> tuple[GoalT
     place = len(own.rows) if lexicon.base.place is None else lexicon.base.place
     restored = own.restored
     if lexicon.restored is None:
-        found = (translation.adjective(entry)[0] for entry in lexicon.base.restored)
-        restored = tuple(condition for condition in found if condition is not None)
-    rows = [*own.rows[:place], *added, *own.rows[place:]]
-    table = replace(own, rows=tuple(rows), attributes={**meant, **own.attributes}, restored=restored)
+        conditions = (translation.adjective(entry)[0] for entry in lexicon.base.restored)
+        restored = tuple(condition for condition in conditions if condition is not None)
+    whole = (*own.rows[:place], *added, *own.rows[place:])
+    table = replace(own, rows=whole, attributes={**meant, **own.attributes}, restored=restored)
     return table, tuple(unused)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Refusal, RefusalKind
@@ -63,8 +63,9 @@ class ConstraintReader:
                 return avoided
             found |= avoided
         for clause in parsed.clauses:
-            untouched = self._done_without(clause, state) | self._excepted(clause, parsed, state, memory)
-            found |= TextConstraints(untouched=frozenset(untouched))
+            excepted = self._excepted(clause, parsed, state, memory)
+            untouched = frozenset(self._done_without(clause, state) | excepted)
+            found |= TextConstraints(kept=tuple(self._places(excepted, state)), untouched=untouched)
             other = any(clause.phrase(noun).other for noun in clause.direct)
             if clause.mood is not Mood.KEEP or clause.otherwise or clause.conditions or other:
                 continue
@@ -203,6 +204,13 @@ class ConstraintReader:
             if atom.args and atom.args[0] in names and lasting:
                 found.append(_literal(atom))
         return found
+
+    def _places(self, names: Collection[str], state: Bits) -> Iterator[Formula]:
+        """Yield where things are: an instruction that does not name them may still carry them along."""
+        for atom in self.task.names(state):
+            things = [a for a in atom.args if not self.reader.nouns.is_constant(a)]
+            if len(things) > 1 and atom.args[0] in names:
+                yield _literal(atom)
 
     def _kept_state(self, clause: Clause, state: Bits, memory: Memory) -> list[Formula] | Refusal:
         goal = self.reader.read(replace(clause, verb=BE, mood=Mood.DO), state, memory)

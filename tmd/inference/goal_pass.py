@@ -27,7 +27,7 @@ from tmd.inference.energy import Factors
 from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
 from tmd.inference.ranking import Choice, Inferred, LostGoal, PlanStep, StepGoal, Way
-from tmd.inference.tidying import Need, Segment, Tidying
+from tmd.inference.tidying import Need, PlanPart, Tidying
 from tmd.library.library import tidy
 from tmd.pddl.ground_formula import TRUE, goal_cubes
 from tmd.pddl.model import And, Formula, Instruction
@@ -506,14 +506,14 @@ class GoalPass(ForwardPass):
         def allowed(states: Sequence[Bits]) -> bool:
             return not constraints.never or violated(self.task, constraints, states) is None
 
-        return Tidying(self.task, self.planner, self.setup.restored, self.lasting, allowed)
+        return Tidying(self.task, self.planner, self.setup.restored, self.lasting, self._contents, allowed)
 
     def _finished(self, way: Way, first: Bits) -> Way:
         """Return a way through all steps, improved as a whole: with an end that people leave, and nothing needless."""
         if not way.instructions:
             return way
         plan = tuple(
-            Segment(tuple(s.instruction for s in choice.steps), need)
+            PlanPart(tuple(s.instruction for s in choice.steps), need)
             for choice, need in zip(way.choices, way.needs, strict=True)
         )
         kept = combined((Cube(),), [k for k in way.kept if any(c.holds(way.state) for c in k.ways)])

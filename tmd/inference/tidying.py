@@ -31,7 +31,7 @@ Key: TypeAlias = tuple[int, int, int]
 
 @dataclass(frozen=True, slots=True)
 class Need:
-    """What a segment of a plan is for.
+    """The purpose of a part of a plan.
 
     Attributes:
         end: What must hold at its end; empty for nothing.
@@ -45,14 +45,14 @@ class Need:
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
-    """The instructions for one step."""
+class PlanPart:
+    """The instructions for one step of a request."""
 
     instructions: tuple[Instruction, ...]
     need: Need
 
 
-Plan: TypeAlias = tuple[Segment, ...]
+Plan: TypeAlias = tuple[PlanPart, ...]
 
 
 class Tidying:
@@ -63,6 +63,7 @@ class Tidying:
         planner: The planner for short gaps.
         restored: The conditions that are restored unless the request asks for them.
         lasting: The atoms that do not pass by themselves.
+        contents: The atoms that say what is in what.
         allowed: Returns whether the request allows a sequence of states.
     """
 
@@ -72,6 +73,7 @@ class Tidying:
         planner: Planner,
         restored: Sequence[Condition],
         lasting: Bits,
+        contents: Bits,
         allowed: Callable[[Sequence[Bits]], bool],
     ) -> None:
         self.task = task
@@ -79,6 +81,7 @@ class Tidying:
         self.careless = frozenset(o.instruction for o in task.operators if _careless(o, task))
         self.restored = restored
         self.lasting = lasting
+        self.contents = contents
         self.allowed = allowed
 
     @cached_property
@@ -122,6 +125,7 @@ class _Improvement:
         states = self._states(plan)
         end = states[-1][-1] if states else start
         self.moved = self._moved(end)
+        self.fresh = ~end & ~start & setup.contents
         asked_true = asked_false = 0
         for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
             cube = next((c for c in cubes if c.holds(state)), Cube())
@@ -172,11 +176,12 @@ class _Improvement:
                 cost += operator.cost + _CARE * (instruction in self.setup.careless)
                 trace.append(operator.apply(trace[-1]))
             need = segment.need
-            if need.end and not _any_holds(need.end, trace[-1]) or not _passes(need.via, trace):
+            if (need.end and not _any_holds(need.end, trace[-1])) or not _passes(need.via, trace):
                 return None
             states += trace[1:]
         end = states[-1]
-        if not _any_holds(self.kept, end) or not self._moved(end) <= self.moved or not self.setup.allowed(states):
+        other = end & self.fresh or not self._moved(end) <= self.moved
+        if other or not _any_holds(self.kept, end) or not self.setup.allowed(states):
             return None
         return len(self._untidy(end)), cost, ((end ^ self.start) & self.setup.lasting).bit_count()
 
@@ -265,14 +270,21 @@ class _Improvement:
         instructions = (*segment.instructions[:first], *own, *segment.instructions[last:])
         return (*plan[:place], replace(segment, instructions=instructions), *plan[place + 1 :])
 
-    def _executable(self, plan: Plan, left_out: Callable[[int, int, Instruction], bool]) -> Plan:
-        """Return the plan without some instructions, and without those that cannot be executed then."""
+    def _executable(self, plan: Plan, *, without: str = "", but: tuple[int, int] | None = None) -> Plan:
+        """Return the plan without one object or one instruction, and without what cannot be executed then.
+
+        Args:
+            plan: The plan.
+            without: The object.
+            but: The number of the part and of the instruction in it.
+        """
         found, state = [], self.start
         for place, segment in enumerate(plan):
             own = []
             for at, instruction in enumerate(segment.instructions):
                 operator = self.task.by_instruction[instruction]
-                if operator.applicable(state) and (segment.need.fixed or not left_out(place, at, instruction)):
+                gone = without in instruction.args or (place, at) == but
+                if operator.applicable(state) and (segment.need.fixed or not gone):
                     own.append(instruction)
                     state = operator.apply(state)
             found.append(replace(segment, instructions=tuple(own)))
@@ -281,7 +293,7 @@ class _Improvement:
     def _without_objects(self, plan: Plan) -> Plan:
         """Return the plan without the objects that it handles for nothing."""
         for name in dict.fromkeys(a for s in plan for i in s.instructions for a in i.args):
-            plan = self._better(plan, [self._executable(plan, lambda _, __, i, name=name: name in i.args)])
+            plan = self._better(plan, [self._executable(plan, without=name)])
         return plan
 
     def _without_instructions(self, plan: Plan) -> Plan:
@@ -293,8 +305,7 @@ class _Improvement:
                 place -= 1
                 at = len(plan[place].instructions) if place >= 0 else 0
                 continue
-            gone = (place, at)
-            plan = self._better(plan, [self._executable(plan, lambda p, a, _, gone=gone: (p, a) == gone)])
+            plan = self._better(plan, [self._executable(plan, but=(place, at))])
             at = min(at, len(plan[place].instructions))
         return plan
 

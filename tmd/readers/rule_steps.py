@@ -19,6 +19,7 @@ from tmd.goals.words import (
     words_of,
 )
 from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Relation
+from tmd.language.lexicon.lexicon import section
 from tmd.readers.interface import Step
 
 USE: str = the_word("verbs", "using")
@@ -69,6 +70,34 @@ def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
         elif is_noun(noun, "everybody") and not known(noun):
             clause = clause.renamed(noun, the_word("nouns", "whole"))
     return clause
+
+
+def with_unwanted_states(parsed: Parsed) -> Parsed:
+    """Return a request with unwanted states as what shall be so: "don't leave the gate open", "no open gate".
+
+    What shall not be so in the end may be so now.
+    """
+    unwanted = {clause: other for clause in parsed.constraints if (other := _as_state(clause)) is not None}
+    clauses = sorted((*parsed.clauses, *unwanted.values()), key=lambda clause: clause.span)
+    return replace(
+        parsed, clauses=tuple(clauses), constraints=tuple(c for c in parsed.constraints if c not in unwanted)
+    )
+
+
+def _as_state(clause: Clause) -> Clause | None:
+    """Return what a prohibition says of the state of things that it names; ``None`` where it says no such thing."""
+    wished = clause.verb in section("wishing") or is_verb(clause.verb, "having")
+    if clause.mood is not Mood.AVOID or not (wished or is_verb(clause.verb, "leaving")):
+        return None
+    if len(clause.direct) != 1 or clause.relations or is_pronoun(clause.direct[0]):
+        return None
+    phrase = clause.phrase(clause.direct[0])
+    result = clause.result or next(iter(phrase.attributes if clause.implied else ()), None)
+    if result is None:
+        return None
+    plain = replace(phrase, quantifier=Quantifier.PLAIN, attributes=() if not clause.result else phrase.attributes)
+    phrases = {**clause.phrases, phrase.name: plain}
+    return replace(clause, verb=BE, mood=Mood.DO, implied=False, result=f"{NEGATED}{result}", phrases=phrases)
 
 
 def steps_of(parsed: Parsed, *, use: bool) -> tuple[RuleStep, ...]:

@@ -36,7 +36,7 @@ from tmd.readers.interface import (
     Step,
     StepGoals,
 )
-from tmd.readers.rule_steps import USE, RuleStep, about_things, steps_of
+from tmd.readers.rule_steps import USE, RuleStep, about_things, steps_of, with_unwanted_states
 from tmd.world.world import World
 
 
@@ -113,6 +113,7 @@ class RuleDialogue(Dialogue):
     """
 
     def __init__(self, parsed: Parsed, goals: GoalReader, state: Bits) -> None:
+        parsed = with_unwanted_states(parsed)
         super().__init__(parsed)
         self._goals = goals
         self._constraints = ConstraintReader(goals)

@@ -99,7 +99,7 @@ class GoalReader:
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "leave it out, or allow guesses")
         if self._is_to_settle(clause):
             found = self.read(self._settled(clause), state, memory, decisions=decisions)
-            if not isinstance(found, Refusal):
+            if not isinstance(found, Refusal) or any(is_relation(r.relation, "place") for r in clause.relations):
                 return found  # "mug on the table" says where it shall be
         treated = self._treated(clause) or self._phrasal(clause)
         if treated is not None:

@@ -481,8 +481,7 @@ class RowReader:
         clause = reading.clause
         further = [(r.relation, r.target) for r in clause.relations if r.source and r.source not in clause.direct]
         for relation, target in (*leftover, *further):
-            named = not (self.referents.points_back(target) or target in clause.quantities or is_none(target, clause))
-            named = named and not is_noun(target, "degrees")
+            named = not (self.referents.points_back(target) or is_noun(target, "degrees") or is_none(target, clause))
             if named and is_relation(relation, "naming") and not self.referents.targets(target, reading):
                 return self.referents.missing(Referent(target, ()), reading)
         return None

@@ -107,8 +107,11 @@ class States:
             state = self.nouns.attribute(result, name, reading.moments) if result else TRUE
             if state is not None:
                 ends = [(r, self._ends(name, r, t, reading)) for r, t in relations]
-                told = ((r, names) for r, names in ends if names or not is_relation(r, "benefit"))  # "for my mother"
-                alive.append(conjunction((state, *(self._related(name, r, names, reading) for r, names in told))))
+                told = [(r, names) for r, names in ends if names or not is_relation(r, "benefit")]  # "for my mother"
+                related = [self._related(name, r, names, reading) for r, names in told]
+                if referent.mode is Mode.NONE and FALSE in related:
+                    continue  # "no tube without a label": nothing that can be looked at
+                alive.append(conjunction((state, *related)))
         if not alive:
             return self._unsaid(referent, reading)
         return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)

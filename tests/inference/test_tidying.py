@@ -1,0 +1,133 @@
+"""Plans are improved as a whole: they leave what was not asked for as it was, and do nothing for nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.goals.conftest import end, said, steps
+from tmd.diagnostics import TmdError
+from tmd.ground import restored_in
+from tmd.inference.tidying import Need, PlanPart, Tidying
+from tmd.language.lexicon.file import read_lexicon
+from tmd.pddl.domain_traits import passing_predicates
+from tmd.pddl.grounding.ground_task import ground_condition
+from tmd.pddl.model import Atom, Instruction
+from tmd.pddl.task import Bits, Cube
+from tmd.planning.gap_filler import GapFiller
+from tmd.world.corpus import Corpus
+from tmd.world.world import World
+
+
+def instructions(text: str) -> tuple[Instruction, ...]:
+    """Read ``find cup1; grasp cup1``."""
+    return tuple(Instruction(name, tuple(args)) for name, *args in (part.split() for part in text.split(";")))
+
+
+def tidying(world: World, kitchen: Corpus) -> Tidying:
+    passing = passing_predicates(world.task.problem.domain)
+    lasting = sum(1 << bit for bit, atom in enumerate(world.task.atoms) if atom.predicate not in passing)
+    restored = restored_in(world, kitchen.lexicon, frozenset())
+    return Tidying(world.task, GapFiller(world.task), restored, lasting, 0, lambda states: True)
+
+
+def condition(world: World, *facts: str) -> tuple[Cube, ...]:
+    atoms = [fact.split() for fact in facts]
+    positive = sum(1 << world.task.index[a] for a in world.task.atoms if [a.predicate, *a.args] in atoms)
+    return (Cube(positive, 0),)
+
+
+def improved(world: World, kitchen: Corpus, *segments: tuple[str, tuple[Cube, ...]]) -> list[str]:
+    plan = tuple(PlanPart(instructions(text), Need(goal)) for text, goal in segments)
+    better = tidying(world, kitchen).improved(world.task.init, plan, (Cube(),))
+    return [str(i) for segment in better for i in segment.instructions]
+
+
+MILK = "moveto fridge1; open fridge1_door; find milk1; moveto milk1; grasp milk1; moveto table1; keep milk1 table1 on"
+
+
+def test_a_door_is_shut_before_the_robot_goes_elsewhere(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    plan = improved(world, kitchen, (MILK, condition(world, "at milk1 table1 on")))
+    assert plan.index("close(fridge1_door)") < plan.index("moveto(table1)")
+
+
+def test_what_was_asked_for_is_left_so(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    opened = ("moveto fridge1; open fridge1_door", condition(world, "opened fridge1_door"))
+    assert improved(world, kitchen, opened) == ["moveto(fridge1)", "open(fridge1_door)"]
+
+
+def test_what_is_handled_for_nothing_is_left_alone(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    detour = "find cup1; moveto cup1; grasp cup1; moveto table1; keep cup1 table1 on; moveto fridge1; open fridge1_door"
+    plan = improved(world, kitchen, (detour, condition(world, "opened fridge1_door")))
+    assert plan == ["moveto(fridge1)", "open(fridge1_door)"]
+
+
+def test_a_copied_part_stays_as_it_is(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    own = instructions("find cup1; moveto cup1; find cup1; grasp cup1")
+    plan = (PlanPart(own, Need(fixed=True)),)
+    better = tidying(world, kitchen).improved(world.task.init, plan, (Cube(),))
+    assert better[0].instructions[: len(own)] == own
+
+
+def test_hands_are_empty_unless_something_was_asked_into_them() -> None:
+    scooped = said("kitchen", "kitchen4", "Put ice cream in the cup.")
+    assert not any(fact.startswith("(holding") for fact in end(scooped))
+    assert not any(step.startswith("release") for step in steps(scooped))
+    assert "(holding pr2 cup1)" in end(said("kitchen", "kitchen4", "Hold the cup."))
+
+
+def test_an_instruction_that_names_no_place_is_careless(kitchen: Corpus) -> None:
+    careless = tidying(kitchen.world("kitchen1"), kitchen).careless
+    assert {i.name for i in careless} == {"release"}
+
+
+@given(st.lists(st.integers(min_value=0), max_size=12))
+@settings(max_examples=25, deadline=None)
+def test_an_improved_plan_still_reaches_its_goal_and_is_no_longer(choices: Sequence[int]) -> None:
+    from tests.bundled import corpus
+
+    kitchen = corpus("kitchen")
+    world = kitchen.world("kitchen1")
+    plan, ends = _walk(world, choices)
+    goal = (Cube(ends & ~world.task.init, world.task.init & ~ends),)
+    better = tidying(world, kitchen).improved(world.task.init, (PlanPart(plan, Need(goal)),), (Cube(),))
+    state = world.task.init
+    for instruction in better[0].instructions:
+        assert world.task.by_instruction[instruction].applicable(state)
+        state = world.task.by_instruction[instruction].apply(state)
+    assert goal[0].holds(state)
+    assert len(better[0].instructions) <= len(plan)
+
+
+def _walk(world: World, choices: Sequence[int]) -> tuple[tuple[Instruction, ...], Bits]:
+    """Return an executable sequence, each instruction chosen by a number, and the state in which it ends."""
+    state, plan = world.task.init, []
+    for number in choices:
+        usable = [o for o in world.task.operators if o.applicable(state)]
+        plan.append(usable[number % len(usable)].instruction)
+        state = usable[number % len(usable)].apply(state)
+    return tuple(plan), state
+
+
+def test_a_lexicon_says_what_is_restored(kitchen: Corpus, tmp_path: Path) -> None:
+    world = kitchen.world("kitchen1")
+    door = ground_condition(world.task, Atom("opened", ("fridge1_door",)))
+    assert door in restored_in(world, kitchen.lexicon, frozenset())
+    (tmp_path / "lexicon.yaml").write_text("restored: []\n", encoding="utf-8")
+    assert restored_in(world, read_lexicon(tmp_path / "lexicon.yaml"), frozenset()) == ()
+
+
+@pytest.mark.parametrize("text", ["restored: opened\n", "restored: {opened: true}\n", "restored: [[a]]\n"])
+def test_a_list_of_conditions_is_expected(text: str, tmp_path: Path) -> None:
+    (tmp_path / "lexicon.yaml").write_text(text, encoding="utf-8")
+    with pytest.raises(TmdError) as caught:
+        read_lexicon(tmp_path / "lexicon.yaml")
+    assert caught.value.location is not None and caught.value.location.line == 1
