@@ -1,4 +1,4 @@
-"""``tmd new``, ``learn``, ``check``, ``fmt`` and ``compile``: what the author of a domain does with its files."""
+"""``tmd list``, ``new``, ``learn``, ``check``, ``fmt`` and ``compile``: commands for authors of domains."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from tmd.cli.errors import fault_of, one_line, pointed
 from tmd.cli.options import PATH, VARIABLE, json_option, seed_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, OutputError, TmdError
+from tmd.world.folder import known_domains
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
@@ -20,6 +21,18 @@ if TYPE_CHECKING:
     from tmd.evaluation.learn import LearnedDomain
     from tmd.world.corpus import Corpus
     from tmd.world.scaffold import Scaffold
+
+
+@click.command("list", short_help="List the domains and their environments.")
+@click.pass_obj
+def list_domains(roots: Roots) -> None:
+    """List the domains, each with its environments, and the tasks of its demonstrations."""
+    for name in known_domains(roots.domains):
+        corpus = roots.corpus(roots.folder(name))
+        environments, tasks = corpus.environments(), corpus.tasks()
+        lines = [name, *(["  environments: " + ", ".join(environments)] if environments else [])]
+        lines += ["  tasks: " + ", ".join(tasks)] if tasks else []
+        emit("\n".join(lines) + "\n")
 
 
 @click.command("new", short_help="Begin a domain of your own: a small one that works.")
