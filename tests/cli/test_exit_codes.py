@@ -389,7 +389,7 @@ def test_a_package_that_tmd_cannot_do_without(tmd: Tmd, package: str) -> None:
     assert ended.code == ExitCode.MISSING_TOOL
     assert ended.err.splitlines()[-2:] == [
         f"error: the package {package} is missing or damaged",
-        "hint: install tmd again, with all that it needs: pip install tell-me-dave",
+        "hint: install tmd again with its dependencies: pip install . in a copy of its repository",
     ]
 
 

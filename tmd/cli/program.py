@@ -81,7 +81,7 @@ class _Commands(click.Group):
 @click.version_option(__version__, prog_name="tmd", message="%(prog)s %(version)s")
 @click.pass_context
 def program(ctx: click.Context, domains: Path | None, problems: Path | None, debug: bool) -> None:
-    """Turn what a person says into plans that a robot may safely execute.
+    """Turn requests in English into PDDL goals and validated robot plans.
 
     The directories are looked for in this order: the option, ./domains and ./problems, the packaged copy.
     """

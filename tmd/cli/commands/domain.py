@@ -125,7 +125,7 @@ def _learned_text(corpus: Corpus, found: LearnedDomain) -> str:
     return "\n".join([*lines, f"saved in {found.directory}"]) + "\n"
 
 
-@click.command("check", short_help="Find everything that is wrong with domains, problems and their files.")
+@click.command("check", short_help="Find faults in domains, problems and their files.")
 @click.argument("paths", metavar="PATH...", nargs=-1)
 @click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
 @click.option("--strict", is_flag=True, help="Treat warnings as errors.")
@@ -142,7 +142,7 @@ def check(
     explain: str | None,
     as_json: bool,
 ) -> ExitCode:
-    """Check files and folders, and tell every problem with its place and what to do.
+    """Check files and folders, and report every problem with its place and a hint.
 
     PATH is a file, a folder, or the name of a bundled domain. Ends with 0 where there are no errors, 13 otherwise.
     With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
@@ -216,9 +216,9 @@ def _json(diagnostic: Diagnostic) -> dict[str, object]:
 @click.option("--check", "only_check", is_flag=True, help="Write nothing; exit with 13 if a file would be reformatted.")
 @click.pass_obj
 def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
-    """Lay out files, or all PDDL files of folders; comments and line breaks stay.
+    """Format files, or all PDDL files of folders; comments and line breaks stay.
 
-    A file with a fault that makes laying it out impossible is left as it is, and told; then this ends with 31.
+    A file with unbalanced parentheses is left as it is and reported; then this ends with 31.
     """
     from tmd.check.checker import files_of
     from tmd.format.files import SUFFIX, format_file
