@@ -205,7 +205,7 @@ def test_the_domain_of_a_problem_stands_beside_it(tmd: Tmd, tmp_path: Path) -> N
     blocks = ROOT / "tests" / "pddl" / "cases" / "blocks"
     for name in ("domain.pddl", "p01.pddl"):
         (toys / name).write_text((blocks / name).read_text())
-    request = ("--environment", toys / "p01.pddl", "--text", "Stack the block b on the block c.")
+    request = ("--environment", toys / "p01.pddl", "--text", "Stack b on c.")
     beside = tmd("ground", *request)
     assert beside.code == ExitCode.OK and "stack(b, c)" in beside.out
     assert tmd("ground", "--domain", toys / "domain.pddl", *request).out == beside.out
