@@ -15,7 +15,7 @@ from tmd.evaluation.sentence_tests import Outcome, judge, summary
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED
 from tmd.goals.tables import goal_tables
-from tmd.ground import infer, restoration_of
+from tmd.ground import infer, restored_of
 from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, count, named_weights
@@ -89,8 +89,8 @@ class Domain:
         goals = self.knowledge.goals
         tables = goal_tables(library.lexicon, world.task.problem.domain, goals, config.sources)
         dialogue = RuleDialogue(parsed, GoalReader(world, tables, library.lexicon), world.task.init)
-        restoration = restoration_of(goals, config)
-        found = infer(dialogue, world, library, energy, planners, config, policy=policy, restoration=restoration)
+        restored = restored_of(world, library, goals, config)
+        found = infer(dialogue, world, library, energy, planners, config, policy=policy, restored=restored)
         verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in found.plans)
         plans = found.plans if parsed.clauses else ()
         return Grounded(

@@ -13,22 +13,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
+from typing import TypeAlias
 from weakref import WeakKeyDictionary
 
 from tmd.diagnostics import OptionError, Refusal, RefusalKind
-from tmd.goals.sources.table import LEARNED, GoalTable
+from tmd.goals.sources.table import LEARNED, GoalTable, PutBack
+from tmd.goals.tables import declared_goals
 from tmd.grounded import Grounded
 from tmd.inference.bayes_risk import PLANS, decided
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, Weights, count, named_weights
-from tmd.inference.forward_pass import Restoration
 from tmd.inference.goal_pass import Inference
 from tmd.inference.policy.model import Policy, Reward
 from tmd.inference.proposers import proposers_of
 from tmd.inference.ranking import Inferred
 from tmd.library.library import Library
-from tmd.pddl.model import Formula
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.grounding.ground_task import ground_condition
+from tmd.pddl.model import Atom, Formula
+from tmd.pddl.task import Cube
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.gap_filler import GapFiller
@@ -37,6 +41,8 @@ from tmd.readers.interface import Dialogue, Question, Reader
 from tmd.readers.rules import RuleReader
 from tmd.world.world import World
 
+# Conditions of objects, each as a disjunction of cubes.
+Restored: TypeAlias = tuple[tuple[Cube, ...], ...]
 # Asks the user a question; returns the number of the option, or ``None`` where there is no answer.
 Ask = Callable[[Question], int | None]
 
@@ -82,10 +88,10 @@ def ground(
     energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
     policy = Policy(reward, world) if config.policy and reward is not None else None
     planners = TaskPlanners(world.task, _quick(planner, world, config.cap), planner, config.cap)
-    restoration = restoration_of(goals, config)
+    restored = restored_of(world, library, goals, config)
 
     def inferred(dialogue: Dialogue, chosen: Mapping[int, Formula]) -> Inferred:
-        further = partial(infer, policy=policy, restoration=restoration, top=top, chosen=chosen)
+        further = partial(infer, policy=policy, restored=restored, top=top, chosen=chosen)
         return further(dialogue, world, library, energy, planners, config)
 
     dialogue = reader.begin(request, world, world.task.init)
@@ -126,14 +132,33 @@ def reader_of(config: InferenceConfig, library: Library, goals: GoalTable | None
     return RuleReader(library.lexicon, goals, sources=sources, guess=config.guess)
 
 
-def restoration_of(goals: GoalTable | None, config: InferenceConfig) -> Restoration:
-    """Return what people undo unasked, as demonstrations show it."""
-    if goals is None or LEARNED not in config.sources:
-        return Restoration()
-    at_once, at_the_end = (
-        frozenset((p.predicate, p.kind) for p in goals.put_back if p.at_once == once) for once in (True, False)
-    )
-    return Restoration(at_once, at_the_end)
+@lru_cache(maxsize=16)
+def restored_in(world: World, lexicon: Lexicon, learned: frozenset[PutBack]) -> tuple[tuple[Cube, ...], ...]:
+    """Return what no plan leaves behind in an environment: each condition for each object, as cubes.
+
+    Args:
+        world: The environment.
+        lexicon: The words of its domain, which may declare such conditions.
+        learned: What demonstrations undo; it counts where the lexicon declares nothing.
+    """
+    task, kinds = world.task, world.mentions.kinds
+    declared = declared_goals(lexicon, task.problem.domain).restored
+    found: list[tuple[Formula, str]] = []
+    if declared or lexicon.restored is not None:
+        found = [(condition, name) for condition in declared for name in sorted(kinds)]
+    else:
+        for name in sorted(kinds):
+            found += [(Atom(p.predicate, ("?x",)), name) for p in sorted(learned) if p.kind == kinds[name]]
+    cubes = (ground_condition(task, condition, {"?x": name}) for condition, name in found)
+    return tuple(dict.fromkeys(each for each in cubes if each and Cube() not in each))
+
+
+def restored_of(world: World, library: Library, goals: GoalTable | None, config: InferenceConfig) -> Restored:
+    """Return what no plan of a preset leaves behind."""
+    if not config.goals:
+        return ()
+    learned = goals.put_back if goals is not None and LEARNED in config.sources else frozenset()
+    return restored_in(world, library.lexicon, learned)
 
 
 def _asked(
@@ -210,14 +235,14 @@ def infer(
     config: InferenceConfig,
     *,
     policy: Policy | None = None,
-    restoration: Restoration | None = None,
+    restored: Restored = (),
     top: int = 1,
     chosen: Mapping[int, Formula] | None = None,
 ) -> Inferred:
     """Return the plans for a request as it was read, here and in the experiments."""
     by_risk = config.samples > 0 and policy is not None
     proposers = proposers_of(config, world, library, energy, policy)
-    inference = Inference(world, energy, planners, proposers, config, restoration)
+    inference = Inference(world, energy, planners, proposers, config, restored)
     found = inference.infer(dialogue, world.task.init, max(top, PLANS) if by_risk else top, chosen)
     if not by_risk:
         return found

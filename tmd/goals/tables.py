@@ -106,6 +106,8 @@ def _declared(lexicon: Lexicon, domain: Domain) -> tuple[GoalTable, tuple[LeftOu
     known = _DECLARED.setdefault(lexicon, {})
     if domain not in known:
         own = read_table(lexicon.goals, lexicon.attributes, lexicon.groups, domain)
+        restored = tuple(read_row_condition(entry, {"?x"}, domain) for entry in lexicon.restored or ())
+        own = replace(own, restored=restored)
         known[domain] = _with_bases(own, lexicon, domain)
     return known[domain]
 
@@ -173,7 +175,12 @@ def _with_bases(own: GoalTable, lexicon: Lexicon, domain: Domain) -> tuple[GoalT
         else:
             meant.setdefault(entry.pattern, condition)
     place = len(own.rows) if lexicon.base.place is None else lexicon.base.place
-    table = GoalTable((*own.rows[:place], *added, *own.rows[place:]), {**meant, **own.attributes}, own.groups)
+    restored = own.restored
+    if lexicon.restored is None:
+        found = (translation.adjective(entry)[0] for entry in lexicon.base.restored)
+        restored = tuple(condition for condition in found if condition is not None)
+    rows = [*own.rows[:place], *added, *own.rows[place:]]
+    table = replace(own, rows=tuple(rows), attributes={**meant, **own.attributes}, restored=restored)
     return table, tuple(unused)
 
 

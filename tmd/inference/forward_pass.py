@@ -39,19 +39,6 @@ NOTHING = Choice(None, (), {}, {})
 
 
 @dataclass(frozen=True)
-class Restoration:
-    """Facts that people undo unasked, as (predicate, class of the thing): the tap is turned off again.
-
-    Attributes:
-        at_once: Facts that are undone when the clause is done that needed them.
-        at_the_end: Facts that are undone when the whole request is done.
-    """
-
-    at_once: frozenset[tuple[str, str]] = frozenset()
-    at_the_end: frozenset[tuple[str, str]] = frozenset()
-
-
-@dataclass(frozen=True)
 class InferenceSetup:
     """The fixed inputs of inference in one environment. Nothing of a request is kept in it.
 
@@ -61,7 +48,7 @@ class InferenceSetup:
         planners: Its planners.
         proposers: The sources of candidates; each also judges the candidates of the others.
         config: The preset.
-        restoration: What people undo unasked.
+        restored: Conditions that hold at the end of no plan unless they did at the start, or the request asks for them.
     """
 
     world: World
@@ -69,7 +56,7 @@ class InferenceSetup:
     planners: TaskPlanners
     proposers: Sequence[Proposer]
     config: InferenceConfig
-    restoration: Restoration | None = None
+    restored: Sequence[tuple[Cube, ...]] = ()
 
 
 class ForwardPass:

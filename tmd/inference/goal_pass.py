@@ -3,7 +3,7 @@
 Templates, policy and planner propose *how*; the candidate goals of a step (:mod:`tmd.readers.interface`) say *what*. A
 proposal that does not reach the goal, or that undoes what an earlier step reached, is completed by the planner, and is
 dropped where that fails; objects that it handles for nothing are left alone. The energy ranks the rest, the reader's
-prior being one factor. What was opened or switched on by the way is put back where people do so.
+prior being one factor. A finished plan is improved as a whole (:mod:`tmd.inference.tidying`).
 """
 
 from __future__ import annotations
@@ -24,9 +24,10 @@ from tmd.inference.commitments import (
     violated,
 )
 from tmd.inference.energy import Factors
-from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup, Restoration
+from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
 from tmd.inference.ranking import Choice, Inferred, LostGoal, PlanStep, StepGoal, Way
+from tmd.inference.tidying import Need, Segment, Tidying
 from tmd.library.library import tidy
 from tmd.pddl.ground_formula import TRUE, goal_cubes
 from tmd.pddl.model import And, Formula, Instruction
@@ -83,7 +84,6 @@ class GoalPass(ForwardPass):
         self.constraints = Constraints(self.task)
         self.dialogue = dialogue
         self.chosen = chosen
-        self.restoration = setup.restoration or Restoration()
         self._may_go_far = True
         self._far_answer = cache(self._asked_afar)
         self._resort = cache(lambda brief: setup.planners.resort(self.task, brief=brief))
@@ -192,7 +192,13 @@ class GoalPass(ForwardPass):
         if goal.formula != TRUE:
             memory = self.dialogue.reached(goal, end, way.memory)
             way = replace(way, memory=memory, kept=self._kept_after(target, way, end))
-        return _taken(way, self._with_prior(choice, goal), end, _step_goal(target))
+        return _taken(way, self._with_prior(choice, goal), end, _step_goal(target), self._need(target, way, end))
+
+    def _need(self, target: Target, way: Way, end: Bits) -> Need:
+        """Return what the instructions for a goal are for: the goal, and what must be kept at any price."""
+        hard = [k for k in way.kept if k.hard and any(c.holds(end) for c in k.ways)]
+        reached = tuple(c for c in target.goal.cubes if target.goal.formula != TRUE)
+        return Need(combined(reached or (Cube(),), hard), target.ways)
 
     def _question(self, ways: Sequence[Way]) -> Question | None:
         """Return a question about the first step in which readings of nearly equal energy have different goals."""
@@ -324,9 +330,8 @@ class GoalPass(ForwardPass):
             elif isinstance(answer, Filled):
                 plan = (*begun, *answer.plan)
                 if self.config.guess or self._passes(target, way.state, plan):
-                    own = self._restored(way, plan, target)
                     raw = {"policy_proposal": 1.0}
-                    found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, raw, aim))
+                    found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), plan, raw, aim))
             if found:
                 return self._undisturbing(found, state)
         if reason:
@@ -459,8 +464,7 @@ class GoalPass(ForwardPass):
         whole = tidy((*whole, *answer.plan), self.world, state)
         kept = list(untouched(whole, self.task, state, reached, self.lasting, self._contents))
         first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
-        rest = self._restored(way, (*first, *kept), target)[len(first) :]
-        return self._weighed(target.step, way, candidate.source, tuple(first), rest, candidate.raw, aim)
+        return self._weighed(target.step, way, candidate.source, tuple(first), tuple(kept), candidate.raw, aim)
 
     def _weighed(
         self,
@@ -493,44 +497,36 @@ class GoalPass(ForwardPass):
             state = self.world.task.by_instruction[instruction].apply(state)
             yield state
 
-    # ------------------------------------------------------------------ restoration
+    # ------------------------------------------------------------------ the whole plan
 
-    def _restored(self, way: Way, instructions: Instructions, target: Target) -> Instructions:
-        """Return a sequence for a step, followed by what people undo at once when it is done."""
-        end = self.simulated(way.state, instructions)
-        kept = self._kept_after(target, way, end)
-        return (*instructions, *self._undone(way.state, end, kept, self.restoration.at_once))
+    @cached_property
+    def _tidying(self) -> Tidying:
+        constraints = self.dialogue.constraints
 
-    def _undone(
-        self, before: Bits, end: Bits, kept: Sequence[Commitment], known: frozenset[tuple[str, str]]
-    ) -> Instructions:
-        """Return the instructions that undo what people undo by themselves, where that is a short way."""
-        kinds = self.world.mentions.kinds
-        asked = 0
-        for commitment in kept:
-            for way in commitment.ways[:1]:
-                asked |= way.positive
-        undone = 0
-        for atom in self.task.names(end & ~before & ~asked) if known else ():
-            if len(atom.args) == 1 and (atom.predicate, kinds.get(atom.args[0], "")) in known:
-                undone |= 1 << self.task.index[atom]
-        goal = combined((Cube(0, undone),), kept) if undone else ()
-        answer = self.planner.fill(end, goal) if goal else None
-        return answer.plan if isinstance(answer, Filled) else ()
+        def allowed(states: Sequence[Bits]) -> bool:
+            return not constraints.never or violated(self.task, constraints, states) is None
+
+        return Tidying(self.task, self.planner, self.setup.restored, self.lasting, allowed)
 
     def _finished(self, way: Way, first: Bits) -> Way:
-        """Return a way through all steps, followed by what people put back in the end."""
-        done = self._undone(first, way.state, way.kept, self.restoration.at_the_end)
-        if not done or not way.choices:
+        """Return a way through all steps, improved as a whole: with an end that people leave, and nothing needless."""
+        if not way.instructions:
             return way
-        last, goal = way.choices[-1], way.goals[-1]
-        steps = (*last.steps, *(PlanStep(i, goal.clause, latent=True) for i in done))
-        return replace(
-            way,
-            state=self.simulated(way.state, done),
-            choices=(*way.choices[:-1], replace(last, steps=steps)),
-            goals=(*way.goals[:-1], replace(goal, last=goal.last + len(done))),
+        plan = tuple(
+            Segment(tuple(s.instruction for s in choice.steps), need)
+            for choice, need in zip(way.choices, way.needs, strict=True)
         )
+        kept = combined((Cube(),), [k for k in way.kept if any(c.holds(way.state) for c in k.ways)])
+        better = self._tidying.improved(first, plan, kept)
+        if better == plan:
+            return way
+        choices, goals, at = [], [], 0
+        for choice, goal, segment in zip(way.choices, way.goals, better, strict=True):
+            choices.append(_with_instructions(choice, segment.instructions, goal.clause))
+            goals.append(replace(goal, first=at, last=at + len(segment.instructions)))
+            at += len(segment.instructions)
+        end = self.simulated(first, (i for segment in better for i in segment.instructions))
+        return replace(way, state=end, choices=tuple(choices), goals=tuple(goals))
 
 
 @dataclass(frozen=True)
@@ -560,11 +556,23 @@ class Inference(InferenceSetup):
         return ForwardPass(self, clauses, self.world.task, top).infer(state)
 
 
-def _taken(way: Way, choice: Choice, end: Bits, goal: StepGoal) -> Way:
-    """Return a way with the choice for one more step, and with its goal."""
+def _taken(way: Way, choice: Choice, end: Bits, goal: StepGoal, need: Need | None = None) -> Way:
+    """Return a way with the choice for one more step, with its goal and what the choice is for."""
     before = len(way.instructions)
     placed = replace(goal, first=before, last=before + len(choice.steps))
-    return replace(way.extended(choice, end), goals=(*way.goals, placed))
+    need = need or Need(fixed=bool(choice.steps))
+    return replace(way.extended(choice, end), goals=(*way.goals, placed), needs=(*way.needs, need))
+
+
+def _with_instructions(choice: Choice, instructions: Instructions, clause: int) -> Choice:
+    """Return a choice with other instructions; those that it did not have are latent."""
+    known = list(choice.steps)
+    steps = []
+    for instruction in instructions:
+        at = next((at for at, step in enumerate(known) if step.instruction == instruction), None)
+        steps.append(PlanStep(instruction, clause, latent=True) if at is None else known[at])
+        known = known if at is None else known[at + 1 :]
+    return replace(choice, steps=tuple(steps))
 
 
 def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from tmd.diagnostics import Refusal
 from tmd.inference.commitments import Commitment
 from tmd.inference.energy import title
+from tmd.inference.tidying import Need
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
 from tmd.readers.interface import Question
@@ -120,6 +121,7 @@ class Way:
         memory: The reader's memory.
         kept: The commitments.
         goals: The goals of the steps.
+        needs: What each choice is for.
         readings: For each step with several candidate goals, its index and the goal that was taken.
     """
 
@@ -129,6 +131,7 @@ class Way:
     memory: object = None
     kept: tuple[Commitment, ...] = ()
     goals: tuple[StepGoal, ...] = ()
+    needs: tuple[Need, ...] = ()
     readings: tuple[tuple[int, Formula], ...] = ()
 
     def extended(self, choice: Choice, end: Bits) -> Way:

@@ -19,7 +19,7 @@ from tmd.evaluation.models.prediction import Prediction, Served
 from tmd.evaluation.runs.dataset import Example, Worlds
 from tmd.goals.sources.demonstrations import learn_goals
 from tmd.goals.sources.table import GoalTable
-from tmd.ground import infer, reader_of, restoration_of
+from tmd.ground import infer, reader_of, restored_of
 from tmd.inference.config import BAYES_RISK, GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
 from tmd.inference.energy import FIXED, NAMES, OURS, Energy, Statistics, Weights, count, named_weights
 from tmd.inference.ranking import RankedPlan
@@ -259,9 +259,9 @@ class Crf:
             dialogue = reader.begin(example.demonstration.text, world, world.task.init)
         else:
             dialogue = Dialogue(Parsed("", self._clauses(example, data)))
-        restoration = restoration_of(taught.goals, config)
+        restored = restored_of(world, taught.library, taught.goals, config)
         return infer(
-            dialogue, world, taught.library, energy, planners, config, policy=policy, restoration=restoration, top=top
+            dialogue, world, taught.library, energy, planners, config, policy=policy, restored=restored, top=top
         ).plans
 
     def _clauses(self, example: Example, data: Worlds) -> tuple[Clause, ...]:

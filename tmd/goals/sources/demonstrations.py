@@ -110,7 +110,7 @@ def table_to_json(table: GoalTable) -> dict[str, object]:
         }
         for row in table.rows
     ]
-    return {"rows": rows, "put_back": [[p.predicate, p.kind, p.at_once] for p in sorted(table.put_back)]}
+    return {"rows": rows, "put_back": [[p.predicate, p.kind] for p in sorted(table.put_back)]}
 
 
 def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
@@ -123,7 +123,7 @@ def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
     for entry in data["rows"]:
         row = read_row(Declared(str(entry["pattern"]), str(entry["condition"])), domain, LEARNED)
         rows.append(replace(row, evidence=str(entry["evidence"]), probability=float(str(entry["probability"]))))
-    put_back = frozenset(PutBack(str(p), str(kind), bool(once)) for p, kind, once in data["put_back"])
+    put_back = frozenset(PutBack(str(p), str(kind)) for p, kind in data["put_back"])
     return GoalTable(tuple(rows), put_back=put_back)
 
 
@@ -177,9 +177,8 @@ class _Learner:
         """Count what one demonstration shows."""
         world = self.world_of(demonstration.environment)
         whole = world.task.init, run(world, world.task.init, demonstration.instructions)
-        self._undone(world, world.task.init, demonstration.instructions, at_once=False)
+        self._undone(world, world.task.init, demonstration.instructions)
         for lesson in lessons(demonstration, world, self.lexicon):
-            self._undone(world, lesson.states[0], lesson.instructions, at_once=True)
             if lesson.clause is not None and lesson.clause.mood is Mood.DO:
                 self._clause(lesson.clause, world, lesson.states, lesson.instructions)
                 self._dish(lesson.clause, world, whole)
@@ -206,7 +205,7 @@ class _Learner:
             count.held += after
             count.changed += after and not grounder.truth(found, states[0])
 
-    def _undone(self, world: World, state: Bits, instructions: Sequence[Instruction], *, at_once: bool) -> None:
+    def _undone(self, world: World, state: Bits, instructions: Sequence[Instruction]) -> None:
         """Count what is opened or switched on, and whether that is undone before the end."""
         first, ever = state, 0
         for instruction in instructions:
@@ -217,7 +216,7 @@ class _Learner:
             ever |= state & ~first
         for atom in world.task.names(ever):
             if atom.predicate in self.startable and len(atom.args) == 1:
-                count = self.started[PutBack(atom.predicate, world.mentions.kinds.get(atom.args[0], ""), at_once)]
+                count = self.started[PutBack(atom.predicate, world.mentions.kinds.get(atom.args[0], ""))]
                 count.possible += 1
                 count.held += not state >> world.task.index[atom] & 1
 

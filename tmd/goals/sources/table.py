@@ -128,12 +128,10 @@ class PutBack:
     Attributes:
         predicate: A predicate of one thing that was made true and that nobody asked for.
         kind: The class of the thing.
-        at_once: It is undone when the clause is done that needed it; otherwise at the end of the text.
     """
 
     predicate: str
     kind: str
-    at_once: bool
 
 
 @dataclass(frozen=True)
@@ -144,13 +142,15 @@ class GoalTable:
         rows: The rows, in their order.
         attributes: For an adjective the condition of ``?x``.
         groups: For a noun that means many things the classes of all of them.
-        put_back: What people undo by themselves.
+        put_back: What people undo by themselves, as demonstrations show it.
+        restored: Conditions of ``?x`` that no plan leaves behind, as they are declared.
     """
 
     rows: tuple[GoalRow, ...] = ()
     attributes: Mapping[str, Formula] = field(default_factory=dict)
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     put_back: frozenset[PutBack] = frozenset()
+    restored: tuple[Formula, ...] = ()
 
     @cached_property
     def _by_verb(self) -> Mapping[str, tuple[GoalRow, ...]]:

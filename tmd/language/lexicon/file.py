@@ -31,7 +31,7 @@ from tmd.yaml_nodes import compose
 
 KEYS = (
     "include", "predicates", "types", "verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups",
-    "phrases",
+    "restored", "phrases",
 )  # fmt: skip
 BASES = "base"
 """The folder of base lexicons, beside the folders of domains."""
@@ -152,6 +152,7 @@ def _declared(source: _Source, parts: Mapping[str, yaml.Node]) -> Lexicon:
         goals=goals,
         attributes=part("attributes", _attributes) or (),
         groups=part("groups", _Source.aliases) or {},
+        restored=part("restored", _restored),
         source=str(source.path),
         base=Base(predicates=predicates, types=types, place=place),
         places=_places(source, parts),
@@ -204,6 +205,7 @@ def _with(own: Lexicon, other: Lexicon) -> Lexicon:
             predicates=(*own.base.predicates, *other.base.predicates),
             types={**other.base.types, **own.base.types},
             place=own.base.place,
+            restored=(*own.base.restored, *(other.restored or ()), *other.base.restored),
         ),
         included=tuple(dict.fromkeys((*own.included, other.source, *other.included))),
         places={**other.places, **own.places},
@@ -287,6 +289,8 @@ def _opened(path: Path) -> tuple[_Source, dict[str, yaml.Node]]:
     return source, parts
 
 
+RESTORED = "restored"
+"""The section of conditions that no plan leaves behind."""
 INCLUDED = "included"
 """The entry of ``goals`` that says where the rows of included lexicons are tried."""
 
@@ -312,6 +316,12 @@ def _goals(source: _Source, node: yaml.Node) -> tuple[tuple[Declared, ...], int 
 
 def _attributes(source: _Source, node: yaml.Node) -> tuple[Declared, ...]:
     return tuple(Declared(name, *source.condition(value)) for name, _, value in source.mapping(node))
+
+
+def _restored(source: _Source, node: yaml.Node) -> tuple[Declared, ...]:
+    if not isinstance(node, yaml.SequenceNode):
+        source.fail(node.start_mark, "expected a list of conditions here", "write '- (opened ?x)'")
+    return tuple(Declared(RESTORED, *source.condition(child)) for child in node.value)
 
 
 def _phrasal(source: _Source, node: yaml.Node) -> dict[str, str]:

@@ -87,6 +87,7 @@ class Base:
         predicates: The shared predicates, those of the lexicon itself first.
         types: For a type that the rows name, the types that may be it in a domain; those of the lexicon itself first.
         place: Before which of the rows of the lexicon these rows are tried; behind all where it is ``None``.
+        restored: As for :class:`Lexicon`, over shared predicates.
     """
 
     goals: tuple[Declared, ...] = ()
@@ -94,6 +95,7 @@ class Base:
     predicates: tuple[SharedPredicate, ...] = ()
     types: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     place: int | None = None
+    restored: tuple[Declared, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +134,8 @@ class Lexicon:
         goals: What verbs with their slots mean, as conditions of the domain (:mod:`tmd.goals.sources.table`).
         attributes: What adjectives mean, as conditions of ``?x``.
         groups: Nouns that mean all things of some classes: ``{"rubbish": ("wrapper", "can")}``.
+        restored: Conditions of ``?x`` that no plan leaves behind unless the request asks for them; ``None`` where the
+            base lexicons say it.
         source: The file it came from.
         base: What verbs and adjectives mean by the base lexicons that it includes.
         included: The files of these base lexicons, in order.
@@ -149,6 +153,7 @@ class Lexicon:
     goals: tuple[Declared, ...] = ()
     attributes: tuple[Declared, ...] = ()
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    restored: tuple[Declared, ...] | None = None
     source: str = ""
     base: Base = field(default_factory=Base)
     included: tuple[str, ...] = ()

@@ -1,0 +1,387 @@
+"""Improvement of plans that reach their goals: an end that people leave, by instructions that are needed.
+
+Not in the paper. A plan is cut into segments, one for each step of the request. What it opened, switched on or still
+holds without being asked to is restored, as early as the rest of the plan allows. Then instructions are removed, and
+short parts are planned anew, as long as every segment still ends in its goal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TypeAlias
+
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.result import Filled, Planner
+
+# Cost of letting something fall rather than putting it down, in instructions.
+_CARE = 3
+# Generated states after which the search for a short part gives up.
+_CAP = 3_000
+# Maximum length of a part that is planned anew: a search for so few instructions takes milliseconds.
+_WINDOW = 6
+Condition: TypeAlias = tuple[Cube, ...]
+"""A disjunction of conjunctions."""
+Key: TypeAlias = tuple[int, int, int]
+"""Conditions that are not restored, cost, and atoms that are changed in the end: less is better."""
+
+
+@dataclass(frozen=True, slots=True)
+class Need:
+    """What a segment of a plan is for.
+
+    Attributes:
+        end: What must hold at its end; empty for nothing.
+        via: Conditions to be passed in it, in this order.
+        fixed: Whether its instructions stay as they are, because no goal is known for them.
+    """
+
+    end: Condition = ()
+    via: tuple[Condition, ...] = ()
+    fixed: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """The instructions for one step."""
+
+    instructions: tuple[Instruction, ...]
+    need: Need
+
+
+Plan: TypeAlias = tuple[Segment, ...]
+
+
+class Tidying:
+    """Improves plans for one request.
+
+    Args:
+        task: The task, without what the request forbids.
+        planner: The planner for short gaps.
+        restored: The conditions that are restored unless the request asks for them.
+        lasting: The atoms that do not pass by themselves.
+        allowed: Returns whether the request allows a sequence of states.
+    """
+
+    def __init__(
+        self,
+        task: Task,
+        planner: Planner,
+        restored: Sequence[Condition],
+        lasting: Bits,
+        allowed: Callable[[Sequence[Bits]], bool],
+    ) -> None:
+        self.task = task
+        self.planner = planner
+        self.careless = frozenset(o.instruction for o in task.operators if _careless(o, task))
+        self.restored = restored
+        self.lasting = lasting
+        self.allowed = allowed
+
+    @cached_property
+    def careful(self) -> Planner:
+        """The planner without careless instructions."""
+        operators = tuple(o for o in self.task.operators if o.instruction not in self.careless)
+        if len(operators) == len(self.task.operators):
+            return self.planner
+        known = {o.instruction: o for o in operators}
+        return make(IN_PROCESS, replace(self.task, operators=operators, by_instruction=known), cap=_CAP)
+
+    def improved(self, start: Bits, plan: Plan, kept: Condition) -> Plan:
+        """Return a plan that is at least as good.
+
+        Args:
+            start: The state in which the plan starts.
+            plan: The plan.
+            kept: What must hold at the end, beside the needs of the segments.
+        """
+        return _Improvement(self, start, plan, kept).improved(plan)
+
+
+def _careless(operator: Operator, task: Task) -> bool:
+    """Return whether an instruction puts something in a place that it does not name: it lets it fall."""
+    own = set(operator.instruction.args)
+    named = own | {c.name for c in task.problem.domain.constants}
+    add = operator.add
+    for _, also_add, _ in operator.conditional:
+        add |= also_add
+    return any(len(a.args) > 1 and a.args[0] in own and not named.issuperset(a.args) for a in task.names(add))
+
+
+class _Improvement:
+    """The improvement of one plan, with what any other plan must not change."""
+
+    def __init__(self, setup: Tidying, start: Bits, plan: Plan, kept: Condition) -> None:
+        self.setup = setup
+        self.task = setup.task
+        self.start = start
+        self.kept = kept
+        states = self._states(plan)
+        end = states[-1][-1] if states else start
+        self.moved = self._moved(end)
+        asked_true = asked_false = 0
+        for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
+            cube = next((c for c in cubes if c.holds(state)), Cube())
+            asked_true |= cube.positive
+            asked_false |= cube.negative
+        self.watched = [
+            number
+            for number, condition in enumerate(setup.restored)
+            if not any(c.holds(start) for c in condition)
+            and not any(c.positive & asked_true or c.negative & asked_false for c in condition)
+        ]
+
+    def improved(self, plan: Plan) -> Plan:
+        """Return the plan with what it leaves restored, and without what it does not need."""
+        if self._key(plan) is None:
+            return plan
+        plan = self._restored(plan)
+        before = None
+        while plan != before:
+            before = plan
+            for shorter in (self._without_objects, self._without_instructions, self._with_windows):
+                plan = shorter(plan)
+        return plan
+
+    # ------------------------------------------------------------------ the measure
+
+    def _states(self, plan: Plan) -> list[list[Bits]]:
+        """Return the states of each segment, from the one in which it begins."""
+        found, state = [], self.start
+        for segment in plan:
+            trace = [state]
+            for instruction in segment.instructions:
+                state = self.task.by_instruction[instruction].apply(state)
+                trace.append(state)
+            found.append(trace)
+        return found
+
+    def _key(self, plan: Plan) -> Key | None:
+        """Return how good a plan is; ``None`` where it cannot be executed or misses what it is for."""
+        states = [self.start]
+        cost = 0
+        for segment in plan:
+            trace = [states[-1]]
+            for instruction in segment.instructions:
+                operator = self.task.by_instruction.get(instruction)
+                if operator is None or not operator.applicable(trace[-1]):
+                    return None
+                cost += operator.cost + _CARE * (instruction in self.setup.careless)
+                trace.append(operator.apply(trace[-1]))
+            need = segment.need
+            if need.end and not _any_holds(need.end, trace[-1]) or not _passes(need.via, trace):
+                return None
+            states += trace[1:]
+        end = states[-1]
+        if not _any_holds(self.kept, end) or not self._moved(end) <= self.moved or not self.setup.allowed(states):
+            return None
+        return len(self._untidy(end)), cost, ((end ^ self.start) & self.setup.lasting).bit_count()
+
+    def _untidy(self, state: Bits) -> list[int]:
+        """Return the watched conditions that hold."""
+        return [number for number in self.watched if _any_holds(self.setup.restored[number], state)]
+
+    def _moved(self, state: Bits) -> frozenset[str]:
+        """Return the objects that are somewhere else, or have other contents, than at the start."""
+        changed = self.task.names((state ^ self.start) & self.setup.lasting)
+        return frozenset(atom.args[0] for atom in changed if len(atom.args) > 1)
+
+    def _better(self, plan: Plan, others: Iterable[Plan]) -> Plan:
+        """Return the best of a plan and others; the first among equals."""
+        best, least = plan, self._key(plan)
+        assert least is not None
+        for other in others:
+            key = self._key(other)
+            if key is not None and key < least:
+                best, least = other, key
+        return best
+
+    # ------------------------------------------------------------------ restoration
+
+    def _restored(self, plan: Plan) -> Plan:
+        """Return a plan that leaves as few conditions unrestored as a short way allows."""
+        for number in self._untidy(self._states(plan)[-1][-1] if plan else self.start):
+            plan = self._inserted(plan, number)
+        end = self._states(plan)[-1][-1] if plan else self.start
+        untidy = self._untidy(end)
+        plan = self._appended(plan, end, untidy)
+        for number in untidy:
+            end = self._states(plan)[-1][-1]
+            if number in self._untidy(end):
+                plan = self._appended(plan, end, [number])
+        return plan
+
+    def _inserted(self, plan: Plan, number: int) -> Plan:
+        """Return the plan with the fewest instructions that restore a condition, as early as the rest allows."""
+        best = plan
+        for place, (segment, trace) in enumerate(zip(plan, self._states(plan), strict=True)):
+            for at, state in enumerate(trace):
+                inner = segment.need.fixed and at < len(trace) - 1
+                if inner or not _any_holds(self.setup.restored[number], state):
+                    continue
+                found = self._planned(state, self._tidier(state, [number], (Cube(),)))
+                best = self._better(best, (self._with(plan, place, at, at, own) for own in found))
+        return best
+
+    def _appended(self, plan: Plan, end: Bits, untidy: Sequence[int]) -> Plan:
+        """Return the plan followed by the cheapest instructions that restore conditions."""
+        if not untidy:
+            return plan
+        goal = self._tidier(end, untidy, self.kept)
+        last = len(plan[-1].instructions)
+        return self._better(
+            plan, (self._with(plan, len(plan) - 1, last, last, own) for own in self._planned(end, goal))
+        )
+
+    def _tidier(self, state: Bits, numbers: Sequence[int], goal: Condition) -> Condition:
+        """Return a goal with some conditions restored, and without another one that does not hold now."""
+        now = self._untidy(state)
+        for number in self.watched:
+            condition = self.setup.restored[number]
+            if number in numbers or (number not in now and len(condition) == 1):
+                goal = tuple(c for cube in goal for c in _denied(condition, cube))
+        return goal
+
+    def _planned(self, state: Bits, goal: Condition) -> Iterator[tuple[Instruction, ...]]:
+        """Yield the planner's instructions from a state to a goal, if it has any."""
+        if any(cube.holds(state) for cube in goal):
+            yield ()
+            return
+        for planner in (self.setup.careful, self.setup.planner) if goal else ():
+            answer = planner.fill(state, goal)
+            if isinstance(answer, Filled):
+                yield answer.plan
+                return
+
+    # ------------------------------------------------------------------ shorter plans
+
+    @staticmethod
+    def _with(plan: Plan, place: int, first: int, last: int, own: tuple[Instruction, ...]) -> Plan:
+        """Return the plan with other instructions from ``first`` to ``last`` of one segment."""
+        segment = plan[place]
+        instructions = (*segment.instructions[:first], *own, *segment.instructions[last:])
+        return (*plan[:place], replace(segment, instructions=instructions), *plan[place + 1 :])
+
+    def _executable(self, plan: Plan, left_out: Callable[[int, int, Instruction], bool]) -> Plan:
+        """Return the plan without some instructions, and without those that cannot be executed then."""
+        found, state = [], self.start
+        for place, segment in enumerate(plan):
+            own = []
+            for at, instruction in enumerate(segment.instructions):
+                operator = self.task.by_instruction[instruction]
+                if operator.applicable(state) and (segment.need.fixed or not left_out(place, at, instruction)):
+                    own.append(instruction)
+                    state = operator.apply(state)
+            found.append(replace(segment, instructions=tuple(own)))
+        return tuple(found)
+
+    def _without_objects(self, plan: Plan) -> Plan:
+        """Return the plan without the objects that it handles for nothing."""
+        for name in dict.fromkeys(a for s in plan for i in s.instructions for a in i.args):
+            plan = self._better(plan, [self._executable(plan, lambda _, __, i, name=name: name in i.args)])
+        return plan
+
+    def _without_instructions(self, plan: Plan) -> Plan:
+        """Return the plan without single instructions, and those that need them, that are there for nothing."""
+        place, at = len(plan) - 1, len(plan[-1].instructions) if plan else 0
+        while place >= 0:
+            at -= 1
+            if at < 0:
+                place -= 1
+                at = len(plan[place].instructions) if place >= 0 else 0
+                continue
+            gone = (place, at)
+            plan = self._better(plan, [self._executable(plan, lambda p, a, _, gone=gone: (p, a) == gone)])
+            at = min(at, len(plan[place].instructions))
+        return plan
+
+    def _with_windows(self, plan: Plan) -> Plan:
+        """Return the plan with short parts replaced by shorter ones that lead to what the rest relies on."""
+        for place in range(len(plan)):
+            at = 0
+            while not plan[place].need.fixed and at < len(plan[place].instructions):
+                plan = self._with_window(plan, place, at)
+                at += 1
+        return plan
+
+    def _with_window(self, plan: Plan, place: int, at: int) -> Plan:
+        last = min(at + _WINDOW, len(plan[place].instructions))
+        if last - at < 2:
+            return plan
+        trace = self._states(plan)[place]
+        goal = (self._relied_on(plan, place, last),)
+        return self._better(plan, (self._with(plan, place, at, last, own) for own in self._planned(trace[at], goal)))
+
+    def _relied_on(self, plan: Plan, place: int, at: int) -> Cube:
+        """Return the literals of a state in a plan that the instructions and needs after it read."""
+        read = 0
+        states = self._states(plan)
+        for cubes, state in ((self.kept, states[-1][-1]), *_ends(plan[place:], states[place:])):
+            cube = next((c for c in cubes if c.holds(state)), Cube())
+            read |= cube.positive | cube.negative
+        for number in self.watched:
+            for cube in self.setup.restored[number]:
+                read |= cube.positive | cube.negative
+        for index in range(place, len(plan)):
+            first = at if index == place else 0
+            own = zip(plan[index].instructions[first:], states[index][first:], strict=False)
+            for instruction, state in own:
+                read |= _read_by(self.task.by_instruction[instruction], state)
+        state = states[place][at]
+        return Cube(read & state, read & ~state)
+
+
+def _ends(plan: Plan, states: Sequence[Sequence[Bits]]) -> Iterator[tuple[Condition, Bits]]:
+    for segment, trace in zip(plan, states, strict=True):
+        yield segment.need.end, trace[-1]
+        for condition in segment.need.via:
+            yield condition, next((s for s in trace if _any_holds(condition, s)), trace[-1])
+
+
+def _read_by(operator: Operator, state: Bits) -> Bits:
+    """Return the atoms that matter to an operator in a state: of its condition, and of the effects that it has."""
+    read = operator.precondition.positive | operator.precondition.negative
+    for cube in operator.forbidden:
+        read |= cube.positive | cube.negative
+    for condition, _, _ in operator.conditional:
+        if condition.holds(state):
+            read |= condition.positive | condition.negative
+    return read
+
+
+def _any_holds(condition: Condition, state: Bits) -> bool:
+    return any(cube.holds(state) for cube in condition)
+
+
+def _passes(via: Sequence[Condition], trace: Sequence[Bits]) -> bool:
+    """Return whether states meet conditions in their order."""
+    at = 0
+    for condition in via:
+        while at < len(trace) and not _any_holds(condition, trace[at]):
+            at += 1
+    return at < len(trace)
+
+
+def _denied(condition: Condition, cube: Cube) -> Iterator[Cube]:
+    """Yield the conjunctions of a cube with the negation of a condition."""
+    if not condition:
+        yield cube
+        return
+    first, rest = condition[0], condition[1:]
+    for other in _denied(rest, cube):
+        for literal in _negated(first):
+            positive, negative = other.positive | literal.positive, other.negative | literal.negative
+            if not positive & negative:
+                yield Cube(positive, negative)
+
+
+def _negated(cube: Cube) -> Iterator[Cube]:
+    """Yield the negation of each literal of a cube."""
+    for bits, positive in ((cube.positive, False), (cube.negative, True)):
+        while bits:
+            low = bits & -bits
+            yield Cube(low, 0) if positive else Cube(0, low)
+            bits ^= low
