@@ -39,6 +39,8 @@ _PRINTED = re.compile(r"tmd (parse|ground|run|test) [^|&>]*--json[^|&>]*")
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 _HEADING = re.compile(r"^#+ +(.*?) *$", re.MULTILINE)
+_CODE = re.compile(r"`[^`]*`")
+_AVOIDED = re.compile(r"\b(?:akin|anew|besides|shall|told|whoever)\b", re.IGNORECASE)
 _OF_ONE_MACHINE = re.compile(r"(?<![\w.])/(?:home|root|Users|work|tmp|mnt|opt|srv)/\w+")
 
 
@@ -168,6 +170,15 @@ def _anchors(page: Path) -> set[str]:
 
 def test_no_page_speaks_of_one_machine() -> None:
     assert [page for page in pages() if _OF_ONE_MACHINE.search(page.read_text(encoding="utf-8"))] == []
+
+
+def test_pages_avoid_words_that_are_hard_to_read() -> None:
+    found = {}
+    for page in pages():
+        prose = _CODE.sub("", _FENCED.sub("", page.read_text(encoding="utf-8")))
+        if words := _AVOIDED.findall(prose):
+            found[page.name] = words
+    assert not found
 
 
 def _json_values() -> Iterator[object]:
