@@ -39,6 +39,8 @@ _PRINTED = re.compile(r"tmd (parse|ground|run|test) [^|&>]*--json[^|&>]*")
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 _HEADING = re.compile(r"^#+ +(.*?) *$", re.MULTILINE)
+_CODE = re.compile(r"`[^`]*`")
+_AVOIDED = re.compile(r"\b(?:akin|anew|besides|shall|told|whoever)\b", re.IGNORECASE)
 _OF_ONE_MACHINE = re.compile(r"(?<![\w.])/(?:home|root|Users|work|tmp|mnt|opt|srv)/\w+")
 
 
@@ -170,28 +172,45 @@ def test_no_page_speaks_of_one_machine() -> None:
     assert [page for page in pages() if _OF_ONE_MACHINE.search(page.read_text(encoding="utf-8"))] == []
 
 
+def test_pages_avoid_words_that_are_hard_to_read() -> None:
+    found = {}
+    for page in pages():
+        prose = _CODE.sub("", _FENCED.sub("", page.read_text(encoding="utf-8")))
+        if words := _AVOIDED.findall(prose):
+            found[page.name] = words
+    assert not found
+
+
 def _json_values() -> Iterator[object]:
-    """The JSON of the pages with the name of its format."""
+    """The JSON texts of the pages with the name of their format."""
     names = {"ground": "grounding"}
     for page, command, output in examples():
         if printed := _PRINTED.fullmatch(command):
             name = "goal-only" if "--goal-only" in command else names.get(printed[1], printed[1])
-            yield pytest.param(name, json.loads(output), id=f"{page.name}-{command[:40]}")
+            yield pytest.param(name, output, id=f"{page.name}-{command[:40]}")
     for page in pages():
         for name, block in _VALUES.findall(page.read_text(encoding="utf-8")):
             for number, line in enumerate(block.splitlines()):
-                yield pytest.param(name, json.loads(line), id=f"{page.name}-{name}-{number}")
+                yield pytest.param(name, line, id=f"{page.name}-{name}-{number}")
 
 
-@pytest.mark.parametrize(("name", "value"), list(_json_values()))
-def test_json_on_the_pages_is_of_its_format(name: str, value: object) -> None:
-    TypeAdapter(FORMATS[name]).validate_python(value)
+@pytest.mark.parametrize(("name", "text"), list(_json_values()))
+def test_json_on_the_pages_is_of_its_format(name: str, text: str) -> None:
+    TypeAdapter(FORMATS[name]).validate_python(json.loads(text))
 
 
-@pytest.mark.parametrize(("name", "value"), list(_json_values()))
-def test_json_on_the_pages_is_of_its_schema(name: str, value: object) -> None:
+@pytest.mark.parametrize(("name", "text"), list(_json_values()))
+def test_json_on_the_pages_is_of_its_schema(name: str, text: str) -> None:
     jsonschema = pytest.importorskip("jsonschema", reason="the package jsonschema is not installed")
-    jsonschema.validate(value, json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8")))
+    jsonschema.validate(json.loads(text), json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8")))
+
+
+def test_a_grounding_is_of_its_format_and_schema(tmp_path: Path, learned: Path) -> None:
+    """No page shows a whole one."""
+    command = 'tmd ground --environment corner1 --text "Take the book." --json'
+    text = executed(ROOT / "README.md", command, tmp_path)
+    test_json_on_the_pages_is_of_its_format("grounding", text)
+    test_json_on_the_pages_is_of_its_schema("grounding", text)
 
 
 def test_the_schemas_are_those_of_the_classes() -> None:

@@ -54,6 +54,9 @@ class DomainKit:
         self._learned = learned
         self._readers: dict[tuple[ModelSettings, bool], Reader] = {}
 
+    def __repr__(self) -> str:
+        return f"<DomainKit {self.name}>"
+
     @property
     def name(self) -> str:
         """The name of the domain."""

@@ -153,12 +153,17 @@ def restored_in(world: World, lexicon: Lexicon, learned: frozenset[PutBack]) -> 
     return tuple(dict.fromkeys(each for each in cubes if each and Cube() not in each))
 
 
-def restored_of(world: World, library: Library, goals: GoalTable | None, config: InferenceConfig) -> Restored:
-    """Return what no plan of a preset leaves behind."""
+def restored_of(
+    world: World, library: Library, goals: GoalTable | None, config: InferenceConfig, *, declared: bool = True
+) -> Restored:
+    """Return what no plan of a preset leaves behind; without ``declared``, only what demonstrations undo."""
     if not config.goals:
         return ()
+    lexicon = library.lexicon
+    if not declared:
+        lexicon = replace(lexicon, restored=None, base=replace(lexicon.base, restored=()))
     learned = goals.put_back if goals is not None and LEARNED in config.sources else frozenset()
-    return restored_in(world, library.lexicon, learned)
+    return restored_in(world, lexicon, learned)
 
 
 def _asked(

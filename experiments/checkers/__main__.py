@@ -1,7 +1,7 @@
 """Slips × readers: is a slip caught, with its place, with a hint what was meant?
 
-``python -m experiments.checkers`` runs every reader that is installed over every folder of ``cases/`` and writes the
-table into docs/errors.md, between its markers. ``--python`` names the interpreter that has the readers.
+``python -m experiments.checkers`` runs every installed reader over every folder of ``cases/``, prints each result and
+writes the counts into docs/errors.md, between its markers. ``--python`` names the interpreter that has the readers.
 """
 
 from __future__ import annotations
@@ -66,31 +66,34 @@ def version_of(python: str, tool: str) -> str | None:
 
 
 def table(python: str) -> str:
-    """The table as Markdown, with the count of what each caught."""
+    """The counts of each reader as Markdown; a line for each slip is printed."""
     cases = sorted(path for path in (HERE / "cases").iterdir() if path.name != "none")
-    tools = {tool: v for tool in TOOLS if (v := version_of(python, tool))}
-    with ThreadPoolExecutor(4) as pool:
-        base = dict(zip(tools, pool.map(lambda t: said(python, t, HERE / "cases" / "none"), tools), strict=True))
-        rows = {}
-        mine = list(pool.map(ours, cases))
-        for case, own in zip(cases, mine, strict=True):
-            texts = pool.map(lambda tool, case=case: said(python, tool, case), tools)
-            rows[case.name] = [own, *(cell(x, base[t] is not None) for t, x in zip(tools, texts, strict=True))]
-    heads = [f"tmd {__version__}", *(f"{tool} {v}" for tool, v in tools.items())]
-    lines = [f"| slip | {' | '.join(heads)} |", "|---" * (len(heads) + 1) + "|"]
-    lines += [f"| {name.replace('-', ' ')} | {' | '.join(cells)} |" for name, cells in rows.items()]
-    caught = [sum(row[n] not in ("–", "?") for row in rows.values()) for n in range(len(heads))]
-    lines.append(f"| **caught of {len(rows)}** | {' | '.join(map(str, caught))} |")
-    placed = [sum("place" in row[n] for row in rows.values()) for n in range(len(heads))]
-    lines.append(f"| **with a place** | {' | '.join(map(str, placed))} |")
     harmless = sorted((HERE / "harmless").iterdir())
-    refusals = [sum(ours(case).startswith("yes") for case in harmless)]
-    with ThreadPoolExecutor(4) as pool:
-        refusals += [sum(pool.map(lambda c, t=tool: said(python, t, c) is not None, harmless)) for tool in tools]
-    usable = [True, *(base[tool] is None for tool in tools)]
-    counts = [str(n) if sound else "?" for n, sound in zip(refusals, usable, strict=True)]
-    lines.append(f"| **complains of {len(harmless)} edits that change nothing** | {' | '.join(counts)} |")
+    lines = [
+        "| reader | slips reported | with a line | with a hint | harmless edits reported |",
+        "| --- | ---: | ---: | ---: | ---: |",
+    ]
+    refused = sum(ours(case).startswith("yes") for case in harmless)
+    lines.append(counts(f"tmd {__version__}", {case.name: ours(case) for case in cases}, str(refused)))
+    for tool, version in ((tool, v) for tool in TOOLS if (v := version_of(python, tool))):
+        refuses_all = said(python, tool, HERE / "cases" / "none") is not None
+        with ThreadPoolExecutor(4) as pool:
+            texts = list(pool.map(lambda case, t=tool: said(python, t, case), cases))
+            refused = sum(pool.map(lambda case, t=tool: said(python, t, case) is not None, harmless))
+        cells = {case.name: cell(text, refuses_all) for case, text in zip(cases, texts, strict=True)}
+        lines.append(counts(f"{tool} {version}", cells, "?" if refuses_all else str(refused)))
     return "\n".join(lines)
+
+
+def counts(reader: str, cells: dict[str, str], refused: str) -> str:
+    """The row of a reader, whose cell for each slip is printed."""
+    for slip, found in cells.items():
+        print(f"{reader}: {slip}: {found}")
+    if "?" in cells.values():
+        return f"| {reader} | ? | ? | ? | ? |"
+    caught = [found for found in cells.values() if found != "–"]
+    numbers = [len(caught), *(sum(mark in found for found in caught) for mark in ("place", "hint"))]
+    return f"| {reader} | {' | '.join(map(str, numbers))} | {refused} |"
 
 
 def main() -> None:

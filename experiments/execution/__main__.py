@@ -4,7 +4,7 @@
     python -m experiments.execution --out runs/execution --physics --each 1
     python -m experiments.execution --out runs/execution --faults all --every 5
     python -m experiments.execution --out runs/execution --report
-    python -m experiments.execution --out runs/execution --page docs/results/execution.md
+    python -m experiments.execution --out runs/execution --page docs/results/robot.md
 
 Each run is a line of DIR/runs.jsonl, written when the run ends. What is there already is not done again, so an
 experiment that was interrupted goes on where it was; remove the file to begin again.

@@ -1,4 +1,4 @@
-"""Tables of what was executed: in a terminal, and as Markdown for ``docs/results/execution.md``."""
+"""Tables of what was executed: in a terminal, and as Markdown for ``docs/results/robot.md``."""
 
 from __future__ import annotations
 
@@ -15,16 +15,19 @@ Rows = list[list[str]]
 _NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 _SLOWEST = 10
 _EXAMPLES = 3
+_FAILURES_ON_PAGE = 5
+_FAILURES_IN_TERMINAL = 20
 
 
-def report(records: Sequence[Record], *, markdown: bool, failures: int = 20) -> str:
-    """All tables of some runs.
+def report(records: Sequence[Record], *, markdown: bool) -> str:
+    """Return all tables of some runs.
 
     Args:
         records: The runs.
-        markdown: Tables for a page; otherwise columns for a terminal.
-        failures: So many reasons of failure are listed for each mode.
+        markdown: Return tables for a page, with fewer failures and without the slowest instructions; otherwise columns
+            for a terminal.
     """
+    failures = _FAILURES_ON_PAGE if markdown else _FAILURES_IN_TERMINAL
     shown = _markdown if markdown else _columns
     parts = []
     for mode in sorted({record.mode for record in records}):
@@ -36,7 +39,7 @@ def report(records: Sequence[Record], *, markdown: bool, failures: int = 20) -> 
             (f"What was claimed, {mode}", _JUDGED, judged([*plain, *hurt])),
             (f"Failures, {mode}", _FAILURES, failed(plain)[:failures]),
             (f"Failures with faults injected, {mode}", _FAILURES, failed(hurt)[:failures]),
-            (f"Slowest instructions, {mode}", _SLOW, slowest(plain)),
+            (f"Slowest instructions, {mode}", _SLOW, [] if markdown else slowest(plain)),
         ):
             if rows:
                 parts.append(f"{'### ' * markdown}{title}\n\n{shown(head, rows)}")
@@ -46,16 +49,16 @@ def report(records: Sequence[Record], *, markdown: bool, failures: int = 20) -> 
     return "\n\n".join(parts)
 
 
-_EXECUTED = ["task", "environment", "runs", "to the end", "recovered", "stopped", "end state", "median s", "most s"]
+_EXECUTED = ["task", "runs", "to the end", "recovered", "stopped", "end state", "median s", "most s"]
 
 
 def executed(records: Sequence[Record]) -> Rows:
-    """A row for each task and environment, and one for all: to the end means with every postcondition confirmed."""
-    groups: dict[tuple[str, str], list[Record]] = defaultdict(list)
+    """A row for each task, and one for all: to the end means with every postcondition confirmed."""
+    groups: dict[str, list[Record]] = defaultdict(list)
     for record in records:
-        groups[record.task, record.environment].append(record)
-    rows = [[task, environment, *_counts(found)] for (task, environment), found in sorted(groups.items())]
-    return [*rows, ["all", "", *_counts(records)]] if len(rows) > 1 else rows
+        groups[record.task].append(record)
+    rows = [[task, *_counts(found)] for task, found in sorted(groups.items())]
+    return [*rows, ["all", *_counts(records)]] if len(rows) > 1 else rows
 
 
 def _counts(records: Sequence[Record]) -> list[str]:

@@ -1,4 +1,7 @@
-"""docs/errors.md: every kind is explained, its bad example gives that kind and no other, the good one gives none."""
+"""docs/errors.md: each kind is explained, its bad example gives that kind and no other, the good one gives none.
+
+The good lines are those of the files in ``page_files/``; a bad example is such a file with the bad lines instead.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +18,10 @@ from tmd.world.compile import compile_domain
 from tmd.world.folder import DomainFolder
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "errors.md").read_text(encoding="utf-8")
-BASE = dict(re.findall(r"<!-- base: (\S+) -->\n`\S+`\n\n```\w+\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL))
-KINDS = dict(re.findall(r"^### ([a-z0-9-]+)\n(.*?)(?=^##|\Z)", PAGE, re.MULTILINE | re.DOTALL))
-_EXAMPLE = re.compile(r"Bad, in `(\S+)`:\n\n```\w+\n(.*?)\n```\n\nGood:\n\n```\w+\n(.*?)\n```", re.DOTALL)
+FILES = Path(__file__).resolve().parent / "page_files"
+BASE = {str(path.relative_to(FILES)): path.read_text(encoding="utf-8") for path in FILES.rglob("*") if path.is_file()}
+_ROW = re.compile(r"^\| `([a-z0-9-]+)` \| (.+?) \| (`.*`)? ?\| (`.*`)? ?\|$", re.MULTILINE)
+KINDS = {kind for kind, *_ in _ROW.findall(PAGE)}
 SHOWN_ELSEWHERE = {
     "unreadable", "not-text", "not-utf8", "too-large", "too-many", "control-character", "nested-too-deeply",
     "empty-file", "missing-file", "ambiguous-domain", "domain-not-found", "too-many-cases",
@@ -25,10 +29,28 @@ SHOWN_ELSEWHERE = {
 """These have no example that a page can show; test_bad_input.py and test_slips.py have them."""
 
 
-def examples() -> Iterator[tuple[str, str, str, str]]:
-    for kind, text in KINDS.items():
-        for file, bad, good in _EXAMPLE.findall(text):
-            yield kind, file, bad, good
+def _lines(cell: str) -> list[str]:
+    """The lines of code in a cell of the table."""
+    return [line.strip("`").replace("\\|", "|") for line in cell.split("<br>")]
+
+
+def _changed(bad: list[str], good: list[str]) -> tuple[str, str]:
+    """The file that has the good lines, and its text with the bad ones; cells lack the indentation of the file."""
+    pattern = re.compile(r"\n *".join(re.escape(line.strip()) for line in good))
+    name, text = min((name, text) for name, text in BASE.items() if pattern.search(text))
+    found = pattern.search(text)
+    assert found
+    first = found.start() - text.rfind("\n", 0, found.start()) - 1
+    shift = first - (len(bad[0]) - len(bad[0].lstrip()))
+    new = "\n".join([bad[0].lstrip(), *(" " * shift + line for line in bad[1:])])
+    return name, text[: found.start()] + new + text[found.end() :]
+
+
+def examples() -> Iterator[tuple[str, list[str], list[str]]]:
+    """Kind, bad lines and good lines of each row that shows some."""
+    for kind, _, bad, good in _ROW.findall(PAGE):
+        if bad:
+            yield kind, _lines(bad), _lines(good)
 
 
 EXAMPLES = list(examples())
@@ -42,7 +64,7 @@ def codes(directory: Path) -> set[str]:
 
 
 def written(directory: Path, stale: bool, **changed: str) -> Path:
-    """The files of the page, with changed ones; the shop is compiled."""
+    """The files in ``page_files/``, with changed ones; the shop is compiled."""
     for name, text in (BASE | changed).items():
         path = directory / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -61,18 +83,17 @@ def written(directory: Path, stale: bool, **changed: str) -> Path:
 
 
 def test_every_kind_is_explained() -> None:
-    assert set(KINDS) == set(SEVERITY)
-    assert set(KINDS) - {kind for kind, *_ in EXAMPLES} == SHOWN_ELSEWHERE
+    assert set(SEVERITY) == KINDS
+    assert KINDS - {kind for kind, *_ in EXAMPLES} == SHOWN_ELSEWHERE
 
 
-def test_the_files_of_the_page_have_no_problems(tmp_path: Path) -> None:
+def test_the_good_files_have_no_problems(tmp_path: Path) -> None:
     assert codes(written(tmp_path, stale=False)) == set()
 
 
-@pytest.mark.parametrize(("kind", "file", "bad", "good"), EXAMPLES, ids=[e[0] for e in EXAMPLES])
-def test_an_example(tmp_path: Path, kind: str, file: str, bad: str, good: str) -> None:
+@pytest.mark.parametrize(("kind", "bad", "good"), EXAMPLES, ids=[e[0] for e in EXAMPLES])
+def test_an_example(tmp_path: Path, kind: str, bad: list[str], good: list[str]) -> None:
     if kind == "overlap":
         pytest.importorskip("pybullet", reason="needs the extra robot")
-    assert BASE[file].count(good) >= 1, "the good example does not stand in the file"
-    changed = BASE[file].replace(good, bad, 1)
-    assert codes(written(tmp_path, kind == "stale-domain", **{file: changed})) == {kind}
+    name, text = _changed(bad, good)
+    assert codes(written(tmp_path, kind == "stale-domain", **{name: text})) == {kind}

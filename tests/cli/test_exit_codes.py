@@ -95,7 +95,7 @@ CASES = {
         ["ground", "--domain", "03_drawer", "--environment", "study1", "--text", "Open the drawer and leave it closed"],
         r"no plan: .*contradicts what was said before",
     ),
-    "no-command": (ExitCode.USAGE, ["bogus"], r"error: No such command 'bogus'"),
+    "no-command": (ExitCode.USAGE, ["bogus"], r"error: there is no command 'bogus'"),
     "no-option": (ExitCode.USAGE, ["--bogus"], r"error: No such option"),
     "no-argument": (ExitCode.USAGE, ["plan", DOMAIN], r"error: Missing argument 'PROBLEM'"),
     "no-text": (ExitCode.USAGE, [*KITCHEN], r"error: give one of --text and --text-file"),
@@ -145,10 +145,10 @@ CASES = {
         ["compile", ROOT / "problems/kitchen/environments/kitchen1.yaml", "--goal", "(hot pot12)"],
         r'error: --goal:1:\d+: unknown object "pot12"\n.*\n *\^\nhint: did you mean "pot1"',
     ),
-    "pddl-without-domain": (
+    "domain-without-folder": (
         ExitCode.BAD_INPUT,
-        ["ground", "--environment", PROBLEM, "--text", "a"],
-        r"error: .*does not say where its domain is\nhint: give --domain",
+        ["ground", "--environment", PROBLEM, "--domain", PROBLEM, "--text", "a"],
+        r"error: .*p01.pddl is not a domain folder\nhint: put the file into a folder as domain.pddl",
     ),
     "no-data": (ExitCode.BAD_DATA, ["data", "check", "none"], r"error: none is not a directory\nhint: "),
     "other-data": (ExitCode.BAD_DATA, ["data", "check", ROOT / "domains"], r"error: .*data.xml is missing\nhint: "),
@@ -389,7 +389,7 @@ def test_a_package_that_tmd_cannot_do_without(tmd: Tmd, package: str) -> None:
     assert ended.code == ExitCode.MISSING_TOOL
     assert ended.err.splitlines()[-2:] == [
         f"error: the package {package} is missing or damaged",
-        "hint: install tmd again, with all that it needs: pip install tell-me-dave",
+        "hint: install tmd again with its dependencies: pip install . in a copy of its repository",
     ]
 
 

@@ -197,3 +197,19 @@ def test_the_goal_of_a_pddl_environment_is_not_looked_at(tmd: Tmd, tmp_path: Pat
     plain = tmd("ground", "--domain", "01_blocks", "--environment", "yard2", "--text", text)
     assert said.code == plain.code == ExitCode.OK
     assert said.out == plain.out and "steps, valid" in said.out
+
+
+def test_the_domain_of_a_problem_stands_beside_it(tmd: Tmd, tmp_path: Path) -> None:
+    toys = tmp_path / "toys"
+    toys.mkdir()
+    blocks = ROOT / "tests" / "pddl" / "cases" / "blocks"
+    for name in ("domain.pddl", "p01.pddl"):
+        (toys / name).write_text((blocks / name).read_text())
+    request = ("--environment", toys / "p01.pddl", "--text", "Stack b on c.")
+    beside = tmd("ground", *request)
+    assert beside.code == ExitCode.OK and "stack(b, c)" in beside.out
+    assert tmd("ground", "--domain", toys / "domain.pddl", *request).out == beside.out
+    (toys / "domain.pddl").unlink()
+    alone = tmd("ground", *request)
+    assert alone.code == ExitCode.BAD_INPUT
+    assert alone.err.endswith("hint: give --domain NAME, or put the domain beside it as domain.pddl\n")

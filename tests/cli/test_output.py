@@ -276,3 +276,24 @@ def test_an_experiment_shows_its_bar_on_a_terminal(tmp_path: Path) -> None:
     )
     assert done.returncode == 0
     assert "3/3" in done.stderr
+
+
+def test_a_list_names_what_ground_takes(tmd: Tmd) -> None:
+    listed = tmd("list")
+    assert listed.code == ExitCode.OK
+    assert "kitchen\n  environments: kitchen1, kitchen2, " in listed.out
+
+
+def test_a_misspelt_command_gets_the_nearest(tmd: Tmd) -> None:
+    ended = tmd("grond", "--environment", "kitchen1")
+    assert (ended.code, ended.err) == (
+        ExitCode.USAGE,
+        "error: there is no command 'grond': did you mean \"ground\"?\nhint: see tmd --help\n",
+    )
+
+
+def test_a_shell_gets_completions(tmd: Tmd, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = {"_TMD_COMPLETE": "bash_complete", "COMP_WORDS": "tmd pl", "COMP_CWORD": "1"}
+    for name, value in asked.items():
+        monkeypatch.setenv(name, value)
+    assert tmd().out == "plain,plan\n"

@@ -95,7 +95,9 @@ def fault_of(error: BaseException, command: str = "tmd") -> Fault:
     if isinstance(error, ImportError) and error.name and error.name.partition(".")[0] != "tmd":
         message = f"the package {error.name.partition('.')[0]} is missing or damaged"
         return Fault(
-            ExitCode.MISSING_TOOL, message, hint="install tmd again, with all that it needs: pip install tell-me-dave"
+            ExitCode.MISSING_TOOL,
+            message,
+            hint="install tmd again with its dependencies: pip install . in a copy of its repository",
         )
     return _internal(error)
 
@@ -117,7 +119,7 @@ def _remedy(error: TmdError, command: str) -> str:
     if kind is not None:
         return kind
     if error.location is not None and error.location.file.endswith(_CHECKED):
-        return f"`tmd check {error.location.file}` tells everything that is wrong there"
+        return f"`tmd check {error.location.file}` reports everything that is wrong there"
     return f"see {command} --help"
 
 

@@ -77,7 +77,7 @@ learned_option = click.option(
     type=PATH,
     metavar="DIR",
     envvar=VARIABLE,
-    help=f"What `tmd learn --out DIR` saved; ${VARIABLE}, or else learned/ beside the demonstrations, by default.",
+    help=f"The DIR of `tmd learn --out DIR`; ${VARIABLE}, or else learned/ beside the demonstrations, by default.",
 )
 
 
@@ -133,8 +133,8 @@ class GivenText:
 text_options = _gathered(
     "spoken",
     GivenText,
-    click.option("--text", metavar="TEXT", help="What was said."),
-    click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input."),
+    click.option("--text", metavar="TEXT", help="The request."),
+    click.option("--text-file", metavar="FILE", help="A file with the request; - is standard input."),
 )
 """``--text`` and ``--text-file``, gathered as ``spoken``."""
 
@@ -194,7 +194,7 @@ limit_options = _together(
         "memory",
         type=_Memory(min=100, max=1 << 40),
         metavar="MB",
-        help="What the planner may take; 80 % of the machine's memory by default.",
+        help="Memory of the planner; 80 % of the machine's memory by default.",
     ),
 )
 """``--time-limit`` and ``--memory-limit``; the command gets them as ``seconds`` and ``memory``, in bytes."""
@@ -280,9 +280,9 @@ grounding_options = _gathered(
         default=DEFAULT,
         show_default=True,
         metavar="NAME",
-        help=f"What is minimised: {', '.join(PRESETS)}; the last is the paper's as printed.",
+        help=f"The model: {', '.join(PRESETS)}; the last is the paper's as printed.",
     ),
-    click.option("--guess", is_flag=True, help="Plan even where what was said is not understood or cannot be done."),
+    click.option("--guess", is_flag=True, help="Plan also for a request that is not understood or cannot be done."),
     click.option("--weights", metavar="NAME|FILE", help="The factors' weights; the model's own by default."),
     learned_option,
     click.option(

@@ -18,6 +18,7 @@ from tmd.cli.errors import Fault, fault_of
 from tmd.cli.options import PATH
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
+from tmd.pddl.reading.syntax import nearest
 from tmd.world.roots import Roots
 
 _MODULES = {
@@ -26,6 +27,7 @@ _MODULES = {
     "view": "pages",
     "scene": "robot",
     "studio": "pages",
+    "list": "domain",
     "new": "domain",
     "test": "requests",
     "learn": "domain",
@@ -42,6 +44,10 @@ _MODULES = {
 """The module below :mod:`tmd.cli.commands` that has each sub-command."""
 COMMANDS = tuple(_MODULES)
 """The sub-commands, in the order in which a newcomer meets them."""
+_FUNCTIONS = {"list": "list_domains"}
+"""Functions that cannot have the name of their command, because it is one of Python's own."""
+_COMPLETION = "_TMD_COMPLETE"
+"""The variable by which a shell asks click for completions."""
 _SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -54,9 +60,18 @@ class _Commands(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        command = getattr(import_module(f"tmd.cli.commands.{_MODULES[cmd_name]}"), cmd_name)
+        module = import_module(f"tmd.cli.commands.{_MODULES[cmd_name]}")
+        command = getattr(module, _FUNCTIONS.get(cmd_name, cmd_name))
         assert isinstance(command, click.Command)
         return command
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if not args[0].startswith("-") and args[0] not in COMMANDS:
+            near = nearest(args[0], COMMANDS)
+            raise click.UsageError(f"there is no command '{args[0]}'" + (f": {near}" if near else ""), ctx)
+        return super().resolve_command(ctx, args)
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -66,7 +81,7 @@ class _Commands(click.Group):
 @click.version_option(__version__, prog_name="tmd", message="%(prog)s %(version)s")
 @click.pass_context
 def program(ctx: click.Context, domains: Path | None, problems: Path | None, debug: bool) -> None:
-    """Turn what a person says into plans that a robot may safely execute.
+    """Turn requests in English into PDDL goals and validated robot plans.
 
     The directories are looked for in this order: the option, ./domains and ./problems, the packaged copy.
     """
@@ -117,6 +132,10 @@ def run(arguments: Sequence[str]) -> ExitCode:
 
 def _invoke(arguments: list[str]) -> ExitCode:
     """Invoke the command without :meth:`click.Command.main`, which has other exit codes."""
+    if instruction := os.environ.get(_COMPLETION):
+        from click.shell_completion import shell_complete
+
+        return ExitCode(shell_complete(program, {}, "tmd", _COMPLETION, instruction))
     try:
         with program.make_context("tmd", arguments) as context:
             return ExitCode(program.invoke(context) or ExitCode.OK)

@@ -126,10 +126,15 @@ def find_domain(name: str, domains: Path | None = None) -> DomainFolder:
     roots = find_roots("domains", domains)
     found = [root / name for root in roots if (root / name / "domain.pddl").is_file()]
     if Path(name).name != name or not found:
-        known = sorted({p.parent.name for root in roots for p in root.glob("*/domain.pddl")})
+        known = known_domains(domains)
         hint = nearest(name, known) or f"there are {', '.join(known) or 'none'} in {', '.join(map(str, roots))}"
         raise TmdError(f"there is no domain '{name}'", hint=hint)
     return DomainFolder(found[0])
+
+
+def known_domains(domains: Path | None = None) -> list[str]:
+    """Return the names of all domains, sorted."""
+    return sorted({path.parent.name for root in find_roots("domains", domains) for path in root.glob("*/domain.pddl")})
 
 
 def find_problems(name: str, problems: Path | None = None) -> Path:

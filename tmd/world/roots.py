@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from tmd.world.environment import Environment
     from tmd.world.world import World
 
+_DOMAIN_FILE = "domain.pddl"
+
 
 @dataclass(frozen=True, slots=True)
 class Roots:
@@ -30,12 +32,17 @@ class Roots:
     problems: Path | None = None
 
     def folder(self, name: str) -> DomainFolder:
-        """Return the domain ``name``, or the domain in the directory of that name where it is written as a path.
+        """Return the domain ``name``, or the one in the directory, or of the ``domain.pddl``, at that path.
 
         Raises:
             TmdError: There is none.
         """
         path = Path(name)
+        if path.is_file():
+            if path.name != _DOMAIN_FILE:
+                raise TmdError(f"{name} is not a domain folder", hint=f"put the file into a folder as {_DOMAIN_FILE}")
+            path = path.resolve().parent
+            return find_domain(path.name, path.parent)
         if _is_path(name) and path.is_dir():
             return find_domain(path.resolve().name, path.resolve().parent)
         return find_domain(name, self.domains)
@@ -115,7 +122,7 @@ class Roots:
         path = Path(name)
         if not path.is_dir() and _is_file(name):
             return path
-        return self.folder(name).path / "domain.pddl"
+        return self.folder(name).path / _DOMAIN_FILE
 
     def environment(self, name: str, domain: str | None) -> Path:
         """Return the file of an environment: the one at that path, or the bundled one of that name.
@@ -160,9 +167,17 @@ class Roots:
             elif path.parent.name == "environments":
                 domain = path.parent.parent.name
             else:
-                raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
+                domain = self._domain_of(path)
         corpus = self.corpus(self.folder(domain))
         return corpus, corpus.world(path.stem if path == corpus.directory / "environments" / path.name else path)
+
+    def _domain_of(self, problem: Path) -> str:
+        """Return the ``domain.pddl`` of a PDDL problem, which the same rule finds as for other commands."""
+        found = find_domain_file(problem, domain_named_in(read_text(problem)), self.domains).file
+        if found is None or found.name != _DOMAIN_FILE:
+            hint = f"give --domain NAME, or put the domain beside it as {_DOMAIN_FILE}"
+            raise TmdError(f"{problem}: the domain of this PDDL problem was not found", hint=hint)
+        return str(found)
 
     def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:
         """Return an environment of which the robot's scene can be built, and its domain.

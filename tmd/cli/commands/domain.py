@@ -1,4 +1,4 @@
-"""``tmd new``, ``learn``, ``check``, ``fmt`` and ``compile``: what the author of a domain does with its files."""
+"""``tmd list``, ``new``, ``learn``, ``check``, ``fmt`` and ``compile``: commands for authors of domains."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from tmd.cli.errors import fault_of, one_line, pointed
 from tmd.cli.options import PATH, VARIABLE, json_option, seed_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, OutputError, TmdError
+from tmd.world.folder import known_domains
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
@@ -20,6 +21,18 @@ if TYPE_CHECKING:
     from tmd.evaluation.learn import LearnedDomain
     from tmd.world.corpus import Corpus
     from tmd.world.scaffold import Scaffold
+
+
+@click.command("list", short_help="List the domains and their environments.")
+@click.pass_obj
+def list_domains(roots: Roots) -> None:
+    """List the domains, each with its environments, and the tasks of its demonstrations."""
+    for name in known_domains(roots.domains):
+        corpus = roots.corpus(roots.folder(name))
+        environments, tasks = corpus.environments(), corpus.tasks()
+        lines = [name, *(["  environments: " + ", ".join(environments)] if environments else [])]
+        lines += ["  tasks: " + ", ".join(tasks)] if tasks else []
+        emit("\n".join(lines) + "\n")
 
 
 @click.command("new", short_help="Begin a domain of your own: a small one that works.")
@@ -112,7 +125,7 @@ def _learned_text(corpus: Corpus, found: LearnedDomain) -> str:
     return "\n".join([*lines, f"saved in {found.directory}"]) + "\n"
 
 
-@click.command("check", short_help="Find everything that is wrong with domains, problems and their files.")
+@click.command("check", short_help="Find faults in domains, problems and their files.")
 @click.argument("paths", metavar="PATH...", nargs=-1)
 @click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
 @click.option("--strict", is_flag=True, help="Treat warnings as errors.")
@@ -129,7 +142,7 @@ def check(
     explain: str | None,
     as_json: bool,
 ) -> ExitCode:
-    """Check files and folders, and tell every problem with its place and what to do.
+    """Check files and folders, and report every problem with its place and a hint.
 
     PATH is a file, a folder, or the name of a bundled domain. Ends with 0 where there are no errors, 13 otherwise.
     With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
@@ -203,9 +216,9 @@ def _json(diagnostic: Diagnostic) -> dict[str, object]:
 @click.option("--check", "only_check", is_flag=True, help="Write nothing; exit with 13 if a file would be reformatted.")
 @click.pass_obj
 def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
-    """Lay out files, or all PDDL files of folders; comments and line breaks stay.
+    """Format files, or all PDDL files of folders; comments and line breaks stay.
 
-    A file with a fault that makes laying it out impossible is left as it is, and told; then this ends with 31.
+    A file with unbalanced parentheses is left as it is and reported; then this ends with 31.
     """
     from tmd.check.checker import files_of
     from tmd.format.files import SUFFIX, format_file

@@ -33,11 +33,11 @@ def view(
     domain_name: str | None,
     out: str | None,
 ) -> ExitCode:
-    """Write one HTML page: what was said, what it means here, the plan step by step, and the candidates.
+    """Write one HTML page: the request, its goals, the plan step by step, and the candidates.
 
     PLAN|RUN is what "tmd ground --json" or "tmd run --json" printed, a log of "tmd run", or a plan file (with --problem
     or --environment); - is standard input, as in "tmd ground ... --json | tmd view -". Ends with 11 where the plan does
-    not work and with 12 where there is none; the page is written anyhow.
+    not work and with 12 where there is none; the page is written all the same.
     """
     from tmd.files import write_text
     from tmd.view.page import render
@@ -66,8 +66,8 @@ LOCAL = "127.0.0.1"
 @click.option(
     "--domain", "domain_name", metavar="NAME", help="The domain; that of the environment, or kitchen, by default."
 )
-@click.option("--environment", metavar="FILE|NAME", help="Where visitors come to first; the first one by default.")
-@click.option("--host", default=LOCAL, show_default=True, metavar="ADDRESS", help="Where to listen.")
+@click.option("--environment", metavar="FILE|NAME", help="The first environment; that of the domain by default.")
+@click.option("--host", default=LOCAL, show_default=True, metavar="ADDRESS", help="The address to listen on.")
 @click.option("--port", type=click.IntRange(0, 65535), default=8080, show_default=True, help="0 takes a free one.")
 @learned_option
 @click.pass_obj

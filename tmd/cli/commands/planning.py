@@ -79,7 +79,7 @@ def plan(
     return exit_code(answer)
 
 
-@click.command("validate", short_help="Tell whether a plan works, and where it breaks.")
+@click.command("validate", short_help="Check whether a plan works, and where it breaks.")
 @click.argument("domain")
 @click.argument("problem", metavar="PROBLEM|ENVIRONMENT")
 @click.argument("plan", type=PATH)
@@ -181,8 +181,8 @@ def export(
 
     The source is a PDDL problem, an environment (with a text, a plan or a goal), or a plan of "tmd ground
     --json". A plan is executed before it is written: ends with 11 where it does not work, with 10,
-    12 or 20 where none is found. One format fills DIR, several a directory each. A format that fails does not keep the
-    others back: why is told, and the exit code is that of the first failure.
+    12 or 20 where none is found. One format fills DIR, several a directory each. The others are written when
+    one format fails; the exit code is that of the first failure.
     """
     from tmd.cli.export_source import NotPlannedError, planned_source
     from tmd.export.directory import check_directory, write_directory

@@ -46,7 +46,7 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
     emit(ParsedRecord.of(parsed).to_value() if as_json else parsed_text(parsed))
 
 
-@click.command("ground", short_help="Ground a text in an environment: ranked, validated plans.")
+@click.command("ground", short_help="Ground a request in an environment: ranked, validated plans.")
 @environment_option
 @text_options
 @environment_domain_option
@@ -57,7 +57,7 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
     "--verbose", is_flag=True, help="Print the rows that did not fit, and effort and reasons of the language model."
 )
 @click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
-@click.option("--goal-only", is_flag=True, help="Print what shall hold at the end as a PDDL problem, and no plan.")
+@click.option("--goal-only", is_flag=True, help="Print a PDDL problem with the goal of the request, and no plan.")
 @json_option
 @click.pass_obj
 def ground(
@@ -73,11 +73,11 @@ def ground(
     goal_only: bool,
     as_json: bool,
 ) -> ExitCode:
-    """Ground what was said in an environment.
+    """Ground a request in an environment: print ranked, validated plans.
 
-    What the words mean here is learned from the domain's demonstrations: now, or before by `tmd learn`, which saves
-    the time. Ends with 12 where no plan was found, and with 15 where two readings of the request differ and nobody said
-    which one is meant; the plan is then for the first one that has a plan.
+    The demonstrations of the domain are learned from once; `tmd list` names the bundled environments. Ends with 12
+    where no plan was found, and with 15 where two readings of the request differ and nobody chose one; the plan is then
+    for the first one that has a plan.
     """
     from tmd.cli.grounding import answer, ask_on_terminal, grounded_text, remarks, whole_goal_text
     from tmd.inference.config import preset
@@ -108,7 +108,7 @@ def ground(
     return found.code
 
 
-@click.command("test", short_help="Run sentence tests: does each request end in what was asked?")
+@click.command("test", short_help="Run sentence tests: requests with expected goals.")
 @click.argument("domain", metavar="[DOMAIN]", required=False)
 @click.option(
     "--cases",
@@ -118,7 +118,7 @@ def ground(
     help="Sentence tests to run instead of *.sentences.jsonl beside the problems of DOMAIN.",
 )
 @click.option("--model", "model_name", default=DEFAULT, show_default=True, metavar="NAME", help="The model.")
-@click.option("--guess", is_flag=True, help="Plan even where what was said is not understood or cannot be done.")
+@click.option("--guess", is_flag=True, help="Plan also for a request that is not understood or cannot be done.")
 @reading_options
 @click.option("--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Processes.")
 @learned_option

@@ -44,7 +44,7 @@ def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | 
     return check
 
 
-@click.command("run", short_help="Let a simulated PR2 carry out what was said, and check every step.")
+@click.command("run", short_help="Let a simulated PR2 carry out a request, and check each step.")
 @environment_option
 @text_options
 @click.option("--plan", "plan_file", type=PATH, metavar="FILE", help="Carry out this plan, not a text.")
@@ -86,7 +86,7 @@ def run(
     as_json: bool,
     **settings: Any,  # noqa: ANN401 - fields of PlanRunner
 ) -> ExitCode:
-    """Carry out what was said, in simulation.
+    """Carry out a request in simulation.
 
     A text is grounded as by "tmd ground", a goal is planned for as by "tmd plan". A PR2 does one instruction after the
     other; after each, the state is read back from the simulation and compared with what PDDL predicts. Where the two

@@ -259,7 +259,8 @@ class Crf:
             dialogue = reader.begin(example.demonstration.text, world, world.task.init)
         else:
             dialogue = Dialogue(Parsed("", self._clauses(example, data)))
-        restored = restored_of(world, taught.library, taught.goals, config)
+        # people who demonstrate leave doors open and things in their hands: plans are compared without such restoration
+        restored = restored_of(world, taught.library, taught.goals, config, declared=False)
         return infer(
             dialogue, world, taught.library, energy, planners, config, policy=policy, restored=restored, top=top
         ).plans

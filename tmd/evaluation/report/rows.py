@@ -66,11 +66,11 @@ TABLE_2: dict[str, PaperRow] = {
 # Titles of rows that the paper does not have.
 OURS = {
     "paper": "Full model, weights set by hand",
-    "paper_extended": "Extended model, weights set by hand",
-    "paper_extended_learned": "Extended model: Δ_cover, akin nouns, nouns paired in order",
-    "policy": "Extended model with a policy that proposes and judges",
-    "goals": "Extended model with plans for what the clauses state",
-    "goals_learned": "Extended model with plans for what the clauses state, weights learned",
+    "paper_extended": "The paper's model with our extensions, weights set by hand",
+    "paper_extended_learned": "The paper's model with our extensions, weights learned",
+    "policy": "Policy that proposes and judges",
+    "goals": "PDDL goals (the default of tmd ground)",
+    "goals_learned": "PDDL goals, weights learned",
     "bayes_risk": "The least expected loss, among plans and what the policy draws",
     "ranked": "Candidates of all proposers, ranked by weights that were learned on the metrics",
     "bayes_risk_plans": "The least expected loss, among the plans of least energy alone",

@@ -1,0 +1,5 @@
+(define (problem hall)
+  (:domain lamps)
+  (:objects s1 - switch l1 l2 - lamp)
+  (:init (wired s1 l1) (wired main l2) (lit l2))
+  (:goal (and (lit l1) (not (lit l2)))))
