@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 
 
 class Severity(StrEnum):
@@ -60,6 +60,7 @@ class Diagnostic:
         message: What is wrong, in one line.
         hint: What to do about it.
         source: The source line.
+        edits: The remedy, where it is mechanical.
     """
 
     location: Location
@@ -67,6 +68,7 @@ class Diagnostic:
     message: str
     hint: str | None = None
     source: str | None = None
+    edits: tuple[Edit, ...] = ()
 
     @property
     def severity(self) -> Severity:
@@ -86,7 +88,7 @@ class Findings:
     def add(self, error: TmdError, place: Location) -> None:
         """Add a fault, at ``place`` if it has no location."""
         location, code = error.location or place, error.code or "syntax"
-        found = Diagnostic(location, code, error.message, error.hint, error.source)
+        found = Diagnostic(location, code, error.message, error.hint, error.source, error.edits)
         self._found.setdefault((location, code, error.message), found)
 
     def sorted(self) -> list[Diagnostic]:

@@ -50,7 +50,8 @@ def plan(
     optimal: bool,
     output: Path | None,
     as_json: bool,
-    **limits: Any,  # noqa: ANN401 - arguments of solve
+    seconds: float | None,
+    memory: int | None,
 ) -> ExitCode:
     """Find a plan for PROBLEM, one (action argument ...) a line.
 
@@ -60,12 +61,15 @@ def plan(
     """
     from tmd.cli.plans import answer_json, exit_code, plan_text, why_none
     from tmd.pddl.reading.reader import read_problem
-    from tmd.planning.backends import AUTO, solve
+    from tmd.planning.backends import AUTO, TIME_LIMIT, solve
+    from tmd.planning.processes import Deadline, limited, memory_limit
     from tmd.planning.result import Solved
 
     name = planner or AUTO
-    wanted = read_problem(problem, roots.domain(domain))
-    answer = solve(wanted, name, optimal=optimal, **limits)
+    deadline = Deadline(TIME_LIMIT if seconds is None else seconds, memory)
+    with limited(deadline), memory_limit(memory):
+        wanted = read_problem(problem, roots.domain(domain))
+    answer = solve(wanted, name, optimal=optimal, deadline=deadline)
     if isinstance(answer, Solved) and output:
         from tmd.files import write_text
 

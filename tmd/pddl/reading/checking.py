@@ -52,7 +52,7 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
     check.axioms()
     for action in domain.actions:
         check.action(action)
-    check.faults.extend(missing_requirements(domain))
+    check.faults.extend(missing_requirements(domain, None, check.source))
     return _in_order(check.faults, source)
 
 
@@ -72,7 +72,7 @@ def check_problem(problem: Problem, source: Source | None = None) -> list[TmdErr
             check.underived(Atom(atom.predicate, atom.args, place), "at the start")
     check.values(problem)
     check.formula(problem.goal, {})
-    check.faults.extend(missing_requirements(problem.domain, problem))
+    check.faults.extend(missing_requirements(problem.domain, problem, check.source))
     return _in_order(check.faults, source)
 
 
@@ -382,22 +382,26 @@ _OTHER_NOT = '"not" around something else than an atom'
 _Use = tuple[str, str, Location | None]
 
 
-def missing_requirements(domain: Domain, problem: Problem | None = None) -> list[TmdError]:
+def missing_requirements(domain: Domain, problem: Problem | None, source: Source) -> list[TmdError]:
     """Return a fault for each requirement that is used and not declared, at its first use.
 
     Without ``problem`` the domain is checked; with it, the problem, which inherits the requirements of its domain.
     Those that the domain lacks itself are not repeated.
     """
     of_the_domain = {name for name, _, _ in _undeclared(domain, None)} if problem else set[str]()
+    missing = [use for use in _undeclared(domain, problem) if use[0] not in of_the_domain]
+    names = sorted({name for name, _, _ in missing})
+    strips = () if problem or ":requirements" in source.sections else (":strips",)
+    edits = [source.declaration(":requirements", " ".join((*strips, *names)))]  # all of them, with each fault
     return [
         TmdError(
             f"{feature} needs {name}",
             location=place,
             hint=f"add {name} to (:requirements ...)",
             code="missing-requirement",
+            edits=edits,
         )
-        for name, feature, place in _undeclared(domain, problem)
-        if name not in of_the_domain
+        for name, feature, place in missing
     ]
 
 

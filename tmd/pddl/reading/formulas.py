@@ -11,7 +11,7 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -29,7 +29,7 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
-from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word
+from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word, replaced, shifted
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 # What planners take for a name although PDDL does not.
@@ -107,7 +107,9 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
         message = (
             f'"{node.text}" has a character that PDDL does not: {letter!r} ({unicodedata.name(letter, "unnamed")})'
         )
-        raise source.error(message, place, look_alike(letter) or hint, "look-alike")
+        plain = look_alike(letter)
+        edits = [Edit(place, shifted(place, 1), plain)] if plain else []
+        raise source.error(message, place, f'write "{plain}"' if plain else hint, "look-alike", edits)
     if not accepted.fullmatch(node.text):
         raise source.error(f'"{node.text}" is not {what}', node.location, hint, "bad-name")
     source.warn(
@@ -116,9 +118,9 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
 
 
 def look_alike(letter: str) -> str | None:
-    """Return a hint with the ASCII character that ``letter`` looks like."""
+    """Return the ASCII character that ``letter`` looks like, if there is one."""
     plain = _LOOK_ALIKES.get(letter) or unicodedata.normalize("NFKD", letter)[0]
-    return f'write "{plain}"' if plain.isascii() and plain.isprintable() else None
+    return plain if plain.isascii() and plain.isprintable() else None
 
 
 # Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like.
@@ -187,9 +189,9 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
 def _after_dash(node: Word, source: Source) -> Word:
     """Return the type in ``-type``, which wants a space."""
     message = f'some tools want a space between "-" and "{node.text[1:]}"'
-    source.warn(message, node.location, f'write "- {node.text[1:]}"', "glued-dash")
-    place = node.location
-    return Word(node.text[1:], Location(place.file, place.line, place.column + 1))
+    place = shifted(node.location, 1)
+    source.warn(message, node.location, f'write "- {node.text[1:]}"', "glued-dash", [Edit(place, place, " ")])
+    return Word(node.text[1:], place)
 
 
 def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...]:
@@ -243,7 +245,8 @@ def read_condition(node: Node, source: Source) -> Formula:
     if isinstance(node, Word):
         raise source.error(f'expected a condition, found "{node.text}"', node.location, f"write ({node.text})")
     if not node.parts:
-        source.warn("() is empty, and some tools read it as false", node.location, "write (and)", "empty-condition")
+        message, edits = "() is empty, and some tools read it as false", [replaced(node, "(and)")]
+        source.warn(message, node.location, "write (and)", "empty-condition", edits)
         return And((), node.location)
     head, parts, place = node.head, node.parts[1:], node.location
     if head in ("and", "or"):
