@@ -14,6 +14,7 @@ from tmd.check.pddl_file import (
     CheckedDomain,
     check_domain_text,
     check_problem_text,
+    explain_objects,
 )
 from tmd.diagnostics import Location, TmdError
 from tmd.files import real
@@ -148,6 +149,8 @@ class Checker:
         path = found.file
         checked = self._domain(path) if path else None
         result = check_problem_text(text, str(file), checked)
+        if checked and result.problem:
+            explain_objects(checked, result.problem)
         self._add_all(result.faults, file)
         if path is None and name:
             self._not_found(name, result.source, found.others)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.derived import strata
 from tmd.pddl.model import (
     MOST_LEVELS,
@@ -36,7 +36,7 @@ from tmd.pddl.model import (
     parts_of,
     walk,
 )
-from tmd.pddl.reading.syntax import Source, nearest
+from tmd.pddl.reading.syntax import Group, Node, Source, Word, after, nearest, replaced
 
 MOST_FAULTS = 250
 """Number of faults after which the rest of a problem is not checked: their places and hints take time."""
@@ -52,6 +52,7 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
     check.axioms()
     for action in domain.actions:
         check.action(action)
+    check.types_missing()
     check.faults.extend(missing_requirements(domain, None, check.source))
     return _in_order(check.faults, source)
 
@@ -72,6 +73,7 @@ def check_problem(problem: Problem, source: Source | None = None) -> list[TmdErr
             check.underived(Atom(atom.predicate, atom.args, place), "at the start")
     check.values(problem)
     check.formula(problem.goal, {})
+    check.types_of_objects_missing()
     check.faults.extend(missing_requirements(problem.domain, problem, check.source))
     return _in_order(check.faults, source)
 
@@ -107,15 +109,43 @@ class _Check:
         self.functions = {f.name: f for f in domain.functions}
         self.derived = {axiom.head.predicate for axiom in domain.derived}
         self.known_objects = {o.name: o.types for o in objects}
+        self.objects_declared: Sequence[TypedName] = ()
         self.faults: list[TmdError] = []
         self.cyclic: set[str] = set()
         self.two_of_one_name = False
+        self.action_checked: ActionSchema | None = None
+        self.first: dict[object, tuple[TmdError, str, int]] = {}
+        """The first fault of each name, its message, and the number of times that it stands elsewhere."""
+        self.undeclared: dict[str, Location | None] = {}
+        """Types where the domain declares none at all."""
         self.deepest_type: str | None = None
         """The first type with too many ancestors, which is reported once."""
 
-    def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
-        """Add a fault at ``location``."""
-        self.faults.append(TmdError(message, location=location, hint=hint, code=code))
+    def fault(
+        self,
+        message: str,
+        location: Location | None,
+        hint: str | None,
+        code: str,
+        edits: Sequence[Edit] = (),
+        slip: object = None,
+    ) -> None:
+        """Add a fault at ``location``; others of the same ``slip`` are counted with it (:meth:`again`)."""
+        found = TmdError(message, location=location, hint=hint, code=code, edits=edits)
+        self.faults.append(found)
+        if slip is not None:
+            self.first[slip] = found, message, 0
+
+    def again(self, slip: object, location: Location | None) -> bool:
+        """Return whether this slip has been reported, and count it."""
+        if slip not in self.first:
+            return False
+        found, message, times = self.first[slip]
+        if location and found.location and location < found.location:
+            found.location = location
+        self.first[slip] = found, message, times + 1
+        found.message = f"{message} (and {times + 1} more time{'s' if times else ''})"
+        return True
 
     def declarations(self) -> None:
         """Check types, constants, predicates and functions."""
@@ -148,10 +178,33 @@ class _Check:
 
     def type_known(self, name: str, location: Location | None) -> None:
         """Check that a type is declared; ``location`` is that of the name with this type."""
-        if not self.hierarchy.known(name):
+        if self.hierarchy.known(name):
+            return
+        place = self.source.type_of(location, name)
+        if not self.domain.types:
+            self.undeclared.setdefault(name, place)
+        elif not self.again(("type", name), place):
             names = [OBJECT, *self.hierarchy.parents]
-            place = self.source.type_of(location, name)
-            self.fault(f'unknown type "{name}"', place, nearest(name, names, what="types"), "unknown-type")
+            hint = nearest(name, names, what="types")
+            self.fault(f'unknown type "{name}"', place, hint, "unknown-type", slip=("type", name))
+
+    def types_missing(self) -> None:
+        """Report that the domain uses types and declares none."""
+        if self.undeclared:
+            names = " ".join(self.undeclared)
+            place = min(filter(None, self.undeclared.values()), default=None)
+            hint, edits = f"add (:types {names})", [self.source.declaration(":types", names)]
+            self.fault(f"the domain has no (:types ...) for {names}", place, hint, "missing-section", edits)
+
+    def types_of_objects_missing(self) -> None:
+        """Report that the problem uses types, and neither its domain nor the predicates in it do."""
+        typed = _Check(self.domain, self.domain.constants)
+        typed.declarations()
+        names = [name for name in self.undeclared if name not in typed.undeclared]
+        if names and not typed.undeclared:
+            message = f"the domain has no (:types ...), and its problem uses {', '.join(names)}"
+            hint = f"add (:types {' '.join(names)}) to the domain, or leave the types out here"
+            self.fault(message, self.undeclared[names[0]], hint, "unknown-type")
 
     def no_cycle(self, name: str, location: Location | None) -> None:
         chain = self.hierarchy.ancestors(name)
@@ -159,11 +212,27 @@ class _Check:
         if cycle and self.hierarchy.parents.get(cycle[-1]) == name:
             if name not in self.cyclic:
                 self.cyclic.update(cycle)
-                self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name)), "type-cycle")
+                self.fault(*self.cycle(name, cycle, location), "type-cycle")
         elif len(chain) >= MOST_LEVELS and self.deepest_type is None:
             self.deepest_type = name
             message = f'the type "{name}" has {MOST_LEVELS} ancestors or more'
             self.fault(message, location, "declare fewer levels of types", "nested-too-deeply")
+
+    def cycle(self, name: str, cycle: Sequence[str], location: Location | None) -> tuple[str, Location | None, str]:
+        """Return message, place and hint of a type that is its own ancestor.
+
+        Where it is its own parent, it stands in the list that "- type" ends, perhaps lines below.
+        """
+        dash = self.dash(location)
+        listed = [t.name for t in self.domain.types if t.parent == name and self.dash(t.location) == dash]
+        if len(cycle) > 1 or len(listed) < 2 or dash is None:
+            return f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name))
+        message = f'"- {name}" in line {dash.line} is the parent of {", ".join(listed)}, so of "{name}" itself'
+        return message, location, f'end the types that are not of "{name}" by "- object", and "{name}" too'
+
+    def dash(self, location: Location | None) -> Location | None:
+        """Return the place of the next dash in the list in which a typed name stands."""
+        return next((place for token, place in self.source.tokens(location) if token in ("-", ")")), None)
 
     def one_type(self, declared: TypedName, what: str) -> None:
         for name in declared.types:
@@ -193,6 +262,7 @@ class _Check:
     def action(self, action: ActionSchema) -> None:
         scope = self.parameters(action.parameters, {})
         self.two_of_one_name = len(scope) < len(action.parameters)
+        self.action_checked = action
         self.formula(action.precondition, scope)
         for effect in action.effects:
             self.effect(effect, scope)
@@ -245,21 +315,20 @@ class _Check:
         """Check predicate or function, number of arguments, and the type of each."""
         signature = signatures.get(atom.predicate)
         if signature is None:
-            hint = nearest(atom.predicate, list(signatures), what=f"{what}s")
-            self.fault(f'unknown {what} "{atom.predicate}"', self.word(atom, 0), hint, f"unknown-{what}")
-            for number, term in enumerate(atom.terms, start=1):
-                self.term(term, scope, atom.location, number)
+            self.unknown(atom, scope, list(signatures), what)
             return
         shown = f"({' '.join((signature.name, *(p.name for p in signature.parameters)))})"
         if len(atom.terms) != len(signature.parameters):
-            self.fault(
-                f'{what} "{atom.predicate}" takes {len(signature.parameters)} argument(s), found {len(atom.terms)}',
-                atom.location,
-                f"declared as {shown}",
-                "wrong-arity",
-            )
+            slip = "arity", atom.predicate, len(atom.terms)
+            message = f"takes {len(signature.parameters)} argument(s), found {len(atom.terms)}"
+            if not self.again(slip, atom.location):
+                message = f'{what} "{atom.predicate}" {message}'
+                self.fault(message, atom.location, f"declared as {shown}", "wrong-arity", slip=slip)
             return
-        types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
+        types = [
+            self.term(term, scope, atom.location, number, signature.parameters[number - 1].types)
+            for number, term in enumerate(atom.terms, start=1)
+        ]
         wrong = [n for n, given in enumerate(types) if not self.may_fit(signature.parameters[n], given)]
         swapped = self.swapped(signature, types, wrong)
         if swapped:
@@ -272,12 +341,34 @@ class _Check:
             return
         for number in wrong:
             term, parameter, given = atom.terms[number], signature.parameters[number], types[number] or ()
-            self.fault(
-                f'"{term}" is of type {_either(given)}, {parameter.name} of {shown} needs {_either(parameter.types)}',
-                self.word(atom, number + 1),
-                None,
-                "wrong-type",
-            )
+            place = self.word(atom, number + 1)
+            misfit = "wrong", term, given, parameter.types, self.action_checked
+            needed = f"{parameter.name} of {shown} needs {_either(parameter.types)}"
+            if not self.again(misfit, place):
+                message = f'"{term}" is of type {_either(given)}, {needed}'
+                self.fault(message, place, self.typed_far_below(term), "wrong-type", slip=misfit)
+
+    def unknown(self, atom: Atom, scope: Mapping[str, tuple[str, ...]], known: Sequence[str], what: str) -> None:
+        """Report an undeclared predicate or function, and check its arguments."""
+        types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
+        place, slip = self.word(atom, 0), (what, atom.predicate)
+        if self.again(slip, place):
+            return
+        names = (term if term.startswith("?") else f"?x{number}" for number, term in enumerate(atom.terms, start=1))
+        typed = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
+        cure = f"declare ({' '.join((atom.predicate, *typed))}) under (:{what}s ...)"
+        hint = _or_cure(nearest(atom.predicate, known, what=f"{what}s"), cure)
+        self.fault(f'unknown {what} "{atom.predicate}"', place, hint, f"unknown-{what}", slip=slip)
+
+    def typed_far_below(self, name: str) -> str | None:
+        """Return a hint where the type of an object stands in a line below it: that of a list which it ends."""
+        declared = next((o for o in (*self.objects_declared, *self.domain.constants) if o.name == name), None)
+        place = declared.location if declared else None
+        dash = self.dash(place)
+        if declared is None or place is None or dash is None or dash.line == place.line:
+            return None
+        kind = declared.types[0]
+        return f'"- {kind}" in line {dash.line} is the type of all names above it: give line {place.line} its own'
 
     def may_fit(self, parameter: TypedName, given: Sequence[str] | None) -> bool:
         """Return whether a term of the types ``given`` fits ``parameter``; unknown types are reported elsewhere."""
@@ -309,23 +400,52 @@ class _Check:
         return self.source.word(atom.location, number)
 
     def term(
-        self, term: str, scope: Mapping[str, tuple[str, ...]], location: Location | None, number: int
+        self,
+        term: str,
+        scope: Mapping[str, tuple[str, ...]],
+        location: Location | None,
+        number: int,
+        wanted: Sequence[str] = (),
     ) -> tuple[str, ...] | None:
-        """Return the types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault)."""
+        """Return the types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault).
+
+        ``wanted`` are the types that it should have.
+        """
         if term.startswith("?"):
             if term not in scope and not self.two_of_one_name:  # else it is what one of the two should be called
-                hint = nearest(term, list(scope), what="variables here")
-                self.fault(f'free variable "{term}"', self.source.word(location, number), hint, "free-variable")
+                self.free(term, scope, self.source.word(location, number), wanted)
             return scope.get(term)
-        if term not in self.known_objects:
+        place, slip = self.source.word(location, number), ("object", term)
+        if term not in self.known_objects and not self.again(slip, place):
             hint = nearest(term, list(self.known_objects), what="objects")
             if f"?{term}" in scope:
                 hint = f'did you mean "?{term}"?'
-            self.fault(f'unknown object "{term}"', self.source.word(location, number), hint, "unknown-object")
+            else:
+                where = ":objects" if self.objects_declared else ":constants"
+                hint = _or_cure(hint, f'declare "{TypedName(term, tuple(wanted)).typed()}" under ({where} ...)')
+            self.fault(f'unknown object "{term}"', place, hint, "unknown-object", slip=slip)
         return self.known_objects.get(term)
 
+    def free(
+        self, term: str, scope: Mapping[str, tuple[str, ...]], place: Location | None, wanted: Sequence[str]
+    ) -> None:
+        """Report a variable that nothing binds."""
+        slip = "variable", term, self.action_checked
+        if self.again(slip, place):
+            return
+        hint = nearest(term, list(scope), what="variables here")
+        bound = _bound_in(self.action_checked, term)
+        if bound is not None:
+            hint = f"it is bound only in {bound}: make it a parameter"
+        elif self.action_checked is None:
+            hint = f"bind it: (exists ({TypedName(term, tuple(wanted)).typed()}) ...), or name an object"
+        else:
+            hint = _or_cure(hint, f"add {TypedName(term, tuple(wanted)).typed()} to :parameters")
+        self.fault(f'free variable "{term}"', place, hint, "free-variable", slip=slip)
+
     def objects(self, problem: Problem) -> None:
-        """Check the problem's objects. A constant may be listed again with the same type."""
+        """Check the problem's objects. A constant that is listed again with the same type is harmless here."""
+        self.objects_declared = problem.objects
         self.unique(problem.objects, "object")
         constants = {c.name: c.types for c in problem.domain.constants}
         for declared in problem.objects:
@@ -333,6 +453,13 @@ class _Check:
             if constants.get(declared.name, declared.types) != declared.types:
                 message = f'"{declared.name}" is a constant of another type'
                 self.fault(message, declared.location, "rename the object", "duplicate-name")
+        again = [o for o in problem.objects if constants.get(o.name) == o.types]
+        if again:
+            names = ", ".join(f'"{o.name}"' for o in again)
+            message = f"constants of the domain stand here again, which most planners refuse: {names}"
+            section = self.source.sections.get(":objects")
+            edits = list(_removals(section, {o.name for o in again})) if section else []
+            self.fault(message, again[0].location, "remove them here", "constant-again", edits)
 
     def values(self, problem: Problem) -> None:
         """Check the values of cost functions, and that there is a cost to minimise."""
@@ -352,6 +479,43 @@ class _Overlapping(_Check):
     def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
         above = self.hierarchy.ancestors
         return not given or any(w in above(g) or g in above(w) for w in wanted for g in given)
+
+
+def _or_cure(hint: str | None, cure: str) -> str:
+    """Return the hint where it knows what was meant; otherwise the cure first."""
+    return hint if hint and hint.startswith("did") else "; ".join(filter(None, (cure, hint)))
+
+
+def _bound_in(action: ActionSchema | None, variable: str) -> str | None:
+    """Return the quantifier of ``action`` that binds a variable, such as "the exists of line 6"."""
+    for part in walk((action.precondition, action.effects)) if action else ():
+        quantified = part.parameters if isinstance(part, Forall | Exists | Effect) else ()
+        for parameter in quantified:
+            if parameter.name == variable and parameter.location:
+                word = keyword(part) if isinstance(part, Forall | Exists) else "forall"
+                return f"the {word} of line {parameter.location.line}"
+    return None
+
+
+def _removals(section: Group, names: set[str]) -> Iterator[Edit]:
+    """Yield the edits that remove names from a typed list, and the types that are left without names."""
+    listed: list[Word] = []
+    parts = iter(section.parts[1:])
+    for part in parts:
+        if isinstance(part, Word) and part.text != "-":
+            listed.append(part)
+        else:
+            yield from _removed(listed, names, next(parts, None))
+            listed = []
+    yield from _removed(listed, names, None)
+
+
+def _removed(listed: Sequence[Word], names: set[str], kind: Node | None) -> Iterator[Edit]:
+    gone = [word for word in listed if word.text in names]
+    if gone and kind and len(gone) == len(listed):
+        yield Edit(gone[0].location, after(kind))
+    else:
+        yield from (replaced(word, "") for word in gone)
 
 
 def _either(types: Sequence[str]) -> str:

@@ -29,7 +29,7 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
-from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word, replaced, shifted
+from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word, after, replaced, shifted
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 # What planners take for a name although PDDL does not.
@@ -112,6 +112,9 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
         raise source.error(message, place, f'write "{plain}"' if plain else hint, "look-alike", edits)
     if not accepted.fullmatch(node.text):
         raise source.error(f'"{node.text}" is not {what}', node.location, hint, "bad-name")
+    if node.text in source.reported:
+        return
+    source.reported.add(node.text)
     source.warn(
         f'"{node.text}" is not a name by the letter of PDDL; some tools refuse it', node.location, hint, "odd-name"
     )
@@ -230,6 +233,53 @@ def read_parameters(node: Node, source: Source) -> tuple[TypedName, ...]:
     return read_typed_list(node.parts, source, variables=True, what="a variable")
 
 
+# Conditions without a part in other notations, and connectives with their words of PDDL.
+_EMPTY = frozenset({"nil", "none", "null", "true", "empty", "n/a", "[]", "{}", "t"})
+_CONNECTIVES = {
+    "&&": "and", "&": "and", "||": "or", "|": "or", "!": "not", "~": "not", "implies": "imply", "=>": "imply",
+    "->": "imply", "if": "when", "for-all": "forall", "foreach": "forall", "exist": "exists",
+    "there-exists": "exists", "thereexists": "exists",
+}  # fmt: skip
+_UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~="})
+_EQUAL = frozenset({"==", "eq", "equal", "equals"})
+
+
+def _not_in_parentheses(node: Word, source: Source, what: str) -> TmdError:
+    """Return the error for a word where a group should be."""
+    if node.text in _EMPTY:
+        message = f'"{node.text}" is not {what} of PDDL'
+        return source.error(message, node.location, "write (and)", "other-notation", [replaced(node, "(and)")])
+    hint = f"write ({node.text})"
+    return source.error(f'expected {what}, found "{node.text}"', node.location, hint, "syntax")
+
+
+def _in_pddl(node: Group, source: Source) -> Group:
+    """Return ``node`` with the connective or equation of another notation, which is reported, in that of PDDL."""
+    head, rest = (node.parts[0], node.parts[1:]) if node.head else (node, node.parts)
+    words = all(isinstance(part, Word) for part in rest)
+    unequal = head is not node and words and len(rest) == 2 and node.head in _UNEQUAL
+    plain = "=" if node.head in _EQUAL and node.head == "==" else _CONNECTIVES.get(node.head)
+    if unequal:
+        shown = f"(not (= {' '.join(source.text(part.location, after(part)) for part in rest)}))"
+        message = f'"{node.head}" is not an operator of PDDL'
+        source.fault_at(message, node.location, f"write {shown}", "other-notation", [replaced(node, shown)])
+        equation = Group((Word("=", head.location), *rest), node.location, node.end, node.depth)
+        return Group((Word("not", node.location), equation), node.location, node.end, node.depth)
+    if plain and isinstance(head, Word) and (plain == "=" or not words):
+        message = f'"{node.head}" is not a word of PDDL'
+        source.fault_at(message, head.location, f'write "{plain}"', "other-notation", [replaced(head, plain)])
+        return Group((Word(plain, head.location), *rest), node.location, node.end, node.depth)
+    if head is node and rest and not words and isinstance(rest[0], Group):
+        edits = [Edit(shifted(node.location, 1), shifted(node.location, 1), "and ")]
+        source.fault_at('"and" is missing here', node.location, "write (and (...) (...))", "syntax", edits)
+        return Group((Word("and", node.location), *rest), node.location, node.end, node.depth)
+    if node.head in ("true", "nil") and not rest:
+        message = f'"({node.head})" is not a condition of PDDL'
+        source.fault_at(message, node.location, "write (and)", "other-notation", [replaced(node, "(and)")])
+        return Group((Word("and", node.location),), node.location, node.end, node.depth)
+    return node
+
+
 # The other words that are not supported may be names of predicates, and then have no conditions in them.
 _NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
 _EFFECT_WORDS = frozenset({"assign", "change", "decrease", "scale-up", "scale-down", "oneof", "probabilistic"})
@@ -243,7 +293,8 @@ def read_condition(node: Node, source: Source) -> Formula:
         TmdError: It is not a formula, or it holds something that is not supported.
     """
     if isinstance(node, Word):
-        raise source.error(f'expected a condition, found "{node.text}"', node.location, f"write ({node.text})")
+        raise _not_in_parentheses(node, source, "a condition")
+    node = _in_pddl(node, source)
     if not node.parts:
         message, edits = "() is empty, and some tools read it as false", [replaced(node, "(and)")]
         source.warn(message, node.location, "write (and)", "empty-condition", edits)
@@ -340,7 +391,8 @@ def read_effects(node: Node, source: Source) -> Effects:
 
 def _read_effect(node: Node, source: Source, around: _Around, found: Effects) -> None:
     if isinstance(node, Word):
-        raise source.error(f'expected an effect, found "{node.text}"', node.location, f"write ({node.text})")
+        raise _not_in_parentheses(node, source, "an effect")
+    node = _in_pddl(node, source)
     head, parts = node.head, node.parts[1:]
     if head == "and" or not node.parts:
         for part in parts:

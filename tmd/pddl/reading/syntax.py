@@ -94,6 +94,8 @@ class Source(Reporting):
     report: Report | None = field(default=None, compare=False, repr=False)
     code: tuple[str, ...] = ()
     """The lines without comments and text that is not PDDL, as long as before."""
+    reported: set[str] = field(default_factory=set, compare=False, repr=False)
+    """The names of which was warned: once is enough."""
     sections: dict[str, Group] = field(default_factory=dict, compare=False, repr=False)
     """The first group of each head within ``(define``."""
 
@@ -325,6 +327,8 @@ class _Open:
     """Whether it is the first of its line."""
     spread: bool = False
     """Whether its parts are those of the group around it, as in ``(on(a b))``."""
+    called: bool = False
+    """Whether it was written like a call."""
 
     @property
     def head(self) -> str:
@@ -356,14 +360,16 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
     lines = split_lines(text)
     code, foreign = pddl_lines(lines, file)
     source = Source(file, lines, report, code)
+    commas = [fault for fault in foreign if fault.code == "other-notation"]
     for fault in foreign:
-        source.fault(fault)
+        if fault not in commas:
+            source.fault(fault)
     parser = _Parser(source)
     for number, line in enumerate(source.code, start=1):
         parser.read_line(number, line)
         if parser.faults > _MOST_FAULTS:
             break
-    parser.end()
+    parser.end(commas)
     for part in parser.groups[0].parts if parser.groups else ():
         if isinstance(part, Group):
             source.sections.setdefault(part.head, part)
@@ -385,6 +391,8 @@ class _Parser:
     faults: int = 0
     called: list[Edit] = field(default_factory=list)
     """The edits of ``on(a b)`` to ``(on a b)``."""
+    call: str = "(name argument ...)"
+    """The first of them as it should be."""
 
     def read_line(self, number: int, line: str) -> None:
         code, mark, comment = line.partition(";")
@@ -433,13 +441,13 @@ class _Parser:
             self.stack.append(_Open(location, [], first))
         elif len(around.parts) == 1 and around.head not in _OPERATORS:
             self.called.append(Edit(location, shifted(location, 1), " "))
-            self.stack.append(_Open(location, [], first, spread=True))
+            self.stack.append(_Open(location, [], first, spread=True, called=True))
         elif around.head in _WITH_ATOMS or _keyword_before(around):
             self.called.append(
                 Edit(word.location, shifted(location, 1), f"({self.source.text(word.location, location)} ")
             )
             around.parts.pop()
-            self.stack.append(_Open(word.location, [word], first))
+            self.stack.append(_Open(word.location, [word], first, called=True))
         else:
             self.stack.append(_Open(location, [], first))
 
@@ -468,6 +476,12 @@ class _Parser:
         if opened.spread:
             self.called.append(Edit(location, shifted(location, 1)))
             self.stack[-1].parts.extend(opened.parts)
+        if opened.called and self.call.startswith("(name"):
+            words = (
+                part.text for part in (self.stack[-1] if opened.spread else opened).parts if isinstance(part, Word)
+            )
+            self.call = f"({' '.join(words)})"
+        if opened.spread:
             return
         group = Group(tuple(opened.parts), opened.location, location, len(self.stack))
         (self.stack[-1].parts if self.stack else self.groups).append(group)
@@ -539,12 +553,16 @@ class _Parser:
         while len(self.stack) > 2 and not self.stack[-1].head.startswith(":"):
             self.pop(word.location)
 
-    def end(self) -> None:
-        """Close what is still open."""
+    def end(self, commas: Sequence[TmdError]) -> None:
+        """Close what is still open, and report calls; those have commas, which are no other slip."""
         if self.called:
             place = self.called[0].start
-            message = "this is written like a call; in PDDL the name stands within the parentheses"
-            self.fault(message, place, "write (name argument ...)", "other-notation", self.called)
+            message = f"this is written like a call{' with commas' if commas else ''}; PDDL has none"
+            edits = (*self.called, *(edit for fault in commas for edit in fault.edits))
+            self.fault(message, place, f"write {self.call}", "other-notation", edits)
+        else:
+            for fault in commas:
+                self.source.fault(fault)
         if not self.stack:
             return
         self.never_closed(self.stack[-1], len(self.stack))
