@@ -36,7 +36,7 @@ from tmd.pddl.model import (
     parts_of,
     walk,
 )
-from tmd.pddl.reading.syntax import Group, Node, Source, Word, after, nearest, replaced
+from tmd.pddl.reading.syntax import Source, nearest
 
 MOST_FAULTS = 250
 """Number of faults after which the rest of a problem is not checked: their places and hints take time."""
@@ -109,7 +109,7 @@ class _Check:
         self.functions = {f.name: f for f in domain.functions}
         self.derived = {axiom.head.predicate for axiom in domain.derived}
         self.known_objects = {o.name: o.types for o in objects}
-        self.objects_declared: Sequence[TypedName] = ()
+        self.of_problem: Problem | None = None
         self.faults: list[TmdError] = []
         self.cyclic: set[str] = set()
         self.two_of_one_name = False
@@ -228,7 +228,7 @@ class _Check:
         if len(cycle) > 1 or len(listed) < 2 or dash is None:
             return f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name))
         message = f'"- {name}" in line {dash.line} is the parent of {", ".join(listed)}, so of "{name}" itself'
-        return message, location, f'end the types that are not of "{name}" by "- object", and "{name}" too'
+        return message, location, f'end the types that are not of "{name}" with "- object", and "{name}" too'
 
     def dash(self, location: Location | None) -> Location | None:
         """Return the place of the next dash in the list in which a typed name stands."""
@@ -354,6 +354,9 @@ class _Check:
         place, slip = self.word(atom, 0), (what, atom.predicate)
         if self.again(slip, place):
             return
+        if atom.predicate in ("true", "nil"):
+            self.fault(f'"({atom.predicate})" is not PDDL', place, "write (and)", "other-notation", slip=slip)
+            return
         names = (term if term.startswith("?") else f"?x{number}" for number, term in enumerate(atom.terms, start=1))
         typed = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
         cure = f"declare ({' '.join((atom.predicate, *typed))}) under (:{what}s ...)"
@@ -362,7 +365,14 @@ class _Check:
 
     def typed_far_below(self, name: str) -> str | None:
         """Return a hint where the type of an object stands in a line below it: that of a list which it ends."""
-        declared = next((o for o in (*self.objects_declared, *self.domain.constants) if o.name == name), None)
+        declared = next(
+            (
+                o
+                for o in (self.of_problem.all_objects() if self.of_problem else self.domain.constants)
+                if o.name == name
+            ),
+            None,
+        )
         place = declared.location if declared else None
         dash = self.dash(place)
         if declared is None or place is None or dash is None or dash.line == place.line:
@@ -421,7 +431,7 @@ class _Check:
             if f"?{term}" in scope:
                 hint = f'did you mean "?{term}"?'
             else:
-                where = ":objects" if self.objects_declared else ":constants"
+                where = ":objects" if self.of_problem else ":constants"
                 hint = _or_cure(hint, f'declare "{TypedName(term, tuple(wanted)).typed()}" under ({where} ...)')
             self.fault(f'unknown object "{term}"', place, hint, "unknown-object", slip=slip)
         return self.known_objects.get(term)
@@ -437,15 +447,15 @@ class _Check:
         bound = _bound_in(self.action_checked, term)
         if bound is not None:
             hint = f"it is bound only in {bound}: make it a parameter"
-        elif self.action_checked is None:
+        elif self.of_problem:
             hint = f"bind it: (exists ({TypedName(term, tuple(wanted)).typed()}) ...), or name an object"
-        else:
+        elif self.action_checked:
             hint = _or_cure(hint, f"add {TypedName(term, tuple(wanted)).typed()} to :parameters")
         self.fault(f'free variable "{term}"', place, hint, "free-variable", slip=slip)
 
     def objects(self, problem: Problem) -> None:
-        """Check the problem's objects. A constant that is listed again with the same type is harmless here."""
-        self.objects_declared = problem.objects
+        """Check the problem's objects. A constant may be listed again with the same type."""
+        self.of_problem = problem
         self.unique(problem.objects, "object")
         constants = {c.name: c.types for c in problem.domain.constants}
         for declared in problem.objects:
@@ -453,13 +463,6 @@ class _Check:
             if constants.get(declared.name, declared.types) != declared.types:
                 message = f'"{declared.name}" is a constant of another type'
                 self.fault(message, declared.location, "rename the object", "duplicate-name")
-        again = [o for o in problem.objects if constants.get(o.name) == o.types]
-        if again:
-            names = ", ".join(f'"{o.name}"' for o in again)
-            message = f"constants of the domain stand here again, which most planners refuse: {names}"
-            section = self.source.sections.get(":objects")
-            edits = list(_removals(section, {o.name for o in again})) if section else []
-            self.fault(message, again[0].location, "remove them here", "constant-again", edits)
 
     def values(self, problem: Problem) -> None:
         """Check the values of cost functions, and that there is a cost to minimise."""
@@ -495,27 +498,6 @@ def _bound_in(action: ActionSchema | None, variable: str) -> str | None:
                 word = keyword(part) if isinstance(part, Forall | Exists) else "forall"
                 return f"the {word} of line {parameter.location.line}"
     return None
-
-
-def _removals(section: Group, names: set[str]) -> Iterator[Edit]:
-    """Yield the edits that remove names from a typed list, and the types that are left without names."""
-    listed: list[Word] = []
-    parts = iter(section.parts[1:])
-    for part in parts:
-        if isinstance(part, Word) and part.text != "-":
-            listed.append(part)
-        else:
-            yield from _removed(listed, names, next(parts, None))
-            listed = []
-    yield from _removed(listed, names, None)
-
-
-def _removed(listed: Sequence[Word], names: set[str], kind: Node | None) -> Iterator[Edit]:
-    gone = [word for word in listed if word.text in names]
-    if gone and kind and len(gone) == len(listed):
-        yield Edit(gone[0].location, after(kind))
-    else:
-        yield from (replaced(word, "") for word in gone)
 
 
 def _either(types: Sequence[str]) -> str:

@@ -241,43 +241,48 @@ _CONNECTIVES = {
     "there-exists": "exists", "thereexists": "exists",
 }  # fmt: skip
 _UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~="})
-_EQUAL = frozenset({"==", "eq", "equal", "equals"})
 
 
 def _not_in_parentheses(node: Word, source: Source, what: str) -> TmdError:
     """Return the error for a word where a group should be."""
     if node.text in _EMPTY:
-        message = f'"{node.text}" is not {what} of PDDL'
-        return source.error(message, node.location, "write (and)", "other-notation", [replaced(node, "(and)")])
+        edits = [replaced(node, "(and)")]
+        return source.error(f'"{node.text}" is not PDDL', node.location, "write (and)", "other-notation", edits)
     hint = f"write ({node.text})"
     return source.error(f'expected {what}, found "{node.text}"', node.location, hint, "syntax")
 
 
 def _in_pddl(node: Group, source: Source) -> Group:
     """Return ``node`` with the connective or equation of another notation, which is reported, in that of PDDL."""
-    head, rest = (node.parts[0], node.parts[1:]) if node.head else (node, node.parts)
-    words = all(isinstance(part, Word) for part in rest)
-    unequal = head is not node and words and len(rest) == 2 and node.head in _UNEQUAL
-    plain = "=" if node.head in _EQUAL and node.head == "==" else _CONNECTIVES.get(node.head)
-    if unequal:
+    if not node.parts:
+        return node
+    head, *rest = node.parts
+    if isinstance(head, Group):
+        place = shifted(node.location, 1)
+        source.fault_at(
+            '"and" is missing here', node.location, "write (and ...)", "syntax", [Edit(place, place, "and ")]
+        )
+        return _group(node, Word("and", place), *node.parts)
+    groups = any(isinstance(part, Group) for part in rest)
+    if node.head in _UNEQUAL and not groups:
         shown = f"(not (= {' '.join(source.text(part.location, after(part)) for part in rest)}))"
-        message = f'"{node.head}" is not an operator of PDDL'
-        source.fault_at(message, node.location, f"write {shown}", "other-notation", [replaced(node, shown)])
-        equation = Group((Word("=", head.location), *rest), node.location, node.end, node.depth)
-        return Group((Word("not", node.location), equation), node.location, node.end, node.depth)
-    if plain and isinstance(head, Word) and (plain == "=" or not words):
-        message = f'"{node.head}" is not a word of PDDL'
-        source.fault_at(message, head.location, f'write "{plain}"', "other-notation", [replaced(head, plain)])
-        return Group((Word(plain, head.location), *rest), node.location, node.end, node.depth)
-    if head is node and rest and not words and isinstance(rest[0], Group):
-        edits = [Edit(shifted(node.location, 1), shifted(node.location, 1), "and ")]
-        source.fault_at('"and" is missing here', node.location, "write (and (...) (...))", "syntax", edits)
-        return Group((Word("and", node.location), *rest), node.location, node.end, node.depth)
-    if node.head in ("true", "nil") and not rest:
-        message = f'"({node.head})" is not a condition of PDDL'
-        source.fault_at(message, node.location, "write (and)", "other-notation", [replaced(node, "(and)")])
-        return Group((Word("and", node.location),), node.location, node.end, node.depth)
+        _of_pddl(node, shown, node.head, source)
+        return _group(node, Word("not", node.location), _group(node, Word("=", node.location), *rest))
+    plain = _CONNECTIVES.get(node.head) if groups else "=" if node.head == "==" else None
+    if plain:
+        _of_pddl(head, plain, node.head, source)
+        return _group(node, Word(plain, node.location), *rest)
     return node
+
+
+def _group(node: Group, *parts: Node) -> Group:
+    return Group(parts, node.location, node.end, node.depth)
+
+
+def _of_pddl(node: Node, plain: str, found: str, source: Source) -> None:
+    """Report the notation ``found`` at ``node``, for which PDDL has ``plain``."""
+    edits = [replaced(node, plain)]
+    source.fault_at(f'"{found}" is not PDDL', node.location, f"write {plain}", "other-notation", edits)
 
 
 # The other words that are not supported may be names of predicates, and then have no conditions in them.
