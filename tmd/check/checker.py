@@ -202,7 +202,7 @@ class Checker:
                 hint = "this is not a file that people write"
                 message = f"larger than {MAX_BYTES // 1_000_000} MB"
                 raise TmdError(message, location=Location(str(file), 1, 1), hint=hint, code="too-large")
-            return read_text(file)
+            return read_text(file, lambda fault: self.report(fault, file))
         except TmdError as error:
             self.findings.add(error, Location(str(file), 1, 1))
             return None

@@ -242,8 +242,10 @@ def _alike(name: str, declared: Sequence[str]) -> list[str]:
     return list(islice(near, _MOST_COMPARED))
 
 
-def read_text(path: str | Path) -> str:
+def read_text(path: str | Path, report: Report | None = None) -> str:
     """Return the text of a UTF-8 file, without byte order mark.
+
+    Comments of PDDL may hold any bytes, which are read as Latin-1; ``report`` takes a warning then.
 
     Raises:
         TmdError: The file is missing, unreadable, binary or not UTF-8.
@@ -263,13 +265,15 @@ def read_text(path: str | Path) -> str:
     except UnicodeDecodeError as error:
         before = data[: error.start].decode("utf-8-sig", errors="replace")
         line = before.count("\n") + 1
-        column = len(before) - (before.rfind("\n") + 1) + 1
-        raise TmdError(
-            f"is not UTF-8: byte 0x{data[error.start]:02x}",
-            location=Location(str(path), line, column),
-            hint="save the file as UTF-8 text",
-            code="not-utf8",
-        ) from error
+        place = Location(str(path), line, len(before) - (before.rfind("\n") + 1) + 1)
+        byte = f"0x{data[error.start]:02x}"
+        if Path(path).suffix != ".pddl" or not re.sub(rb";[^\r\n]*", b"", data).isascii():
+            hint = "save the file as UTF-8 text"
+            raise TmdError(f"is not UTF-8: byte {byte}", location=place, hint=hint, code="not-utf8") from error
+        if report is not None:
+            message, edit = f"this comment is not UTF-8 (byte {byte}), which some tools refuse", Edit(place, place)
+            report(TmdError(message, location=place, hint="save it as UTF-8", code="latin1-comment", edits=[edit]))
+        return data.decode("latin-1")
 
 
 def read_standard_input() -> str:
