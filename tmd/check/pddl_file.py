@@ -69,6 +69,7 @@ def check_domain_text(text: str, file: str) -> CheckedDomain:
 def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> CheckedProblem:
     """Return the same for a problem; without its domain only its form is checked."""
     faults: list[TmdError] = []
+    checked = checked if checked and checked.domain.name else None
     domain = checked.domain if checked else Domain(domain_named_in(text))
     try:
         problem, source = parse_problem_unchecked(text, domain, file, faults.append)
@@ -112,13 +113,19 @@ _ECHOES = {
     "unknown-function": ("missing-requirement", ":action-costs"),
     "type-cycle": ("parent-after-child", ""),
     "missing-section": ("missing-requirement", ":typing"),
+    "other-notation": ("missing-requirement", ":equality"),
+    "bad-name": ("domain-mismatch", ""),
 }
+
+
+# Faults of a name in a domain that are not repeated in its problems.
+_ONCE = frozenset({"odd-name", "wrong-arity", "unknown-type", "unknown-predicate", "unknown-function"})
 
 
 def _without_echoes(faults: list[TmdError], others: Sequence[TmdError] = ()) -> list[TmdError]:
     """Return ``faults`` without those that only follow from them, or from ``others``."""
     found = [_ECHOES[fault.code] for fault in (*faults, *others) if fault.code in _ECHOES]
-    found += [("odd-name", f'"{_quoted(fault)}"') for fault in others if fault.code == "odd-name"]
+    found += [(fault.code, f'"{_quoted(fault)}"') for fault in others if fault.code in _ONCE]
     return [f for f in faults if not any(f.code == code and part in f.message for code, part in found)]
 
 

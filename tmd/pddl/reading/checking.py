@@ -36,7 +36,7 @@ from tmd.pddl.model import (
     parts_of,
     walk,
 )
-from tmd.pddl.reading.syntax import Source, nearest
+from tmd.pddl.reading.syntax import Source, Word, nearest, shifted
 
 MOST_FAULTS = 250
 """Number of faults after which the rest of a problem is not checked: their places and hints take time."""
@@ -108,7 +108,9 @@ class _Check:
         self.predicates = {p.name: p for p in domain.predicates}
         self.functions = {f.name: f for f in domain.functions}
         self.derived = {axiom.head.predicate for axiom in domain.derived}
-        self.known_objects = {o.name: o.types for o in objects}
+        self.known_objects: dict[str, tuple[str, ...] | None] = {
+            o.name: o.types if len(o.types) == 1 else None for o in objects
+        }
         self.of_problem: Problem | None = None
         self.faults: list[TmdError] = []
         self.cyclic: set[str] = set()
@@ -136,13 +138,14 @@ class _Check:
         if slip is not None:
             self.first[slip] = found, message, 0
 
-    def again(self, slip: object, location: Location | None) -> bool:
+    def again(self, slip: object, location: Location | None, edits: Sequence[Edit] = ()) -> bool:
         """Return whether this slip has been reported, and count it."""
         if slip not in self.first:
             return False
         found, message, times = self.first[slip]
         if location and found.location and location < found.location:
             found.location = location
+        found.edits += tuple(edits)
         self.first[slip] = found, message, times + 1
         found.message = f"{message} (and {times + 1} more time{'s' if times else ''})"
         return True
@@ -271,7 +274,9 @@ class _Check:
         if action.cost is not None and TOTAL_COST not in self.functions:
             place = action.cost.location if isinstance(action.cost, Atom) else action.location
             hint = f"declare (:functions ({TOTAL_COST}) - number)"
-            self.fault(f'unknown function "{TOTAL_COST}"', place, hint, "unknown-function")
+            if not self.again(TOTAL_COST, place):
+                edits = [self.source.declaration(":functions", f"({TOTAL_COST}) - number")]
+                self.fault(f'unknown function "{TOTAL_COST}"', place, hint, "unknown-function", edits, TOTAL_COST)
 
     def effect(self, effect: Effect, scope: Mapping[str, tuple[str, ...]]) -> None:
         inner = self.parameters(effect.parameters, scope)
@@ -350,6 +355,13 @@ class _Check:
 
     def unknown(self, atom: Atom, scope: Mapping[str, tuple[str, ...]], known: Sequence[str], what: str) -> None:
         """Report an undeclared predicate or function, and check its arguments."""
+        joined = f"{atom.predicate}-{atom.terms[0]}" if atom.terms else ""
+        if joined in known:
+            start, end = self.word(atom, 0), self.word(atom, 1)
+            edits = [Edit(shifted(start, len(atom.predicate)), end, "-")] if start and end else []
+            if not self.again((what, joined), start, edits):
+                self.fault("a name has no blanks", start, f"write {joined}", "bad-name", edits, (what, joined))
+            return
         types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
         place, slip = self.word(atom, 0), (what, atom.predicate)
         if self.again(slip, place):
@@ -425,16 +437,20 @@ class _Check:
             if term not in scope and not self.two_of_one_name:  # else it is what one of the two should be called
                 self.free(term, scope, self.source.word(location, number), wanted)
             return scope.get(term)
-        place, slip = self.source.word(location, number), ("object", term)
-        if term not in self.known_objects and not self.again(slip, place):
+        if term in self.known_objects:
+            return self.known_objects[term]
+        place, variable = self.source.word(location, number), f"?{term}"
+        slip = "object", term, variable in scope and self.action_checked
+        edits = [Edit(place, place, "?")] if place and variable in scope else []
+        if not self.again(slip, place, edits):
             hint = nearest(term, list(self.known_objects), what="objects")
-            if f"?{term}" in scope:
-                hint = f'did you mean "?{term}"?'
+            if variable in scope:
+                hint = f'did you mean "{variable}"?'
             else:
                 where = ":objects" if self.of_problem else ":constants"
                 hint = _or_cure(hint, f'declare "{TypedName(term, tuple(wanted)).typed()}" under ({where} ...)')
-            self.fault(f'unknown object "{term}"', place, hint, "unknown-object", slip=slip)
-        return self.known_objects.get(term)
+            self.fault(f'unknown object "{term}"', place, hint, "unknown-object", edits, slip)
+        return None
 
     def free(
         self, term: str, scope: Mapping[str, tuple[str, ...]], place: Location | None, wanted: Sequence[str]
@@ -457,12 +473,25 @@ class _Check:
         """Check the problem's objects. A constant may be listed again with the same type."""
         self.of_problem = problem
         self.unique(problem.objects, "object")
+        if self.types_first(problem):
+            return
         constants = {c.name: c.types for c in problem.domain.constants}
         for declared in problem.objects:
             self.one_type(declared, "object")
             if constants.get(declared.name, declared.types) != declared.types:
                 message = f'"{declared.name}" is a constant of another type'
                 self.fault(message, declared.location, "rename the object", "duplicate-name")
+
+    def types_first(self, problem: Problem) -> bool:
+        """Return whether types stand before their objects, ``cart - k1 k2``, which is reported."""
+        turned = [o for o in problem.objects if self.hierarchy.known(o.name) and not self.hierarchy.known(o.types[0])]
+        if not turned or self.domain.name == "" or not self.domain.types:
+            return False
+        names = {word.text for word in self.source.sections[":objects"].parts if isinstance(word, Word)}
+        self.known_objects.update(dict.fromkeys(names))
+        message = "the type stands behind the names of its objects"
+        self.fault(message, turned[0].location, f"write {turned[0].types[0]} - {turned[0].name}", "unknown-type")
+        return True
 
     def values(self, problem: Problem) -> None:
         """Check the values of cost functions, and that there is a cost to minimise."""

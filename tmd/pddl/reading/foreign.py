@@ -18,12 +18,14 @@ _MARKS = re.compile(
     r"(?P<comment>;[^\n]*)"
     r"|(?P<fence>(?:```|~~~)[a-zA-Z]*)"
     r"|(?P<block>\#\|.*?(?:\|\#|\Z)|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z))"
-    r"|(?P<remark>(?<![^\s()])(?://|\#+[ \t])[^\n]*)",
+    r"|(?P<escape>\\[nrt\"])"
+    r"|(?P<remark>(?<![^\s()])(?://|\#+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*)",
     re.DOTALL,
 )
 _TOLD = {
     "fence": ("the marks of a Markdown block are not PDDL", "remove them"),
     "block": ("this is not a comment of PDDL", 'write ";" before each of its lines'),
+    "escape": ("the ends of lines are written as letters here", "write them as ends of lines"),
     "remark": ("this is not a comment of PDDL", 'begin it with ";"'),
 }
 _DEFINE = re.compile(r"\(\s*define\b", re.IGNORECASE)
@@ -93,8 +95,12 @@ class _Text:
     def _mended(self, kind: str, match: re.Match[str]) -> Iterator[Edit]:
         if kind == "fence":
             yield self.removal(*match.span())
+        elif kind == "escape":
+            yield self.edit(*match.span(), {"n": "\n", '"': '"'}.get(match[0][1], " "))
         elif kind == "remark":
-            yield self.edit(match.start(), match.start() + len(re.match(r"//|#+", match[0])[0]), ";")  # type: ignore[index]
+            mark = match[0].lstrip(" \t").partition(" ")[0].partition("\t")[0]
+            start = match.start() + _indent(match[0])
+            yield self.edit(start, start + (2 if mark.startswith("//") else len(mark)), ";")
         else:
             for line in _LINE.finditer(match[0]):
                 start = match.start() + line.start() + _indent(line[0])

@@ -171,6 +171,8 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
     rest = list(reversed(nodes))
     while rest:
         node = rest.pop()
+        if isinstance(node, Word) and ":" in node.text and node.text[0] != ":":
+            node = _before_colon(node, rest, source)
         if isinstance(node, Word) and len(node.text) > 1 and node.text[0] == "-":
             rest.append(_after_dash(node, source))
             node = Word("-", node.location)
@@ -189,6 +191,17 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
     return tuple(found)
 
 
+def _before_colon(node: Word, rest: list[Node], source: Source) -> Word:
+    """Return the name in ``name:type`` or ``name: type``; the rest begins with the type then."""
+    name, _, kind = node.text.partition(":")
+    place = shifted(node.location, len(name))
+    edits = [Edit(place, shifted(place, 1), " - " if kind else " -")]
+    message = "a type stands behind a dash, not behind a colon"
+    source.fault_once(message, place, f"write {name} - {kind or 'type'}", "other-notation", edits)
+    rest += [Word(kind, shifted(place, 1)), Word("-", place)] if kind else [Word("-", place)]
+    return Word(name, node.location)
+
+
 def _after_dash(node: Word, source: Source) -> Word:
     """Return the type in ``-type``, which wants a space."""
     message = f'some tools want a space between "-" and "{node.text[1:]}"'
@@ -204,6 +217,11 @@ def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...
 
 def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list[Word]:
     """Return the name at ``node``; nothing where it is none and faults are collected."""
+    if not variables and isinstance(node, Word) and is_variable(node.text) and len(node.text) > 1:
+        name = node.text.lstrip("?")
+        message, edits = f'"{node.text}" is not the name of {what}', [replaced(node, name)]
+        source.fault_at(message, node.location, f'write "{name}"', "bad-name", edits)
+        node = Word(name, node.location)
     if not variables:
         return source.recover([], lambda: [read_name(node, source, f"the name of {what}")])
     if isinstance(node, Group):
@@ -211,7 +229,11 @@ def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list
         return []
     if not _VARIABLE.fullmatch(node.text):
         name = f"?{node.text.lstrip('?')}"
-        source.recover(None, _odd_name, node, source, what, _ODD_VARIABLE, f'write "{name}"')
+        if _NAME.fullmatch(node.text):
+            edits = [replaced(node, name)]
+            source.fault_at(f'"{node.text}" is not {what}', node.location, f'write "{name}"', "bad-name", edits)
+        else:
+            source.recover(None, _odd_name, node, source, what, _ODD_VARIABLE, f'write "{name}"')
         node = Word(name, node.location)
     return [node]
 
@@ -240,7 +262,7 @@ _CONNECTIVES = {
     "->": "imply", "if": "when", "for-all": "forall", "foreach": "forall", "exist": "exists",
     "there-exists": "exists", "thereexists": "exists",
 }  # fmt: skip
-_UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~="})
+_UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~=", "neq", "not-equal", "not="})
 
 
 def _not_in_parentheses(node: Word, source: Source, what: str) -> TmdError:
@@ -258,21 +280,44 @@ def _in_pddl(node: Group, source: Source) -> Group:
         return node
     head, *rest = node.parts
     if isinstance(head, Group):
+        words = [part for part in rest if isinstance(part, Word)]
+        if words and all(word.text in ("and", "or") and word.text == words[0].text for word in words):
+            return _with_word_first(node, words, source)
         place = shifted(node.location, 1)
         source.fault_at(
             '"and" is missing here', node.location, "write (and ...)", "syntax", [Edit(place, place, "and ")]
         )
         return _group(node, Word("and", place), *node.parts)
     groups = any(isinstance(part, Group) for part in rest)
+    between = rest[0].text if len(rest) == 2 and isinstance(rest[0], Word) else ""
+    if between in _UNEQUAL or between in ("=", "=="):
+        return _equation(node, between, (head, rest[1]), source)
     if node.head in _UNEQUAL and not groups:
-        shown = f"(not (= {' '.join(source.text(part.location, after(part)) for part in rest)}))"
-        _of_pddl(node, shown, node.head, source)
-        return _group(node, Word("not", node.location), _group(node, Word("=", node.location), *rest))
+        return _equation(node, node.head, rest, source)
     plain = _CONNECTIVES.get(node.head) if groups else "=" if node.head == "==" else None
     if plain:
         _of_pddl(head, plain, node.head, source)
         return _group(node, Word(plain, node.location), *rest)
     return node
+
+
+def _equation(node: Group, sign: str, terms: Sequence[Node], source: Source) -> Group:
+    """Return an equation or its negation that is written in another notation, which is reported."""
+    shown = f"(= {' '.join(source.text(term.location, after(term)) for term in terms)})"
+    equation = _group(node, Word("=", node.location), *terms)
+    if sign in _UNEQUAL:
+        shown, equation = f"(not {shown})", _group(node, Word("not", node.location), equation)
+    _of_pddl(node, shown, sign if node.head == sign else f"({node.head} {sign} ...)", source)
+    return equation
+
+
+def _with_word_first(node: Group, words: Sequence[Word], source: Source) -> Group:
+    """Return ``((a) and (b))``, which is reported, as ``(and (a) (b))``."""
+    word, place = words[0], shifted(node.location, 1)
+    edits = [Edit(place, place, f"{word.text} "), *(replaced(each, "") for each in words)]
+    hint = f"write ({word.text} (...) (...))"
+    source.fault_at(f'"{word.text}" stands before its parts', word.location, hint, "other-notation", edits)
+    return _group(node, word, *(part for part in node.parts if isinstance(part, Group)))
 
 
 def _group(node: Group, *parts: Node) -> Group:

@@ -102,7 +102,7 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
             plain = isinstance(node, Word) and f":{node.text}" in REQUIREMENTS
             edits = [Edit(node.location, node.location, ":")] if plain else []
             hint = f"write :{node.text}" if isinstance(node, Word) else None
-            source.fault_at("a requirement begins with a colon", node.location, hint, "syntax", edits)
+            source.fault_once("a requirement begins with a colon", node.location, hint, "unknown-requirement", edits)
             continue
         if node.text in UNSUPPORTED:
             source.warn(
@@ -228,8 +228,12 @@ def _read_signature(node: Node, document: Document, comment: str = "") -> Predic
         raise unsupported(source, UNSUPPORTED[node.head], node.head, node.location)
     if not node.parts:
         raise source.error("expected (name ?parameter ...), found ()", node.location)
-    name = read_name(node.parts[0], source, "the name of a predicate")
-    parameters = read_typed_list(node.parts[1:], source, variables=True, what="a parameter")
+    named = list(takewhile(lambda part: isinstance(part, Word) and part.text[0] not in "?-", node.parts))
+    rest = node.parts[len(named) :]
+    if len(named) < 2 or not rest or not isinstance(rest[0], Word) or rest[0].text[0] != "?":
+        named, rest = [node.parts[0]], node.parts[1:]  # those are variables without a mark
+    name = read_title(named, node.location, source, "the name of a predicate")
+    parameters = read_typed_list(rest, source, variables=True, what="a parameter")
     return Predicate(name.text, _each_named(parameters, source), comment, node.location)
 
 
@@ -341,6 +345,8 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
         if value is None or (isinstance(value, Word) and value.text.startswith(":")):
             source.fault_at(f'nothing follows "{keyword.text}"', keyword.location)
             continue
+        if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
+            value = nodes[0] = _in_parentheses(nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
         meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # its value is not reported as missing as well
         parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
@@ -348,6 +354,16 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
             found.append((_PARTS_OF_ACTIONS.index(keyword.text), keyword.text, keyword.location, after(value)))
     warn_of_order(found, source)
     return parts
+
+
+def _in_parentheses(nodes: list[Node], source: Source) -> Group:
+    """Return the parameters that ``nodes`` begin with, which lack their parentheses, and keep one of them."""
+    words = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
+    del nodes[1 : len(words)]
+    start, end = words[0].location, after(words[-1])
+    edits = [Edit(start, start, "("), Edit(end, end, ")")]
+    source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
+    return Group(tuple(words), start, end, 2)
 
 
 def _without_keyword(group: Group, nodes: list[Node], parts: dict[str, Node], source: Source) -> None:
@@ -525,7 +541,10 @@ def parse_problem_unchecked(
     for needed in (":domain", ":goal"):
         if needed not in heads:
             message = f"the problem has no ({needed} ...)"
-            source.fault_at(message, name.location, "add it", "missing-section")
+            known = needed == ":domain"
+            edits = [source.declaration(needed, domain.name)] if known else []
+            hint = f"add (:domain {domain.name})" if known else "add it"
+            source.fault_at(message, name.location, hint, "missing-section", edits)
     problem = Problem(
         name.text,
         domain,
@@ -582,6 +601,12 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     if first.head != "define" or len(first.parts) < 2:
         raise source.error(f"expected (define ({kind} name) ...)", first.location)
     title, *sections = first.parts[1:]
+    if isinstance(title, Word) and title.text == kind and sections and isinstance(sections[0], Word):
+        start, end = title.location, after(sections[0])
+        edits = [Edit(start, start, "("), Edit(end, end, ")")]
+        hint = f"write ({kind} {sections[0].text})"
+        source.fault_at(f"the name of the {kind} stands in parentheses", start, hint, "syntax", edits)
+        title = Group((title, sections.pop(0)), start, end, 1)
     if not isinstance(title, Group) or title.head != kind or len(title.parts) < 2:
         found = f", found ({title.head} ...)" if isinstance(title, Group) else ""
         raise source.error(f"expected ({kind} name){found}", title.location)
@@ -604,12 +629,17 @@ def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source:
         shown = f'"({head} ...)"' if head else "this group"
         other = "problem" if ":action" in known else "domain"
         if head in (*_RANKS_OF_DOMAIN, *_RANKS_OF_PROBLEM):
-            message = f"{shown} belongs into the {other}"
-            raise source.error(message, group.location, f"move it to the file of the {other}", "unknown-section")
-        hint = nearest(head, known, what="sections")
+            message = f"{shown} belongs in the {other}"
+            edits: list[Edit] = []
+            hint = f"move it to the file of the {other}"
+            if head == ":objects":
+                hint += ", or name it (:constants ...)"
+                edits = [replaced(group.parts[0], ":constants")]
+            raise source.error(message, group.location, hint, "unknown-section", edits)
         word = group.parts[0] if head else None
+        nearby = nearest(head, known, what="sections")
         edits = _meant(word, known) if isinstance(word, Word) and head.startswith(":") else []
-        raise source.error(f"{shown} is not a section", group.location, hint, "unknown-section", edits)
+        raise source.error(f"{shown} is not a section", group.location, nearby, "unknown-section", edits)
     if head in seen:
         raise source.error(f'the section "{head}" appears twice', group.location, "join the two", "duplicate-section")
     return head
@@ -646,7 +676,8 @@ class InitReader:
 
     def _read_entry(self, node: Node) -> None:
         if isinstance(node, Word):
-            raise self.source.error(f'expected an atom, found "{node.text}"', node.location, f"write ({node.text})")
+            hint = f"write ({node.text})" if node.text.strip(".") else "write out what is left out"
+            raise self.source.error(f'expected an atom, found "{node.text}"', node.location, hint)
         if node.head in ("unknown", "oneof") and any(isinstance(p, Group) for p in node.parts):
             raise unsupported(self.source, "uncertain initial states", node.head, node.location)
         if node.head == "=":

@@ -94,6 +94,7 @@ class Source(Reporting):
     report: Report | None = field(default=None, compare=False, repr=False)
     code: tuple[str, ...] = ()
     """The lines without comments and text that is not PDDL, as long as before."""
+    once: dict[str, TmdError] = field(default_factory=dict, compare=False, repr=False)
     reported: set[str] = field(default_factory=set, compare=False, repr=False)
     """The names of which was warned: once is enough."""
     sections: dict[str, Group] = field(default_factory=dict, compare=False, repr=False)
@@ -127,6 +128,15 @@ class Source(Reporting):
         """Raise the error of :meth:`error`, or report it and return."""
         self.fault(self.error(message, location, hint, code, edits))
 
+    def fault_once(self, message: str, location: Location, hint: str | None, code: str, edits: Sequence[Edit]) -> None:
+        """Do the same; a habit of the author, of one message, is reported once, with the edits of all its places."""
+        found = self.once.get(message)
+        if found is not None:
+            found.edits += tuple(edits)
+            return
+        self.once[message] = found = self.error(message, location, hint, code, edits)
+        self.fault(found)
+
     def warn(
         self, message: str, location: Location | None, hint: str | None, code: str, edits: Sequence[Edit] = ()
     ) -> None:
@@ -146,7 +156,7 @@ class Source(Reporting):
         if section in self.sections:
             place = self.sections[section].end
             return Edit(place, place, f" {words}")
-        before = self.sections.get(":requirements") if section != ":requirements" else None
+        before = self.sections.get(":requirements") if section not in (":requirements", ":domain") else None
         if section == ":constants":
             before = self.sections.get(":types", before)
         before = before or next(iter(self.sections.values()), None)
@@ -341,7 +351,7 @@ class _Open:
 
 def _may_be_name(word: str) -> bool:
     """Return whether a word before a parenthesis may be the name of a call."""
-    return bool(_CALLED.fullmatch(word)) and word not in _OPERATORS and word not in ("minimize", "maximize")
+    return bool(_CALLED.fullmatch(word)) and word not in _OPERATORS - {"not"} and word not in ("minimize", "maximize")
 
 
 def _keyword_before(around: _Open) -> bool:
@@ -393,6 +403,8 @@ class _Parser:
     """The first group that the indentation of the text says should have been closed before."""
     outside: bool = False
     faults: int = 0
+    undefined: TmdError | None = None
+    """The fault that there is no ``(define``."""
     called: list[Edit] = field(default_factory=list)
     """The edits of ``on(a b)`` to ``(on a b)``."""
     call: str = "(name argument ...)"
@@ -480,6 +492,8 @@ class _Parser:
         if opened.spread:
             self.called.append(Edit(location, shifted(location, 1)))
             self.stack[-1].parts.extend(opened.parts)
+        if opened.called and opened.head == "not" and len(opened.parts) > 1 and isinstance(opened.parts[1], Word):
+            self.negated(opened, location)
         if opened.called and self.call.startswith("(name"):
             words = (
                 part.text for part in (self.stack[-1] if opened.spread else opened).parts if isinstance(part, Word)
@@ -491,6 +505,13 @@ class _Parser:
         (self.stack[-1].parts if self.stack else self.groups).append(group)
         if self.deepest is None or group.depth > self.deepest.depth:
             self.deepest = group
+
+    def negated(self, opened: _Open, end: Location) -> None:
+        """Make a group of the atom in ``not(on a b)``."""
+        head, *atom = opened.parts
+        place = atom[0].location
+        self.called += (Edit(place, place, "("), Edit(end, end, ")"))
+        opened.parts = [head, Group(tuple(atom), place, end, len(self.stack) + 1)]
 
     def reopen(self, group: Group) -> _Open:
         """Open a group again that was closed too early."""
@@ -531,8 +552,7 @@ class _Parser:
         if not opened.parts and len(self.stack) == 2 and word.text in _SECTIONS:
             self.suspect = None  # the sections before are closed, with any indentation
         if not opened.parts and len(self.stack) == 1 and self.groups:
-            self.closed_too_early(self.groups[-1])
-            self.stack.insert(0, self.reopen(self.groups.pop()))
+            self.stack.insert(0, self.outermost(self.groups.pop()))
         elif not opened.parts and len(self.stack) > 2 and word.text in _SECTIONS:
             self.never_closed(self.stack[-2])
             self.stack.pop()
@@ -541,6 +561,19 @@ class _Parser:
             self.stack.append(opened)
         elif word.text in _PARTS and opened.parts and not opened.head.startswith(":"):
             self.fix_part(word)
+
+    def outermost(self, group: Group) -> _Open:
+        """Open the definition around sections: ``group``, which ended too early, or one of which only the title is."""
+        if group.head not in ("domain", "problem"):
+            self.closed_too_early(group)
+            return self.reopen(group)
+        place = group.location
+        edits = [Edit(place, place, "(define ")]
+        self.undefined = self.source.error(f'"(define" is missing before "({group.head}"', place, None, "syntax", edits)
+        self.undefined.hint = f'write "(define ({group.head} ...)", and ")" at the end'
+        self.faults += 1
+        self.source.fault(self.undefined)
+        return _Open(place, [Word("define", place), group], False)
 
     def fix_part(self, word: Word) -> None:
         """Repair ``:effect`` outside its action: the action ended too early, or something in it did not end."""
@@ -569,8 +602,12 @@ class _Parser:
                 self.source.fault(fault)
         if not self.stack:
             return
-        self.never_closed(self.stack[-1], len(self.stack))
         last = len(self.source.lines)
+        if self.undefined and len(self.stack) == 1:
+            end = Location(self.source.file, last, len(self.source.lines[-1]) + 1)
+            self.undefined.edits += (Edit(end, end, ")\n"),)
+        else:
+            self.never_closed(self.stack[-1], len(self.stack))
         while self.stack:
             self.pop(Location(self.source.file, last, len(self.source.lines[-1]) + 1))
 
