@@ -160,8 +160,10 @@ class Checker:
         self._read[real(file)] = None if faulty or checked is None else result.problem
 
     def _domain_file(self, problem: Path, name: str) -> FoundDomain:
-        """Return the domain of a problem: of its name among the files given, or as elsewhere, or the only one given."""
+        """Return the domain of a problem: of its name among the files given, or the one beside it, or as elsewhere."""
         named = [file for file, domain in self._given.items() if domain == name]
+        if not named and problem in self.given:
+            named = [file for file in self._given if file.parent == problem.parent]
         if len(named) == 1:
             return FoundDomain(named[0])
         found = find_domain_file(problem, name, self.domains)

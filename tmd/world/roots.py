@@ -30,12 +30,14 @@ class Roots:
     problems: Path | None = None
 
     def folder(self, name: str) -> DomainFolder:
-        """Return the domain ``name``, or the domain in the directory of that name where it is written as a path.
+        """Return the domain ``name``, or the one in a file or directory where it is written as a path.
 
         Raises:
             TmdError: There is none.
         """
         path = Path(name)
+        if path.suffix == ".pddl":
+            return DomainFolder(path.absolute().parent, path.name)
         if _is_path(name) and path.is_dir():
             return find_domain(path.resolve().name, path.resolve().parent)
         return find_domain(name, self.domains)
@@ -77,13 +79,19 @@ class Roots:
     def problem(self, path: Path, domain: str | None = None) -> Problem:
         """Return a PDDL problem with its domain.
 
-        That is the one that was asked for, or else that of :func:`tmd.world.problem_domain.find_domain_file`.
+        That is the one that was asked for, or else that of :meth:`of_problem`.
 
         Raises:
             TmdError: One of them is missing or wrong.
         """
-        if domain is not None:
-            return read_problem(path, self.domain(domain))
+        return read_problem(path, self.domain(domain) if domain is not None else self.of_problem(path).domain)
+
+    def of_problem(self, path: Path) -> DomainFolder:
+        """Return the domain of a PDDL problem, by :func:`tmd.world.problem_domain.find_domain_file`.
+
+        Raises:
+            TmdError: There is none, or several.
+        """
         name = domain_named_in(read_text(path))
         found = find_domain_file(path, name, self.domains)
         if found.others or not name:
@@ -93,7 +101,7 @@ class Roots:
                 location=Location(str(path), 1, 1),
                 hint="give --domain NAME or FILE, or write (:domain NAME)",
             )
-        return read_problem(path, read_domain(found.file) if found.file else self.folder(name).domain)
+        return self.folder(str(found.file) if found.file else name)
 
     def path(self, name: str) -> Path:
         """Return the file or directory of that name; where there is none, the folder of the domain of that name.
@@ -159,9 +167,7 @@ class Roots:
                 domain = load_environment(path).domain
             elif path.parent.name == "environments":
                 domain = path.parent.parent.name
-            else:
-                raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
-        corpus = self.corpus(self.folder(domain))
+        corpus = self.corpus(self.of_problem(path) if domain is None else self.folder(domain))
         return corpus, corpus.world(path.stem if path == corpus.directory / "environments" / path.name else path)
 
     def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:

@@ -16,6 +16,7 @@ from tmd.cli.options import (
     json_option,
     limit_options,
     name_list,
+    named_files,
     overwrite_option,
     reading_options,
     text_options,
@@ -148,8 +149,7 @@ def _read(roots: Roots, domain: str, name: str) -> Problem:
 
 
 @click.command("export", short_help="Write a problem and its plan for other tools.")
-@click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json")
-@click.argument("directory", type=PATH, metavar="DIR")
+@click.argument("paths", nargs=-1, required=True, metavar="[DOMAIN] PROBLEM|ENVIRONMENT|PLAN.json DIR")
 @click.option(
     "--format",
     "formats",
@@ -174,8 +174,8 @@ def _read(roots: Roots, domain: str, name: str) -> Problem:
 def export(
     roots: Roots,
     /,
-    source: str,
-    directory: Path,
+    paths: tuple[str, ...],
+    domain: str | None,
     formats: Sequence[str],
     spoken: GivenText,
     overwrite: bool,
@@ -192,10 +192,13 @@ def export(
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
 
+    *files, target = paths
+    source, domain = named_files(tuple(files), None, domain, "PROBLEM")
+    directory = Path(target)
     check_directory(directory, overwrite=overwrite)
     text = spoken.request() if spoken else None
     try:
-        found = planned_source(roots, source, text=text, **options)
+        found = planned_source(roots, source, domain=domain, text=text, **options)
     except NotPlannedError as none:
         emit(f"{'invalid' if none.code is ExitCode.INVALID_PLAN else 'no plan'}: {none}\n", error=True)
         return none.code
