@@ -190,8 +190,10 @@ def close(state: State, problem: Problem) -> State:
     return found
 
 
-_Signed: TypeAlias = tuple[tuple[Formula, bool, frozenset[str]], ...]
-"""Conditions that hold or do not hold together, each with its free variables."""
+_Part: TypeAlias = tuple[Formula, bool, frozenset[str]]
+"""A condition, whether it holds, and its free variables."""
+_Signed: TypeAlias = tuple[_Part, ...]
+"""Conditions that hold or do not hold together."""
 
 
 @lru_cache(maxsize=4096)
@@ -255,15 +257,11 @@ def _some(parameters: Sequence[TypedName], parts: _Signed, state: State, objects
     Parts without a common parameter are looked at one after another.
     """
     binding = _without(binding, parameters)
-    unbound = {p.name for p in parameters}
-    if not all(_agrees(part, state, objects, binding) for part in parts if not part[2] & unbound):
+    names = {p.name for p in parameters}
+    if not _agree([part for part in parts if part[2].isdisjoint(names)], state, objects, binding):
         return False
-    groups = _groups([part for part in parts if part[2] & unbound], unbound)
-    used = frozenset[str]().union(*(part[2] for group in groups for part in group))
-    if not all(objects.of(p.types) for p in parameters if p.name not in used):
-        return False
-    own = [tuple(p for p in parameters if any(p.name in part[2] for part in group)) for group in groups]
-    return all(_some_of_group(names, group, state, objects, binding) for names, group in zip(own, groups, strict=True))
+    groups = _groups(parameters, [part for part in parts if not part[2].isdisjoint(names)])
+    return all(_some_of_group(own, group, state, objects, binding) for own, group in groups)
 
 
 def _without(binding: Binding, parameters: Sequence[TypedName]) -> Binding:
@@ -272,16 +270,15 @@ def _without(binding: Binding, parameters: Sequence[TypedName]) -> Binding:
     return {name: value for name, value in binding.items() if name not in hidden} if hidden else binding
 
 
-def _agrees(part: tuple[Formula, bool, frozenset[str]], state: State, objects: Universe, binding: Binding) -> bool:
-    formula, wanted, _ = part
-    return _holds(formula, state, objects, binding) == wanted
+def _agree(parts: Iterable[_Part], state: State, objects: Universe, binding: Binding) -> bool:
+    return all(_holds(formula, state, objects, binding) == wanted for formula, wanted, _ in parts)
 
 
 def _some_of_group(
     parameters: Sequence[TypedName], parts: _Signed, state: State, objects: Universe, binding: Binding
 ) -> bool:
     """Return whether there is a solution of parts that share parameters: case by case, or value by value."""
-    cases = _alternatives(parts[0][0], parts[0][1]) if len(parts) == 1 else []
+    cases = _alternatives(*parts[0][:2]) if len(parts) == 1 else []
     if cases:
         return any(_some(parameters, case, state, objects, binding) for case in cases)
     return any(
@@ -290,16 +287,15 @@ def _some_of_group(
     )
 
 
-def _groups(parts: Sequence[tuple[Formula, bool, frozenset[str]]], unbound: set[str]) -> list[_Signed]:
-    """Divide parts into those that share unbound variables, directly or by others."""
-    groups: list[tuple[frozenset[str], _Signed]] = []
+def _groups(parameters: Sequence[TypedName], parts: Sequence[_Part]) -> list[tuple[list[TypedName], _Signed]]:
+    """Divide parameters, with their parts, into those that no part connects."""
+    groups: list[tuple[list[TypedName], _Signed]] = [([p], ()) for p in parameters]
     for part in parts:
-        names = part[2] & unbound
-        joined = [group for group in groups if group[0] & names]
-        groups = [group for group in groups if not group[0] & names]
-        together = tuple(inner for _, group in joined for inner in group)
-        groups.append((names.union(*(group[0] for group in joined)), (*together, part)))
-    return [group for _, group in groups]
+        joined = [group for group in groups if any(p.name in part[2] for p in group[0])]
+        groups = [group for group in groups if group not in joined]
+        own = [p for group in joined for p in group[0]]
+        groups.append((own, (*(inner for group in joined for inner in group[1]), part)))
+    return groups
 
 
 def _extended(
@@ -317,13 +313,18 @@ def _extended(
     facts = _facts(state)
     rows, atom = min(((facts.matching(atom, binding), atom) for atom in atoms), key=lambda pair: len(pair[0]))
     for row in rows:
-        found = dict(binding)
-        for term, value in zip(atom.terms, row.args, strict=True):
-            if found.setdefault(term, value) != value if term.startswith("?") else term != value:
-                break
-        else:
-            if all(objects.is_a(found[term], types[term]) for term in atom.terms if term in types):
-                yield found
+        found = _unified(atom, row, binding)
+        if found and all(objects.is_a(found[term], types[term]) for term in atom.terms if term in types):
+            yield found
+
+
+def _unified(atom: Atom, fact: GroundAtom, binding: Binding) -> Binding | None:
+    """Return ``binding`` extended so that ``atom`` is ``fact``; ``None`` where that contradicts it."""
+    found = dict(binding)
+    for term, value in zip(atom.terms, fact.args, strict=True):
+        if (found.setdefault(term, value) if term.startswith("?") else term) != value:
+            return None
+    return found
 
 
 def solutions(
@@ -333,18 +334,17 @@ def solutions(
 
     Its atoms are joined, so the number of combinations counts only where they do not restrict it.
     """
-    parts = _signed(condition, True)
     found: list[Binding] = []
-    waiting: list[tuple[Sequence[TypedName], _Signed, Binding]] = [(parameters, parts, _without(outer, parameters))]
+    waiting = [(tuple(parameters), _signed(condition, True), _without(outer, parameters))]
     while waiting:
-        unbound, open_parts, binding = waiting.pop()
+        unbound, parts, binding = waiting.pop()
         names = {p.name for p in unbound}
-        if not all(_agrees(part, state, objects, binding) for part in open_parts if not part[2] & names):
+        if not _agree([part for part in parts if part[2].isdisjoint(names)], state, objects, binding):
             continue
-        rest = tuple(part for part in open_parts if part[2] & names)
         if not unbound:
             found.append(binding)
             continue
+        rest = tuple(part for part in parts if not part[2].isdisjoint(names))
         for more in _extended(unbound, rest, state, objects, binding):
             waiting.append((tuple(p for p in unbound if p.name not in more), rest, more))
     return found

@@ -280,21 +280,15 @@ def _in_pddl(node: Group, source: Source) -> Group:
         return node
     head, *rest = node.parts
     if isinstance(head, Group):
-        words = [part for part in rest if isinstance(part, Word)]
-        if words and all(word.text in ("and", "or") and word.text == words[0].text for word in words):
-            return _with_word_first(node, words, source)
-        place = shifted(node.location, 1)
-        source.fault_at(
-            '"and" is missing here', node.location, "write (and ...)", "syntax", [Edit(place, place, "and ")]
-        )
-        return _group(node, Word("and", place), *node.parts)
-    groups = any(isinstance(part, Group) for part in rest)
+        return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
+    signs = {*_UNEQUAL, "=", "=="}
     between = rest[0].text if len(rest) == 2 and isinstance(rest[0], Word) else ""
-    if between in _UNEQUAL or between in ("=", "=="):
+    if between in signs:
         return _equation(node, between, (head, rest[1]), source)
-    if node.head in _UNEQUAL and not groups:
+    groups = any(isinstance(part, Group) for part in rest)
+    if node.head in signs - {"="} and not groups:
         return _equation(node, node.head, rest, source)
-    plain = _CONNECTIVES.get(node.head) if groups else "=" if node.head == "==" else None
+    plain = _CONNECTIVES.get(node.head) if groups else None
     if plain:
         _of_pddl(head, plain, node.head, source)
         return _group(node, Word(plain, node.location), *rest)
@@ -311,13 +305,16 @@ def _equation(node: Group, sign: str, terms: Sequence[Node], source: Source) -> 
     return equation
 
 
-def _with_word_first(node: Group, words: Sequence[Word], source: Source) -> Group:
-    """Return ``((a) and (b))``, which is reported, as ``(and (a) (b))``."""
-    word, place = words[0], shifted(node.location, 1)
-    edits = [Edit(place, place, f"{word.text} "), *(replaced(each, "") for each in words)]
-    hint = f"write ({word.text} (...) (...))"
-    source.fault_at(f'"{word.text}" stands before its parts', word.location, hint, "other-notation", edits)
-    return _group(node, word, *(part for part in node.parts if isinstance(part, Group)))
+def _without_word(node: Group, between: Sequence[Word], source: Source) -> Group:
+    """Return ``((a) and (b))`` and ``((a) (b))``, which are reported, as ``(and (a) (b))``."""
+    place, word = shifted(node.location, 1), between[0].text if between else "and"
+    if word not in ("and", "or") or any(each.text != word for each in between):
+        return node
+    edits = [Edit(place, place, f"{word} "), *(replaced(each, "") for each in between)]
+    message = f'"{word}" does not stand before its parts' if between else '"and" is missing here'
+    start = between[0].location if between else node.location
+    source.fault_at(message, start, f"write ({word} (...) (...))", "other-notation" if between else "syntax", edits)
+    return _group(node, Word(word, place), *(part for part in node.parts if isinstance(part, Group)))
 
 
 def _group(node: Group, *parts: Node) -> Group:

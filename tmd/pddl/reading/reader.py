@@ -77,7 +77,7 @@ def _joined(message: str, parts: Sequence[Node], source: Source) -> TmdError:
     """Return the error for several conditions or effects where one should be."""
     start, end = parts[0].location, after(parts[-1])
     edits = [Edit(start, start, "(and "), Edit(end, end, ")")]
-    return source.error(message, start, "use (and ...) for several", "syntax", edits)
+    return source.error(message, start, "use (and (...) (...)) for several", "syntax", edits)
 
 
 def read_title(nodes: Sequence[Node], place: Location, source: Source, what: str) -> Word:
@@ -373,7 +373,7 @@ def _without_keyword(group: Group, nodes: list[Node], parts: dict[str, Node], so
     message = "expected :parameters, :precondition or :effect, found a parenthesis"
     last = next(reversed(parts)) if parts else ""
     if last not in (":precondition", ":effect"):
-        hint = "use (and ...) for several conditions or effects"
+        hint = "use (and (...) (...)) for several conditions or effects"
         source.fault_at(message, group.location, hint)
         return
     joined = [parts[last], group, *more]
@@ -602,11 +602,7 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
         raise source.error(f"expected (define ({kind} name) ...)", first.location)
     title, *sections = first.parts[1:]
     if isinstance(title, Word) and title.text == kind and sections and isinstance(sections[0], Word):
-        start, end = title.location, after(sections[0])
-        edits = [Edit(start, start, "("), Edit(end, end, ")")]
-        hint = f"write ({kind} {sections[0].text})"
-        source.fault_at(f"the name of the {kind} stands in parentheses", start, hint, "syntax", edits)
-        title = Group((title, sections.pop(0)), start, end, 1)
+        title = _title_in_parentheses(title, sections.pop(0), source)
     if not isinstance(title, Group) or title.head != kind or len(title.parts) < 2:
         found = f", found ({title.head} ...)" if isinstance(title, Group) else ""
         raise source.error(f"expected ({kind} name){found}", title.location)
@@ -619,6 +615,15 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
                 "a parenthesis before it is too many",
             )
     return name, [s for s in sections if isinstance(s, Group)]
+
+
+def _title_in_parentheses(kind: Word, name: Node, source: Source) -> Group:
+    """Return the title of a definition that lacks its parentheses, which is reported."""
+    start, end = kind.location, after(name)
+    title = Group((kind, name), start, end, 1)
+    message, hint = f"the name of the {kind.text} stands in parentheses", f"write ({source.text(start, end)})"
+    source.fault_at(message, start, hint, "syntax", [Edit(start, start, "("), Edit(end, end, ")")])
+    return title
 
 
 def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source: Source) -> str:
