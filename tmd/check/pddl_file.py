@@ -114,6 +114,7 @@ _ECHOES = {
     "type-cycle": ("parent-after-child", ""),
     "missing-section": ("missing-requirement", ":typing"),
     "other-notation": ("missing-requirement", ":equality"),
+    "unknown-section": ("missing-section", ""),
     "bad-name": ("domain-mismatch", ""),
 }
 

@@ -19,7 +19,7 @@ _MARKS = re.compile(
     r"|(?P<fence>(?:```|~~~)[a-zA-Z]*)"
     r"|(?P<block>\#\|.*?(?:\|\#|\Z)|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z))"
     r"|(?P<escape>\\[nrt\"])"
-    r"|(?P<remark>(?<![^\s()])(?://|\#+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*)",
+    r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*)",
     re.DOTALL,
 )
 _TOLD = {
@@ -32,6 +32,7 @@ _DEFINE = re.compile(r"\(\s*define\b", re.IGNORECASE)
 _DEFINITION = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\b\s*([^\s()]*)", re.IGNORECASE)
 # Text behind a definition that belongs into it: the definition was closed too early.
 _STRUCTURE = re.compile(r"\A\s*[():]|\(\s*:|^\s*:", re.MULTILINE)
+_ROUND = str.maketrans("[]{}\uff08\uff09", "()()()")
 _LINE = re.compile(r"[^\n]+")
 
 
@@ -40,6 +41,7 @@ def pddl_lines(lines: Sequence[str], file: str) -> tuple[tuple[str, ...], list[T
     text = _Text(lines, file)
     text.marks()
     text.around()
+    text.brackets()
     text.commas()
     return tuple(text.kept.split("\n")), text.faults
 
@@ -111,7 +113,7 @@ class _Text:
 
     def around(self) -> None:
         """Blank what stands around the first definition."""
-        first = _DEFINE.search(self.bare)
+        first = _DEFINITION.search(self.bare) or _DEFINE.search(self.bare)
         if first is None:
             return
         begin = first.start()
@@ -157,6 +159,18 @@ class _Text:
         own = Path(self.file)
         names = (kind if kind == "domain" else name or kind, f"{kind}-{name}")
         return next(path for n in names if (path := own.with_name(f"{n}.pddl")) != own)
+
+    def brackets(self) -> None:
+        """Read other brackets as parentheses."""
+        places = [match.start() for match in re.finditer(r"[\[\]{}\uff08\uff09]", self.bare)]
+        if places:
+            edits = [self.edit(place, place + 1, self.bare[place].translate(_ROUND)) for place in places]
+            message = f'PDDL has round parentheses only, not "{self.bare[places[0]]}"'
+            self.fault(message, places[0], 'write "(" and ")"', "other-notation", edits)
+            self.kept = "".join(
+                b.translate(_ROUND) if b != " " else k for k, b in zip(self.kept, self.bare, strict=True)
+            )
+            self.bare = self.bare.translate(_ROUND)
 
     def commas(self) -> None:
         """Blank commas."""

@@ -643,7 +643,7 @@ def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source:
             raise source.error(message, group.location, hint, "unknown-section", edits)
         word = group.parts[0] if head else None
         nearby = nearest(head, known, what="sections")
-        edits = _meant(word, known) if isinstance(word, Word) and head.startswith(":") else []
+        edits = _meant(word, known) if isinstance(word, Word) and (head[0] == ":" or f":{head}" in known) else []
         raise source.error(f"{shown} is not a section", group.location, nearby, "unknown-section", edits)
     if head in seen:
         raise source.error(f'the section "{head}" appears twice', group.location, "join the two", "duplicate-section")

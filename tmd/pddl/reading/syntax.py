@@ -305,7 +305,7 @@ def split_lines(text: str) -> tuple[str, ...]:
     return tuple(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n").split("\n"))
 
 
-ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]")
+ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]|[\u200b-\u200d\u2060\ufeff]")
 """Blanks that only look like one: the no-break space, the ideographic space and the like."""
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 _CONNECTIVES = frozenset({"and", "or", "not", "imply", "forall", "exists", "when"})
@@ -374,7 +374,7 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
     lines = split_lines(text)
     code, foreign = pddl_lines(lines, file)
     source = Source(file, lines, report, code)
-    commas = [fault for fault in foreign if fault.code == "other-notation"]
+    commas = [fault for fault in foreign if "commas" in fault.message]
     for fault in foreign:
         if fault not in commas:
             source.fault(fault)
@@ -559,7 +559,7 @@ class _Parser:
             while len(self.stack) > 1:
                 self.pop(word.location)
             self.stack.append(opened)
-        elif word.text in _PARTS and opened.parts and not opened.head.startswith(":"):
+        elif word.text in _PARTS and opened.parts and opened.head[:1] != ":" and f":{opened.head}" not in _SECTIONS:
             self.fix_part(word)
 
     def outermost(self, group: Group) -> _Open:
