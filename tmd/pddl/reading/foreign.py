@@ -162,7 +162,7 @@ class _Text:
 
     def brackets(self) -> None:
         """Read other brackets as parentheses."""
-        places = [match.start() for match in re.finditer(r"[\[\]{}\uff08\uff09]", self.bare)]
+        places = [match.start() for match in re.finditer(r"(?<!\x1b)[\[\]{}\uff08\uff09]", self.bare)]
         if places:
             edits = [self.edit(place, place + 1, self.bare[place].translate(_ROUND)) for place in places]
             message = f'PDDL has round parentheses only, not "{self.bare[places[0]]}"'
