@@ -76,9 +76,9 @@ class _Text:
             return self.edit(first, last + 1)
         return self.edit(start, end)
 
-    def blank(self, start: int, end: int) -> None:
-        self.kept = self.kept[:start] + _blanks(self.kept[start:end]) + self.kept[end:]
-        self.bare = self.bare[:start] + _blanks(self.bare[start:end]) + self.bare[end:]
+    def blank(self, spans: Sequence[tuple[int, int]]) -> None:
+        """Blank parts of the text, in the order in which they stand."""
+        self.kept, self.bare = (_without(text, spans) for text in (self.kept, self.bare))
 
     def marks(self) -> None:
         """Blank the marks of Markdown and comments of other languages; comments of PDDL are no part of ``bare``."""
@@ -86,8 +86,7 @@ class _Text:
         for match in _MARKS.finditer(self.bare):
             if match.lastgroup and match.lastgroup != "comment":
                 found.setdefault(match.lastgroup, []).append(match)
-        for match in [match for matches in found.values() for match in matches]:
-            self.blank(*match.span())
+        self.blank(sorted(match.span() for matches in found.values() for match in matches))
         self.bare = re.sub(r";[^\n]*", lambda comment: _blanks(comment[0]), self.bare)
         for kind, matches in found.items():
             message, hint = _TOLD[kind]
@@ -135,8 +134,7 @@ class _Text:
             message = '"(in-package ...)" is Lisp, not PDDL'
         edits = [self.removal(*span) for span in spans]
         self.fault(message, spans[0][0], 'remove it, or write ";" before each of its lines', "foreign-text", edits)
-        for span in spans:
-            self.blank(*span)
+        self.blank(spans)
 
     def _definitions(self, others: Sequence[re.Match[str]]) -> None:
         """Report and blank further definitions."""
@@ -151,7 +149,7 @@ class _Text:
         message = f'this file has {len(others) + 1} definitions: here begins the {kind.lower()} "{name}"'
         hint = f"put it into a file of its own, such as {Path(edits[0].start.file).name}"
         self.fault(message, others[0].start(), hint, "two-definitions", edits)
-        self.blank(others[0].start(), len(self.kept))
+        self.blank([(others[0].start(), len(self.kept))])
 
     def _file_for(self, match: re.Match[str]) -> Path:
         """Return the file that a definition may be put into."""
@@ -183,8 +181,17 @@ class _Text:
             edits.append(self.edit(place, place + 1, "" if re.search(r"[\s()]", around) or len(around) < 2 else " "))
         more = f" ({len(places)} of them)" if len(places) > 1 else ""
         self.fault(f"PDDL has no commas{more}", places[0], "separate words by blanks", "other-notation", edits)
-        for place in places:
-            self.blank(place, place + 1)
+        self.blank([(place, place + 1) for place in places])
+
+
+def _without(text: str, spans: Sequence[tuple[int, int]]) -> str:
+    """Return ``text`` with ``spans`` blanked, as long as before."""
+    kept: list[str] = []
+    done = 0
+    for start, end in spans:
+        kept += (text[done:start], _blanks(text[start:end]))
+        done = end
+    return "".join((*kept, text[done:]))
 
 
 def _blanks(text: str) -> str:
