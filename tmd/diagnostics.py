@@ -6,6 +6,7 @@ Anything else that reaches the command line is a fault of the program (exit code
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
 
@@ -95,6 +96,18 @@ class Location:
         return f"{self.file}:{self.line}:{self.column}"
 
 
+@dataclass(frozen=True, slots=True, order=True)
+class Edit:
+    """A part of the remedy of a fault: the text from ``start`` to before ``end`` becomes ``text``.
+
+    Line 0 is that of a new file, which is written only where there is none yet.
+    """
+
+    start: Location
+    end: Location
+    text: str = ""
+
+
 class TmdError(Exception):
     """Something the user can fix.
 
@@ -104,6 +117,7 @@ class TmdError(Exception):
         hint: What to do about it, in one line.
         source: The source line at ``location``, shown with a caret when the error is printed at length.
         code: Which kind of fault it is, by its name in ``docs/errors.md``; empty where no checker finds it.
+        edits: The remedy, where it is mechanical.
     """
 
     exit_code = ExitCode.BAD_INPUT
@@ -116,6 +130,7 @@ class TmdError(Exception):
         hint: str | None = None,
         source: str | None = None,
         code: str = "",
+        edits: Sequence[Edit] = (),
     ) -> None:
         super().__init__(message)
         self.message = message
@@ -123,6 +138,7 @@ class TmdError(Exception):
         self.hint = hint
         self.source = source
         self.code = code
+        self.edits = tuple(edits)
 
     def __str__(self) -> str:
         place = f"{self.location}: " if self.location else ""

@@ -331,7 +331,7 @@ class DomainKit:
         if jobs == 1:
             results = [self._judged(test, options) for test in chosen]
         else:
-            place = self._corpus.folder.path, self._corpus.directory, self._learned
+            place = self._corpus.folder, self._corpus.directory, self._learned
             tasks = [(place, number, test, options) for number, test in enumerate(chosen)]
             found = dict(in_processes(_judged_elsewhere, tasks, jobs))
             results = [found[number] for number in range(len(chosen))]
@@ -399,12 +399,12 @@ class DomainKit:
 
 
 @cache
-def _kit_at(folder: Path, directory: Path, learned: Path | None) -> DomainKit:
-    return DomainKit(Corpus(DomainFolder(folder), directory), learned)
+def _kit_at(folder: DomainFolder, directory: Path, learned: Path | None) -> DomainKit:
+    return DomainKit(Corpus(folder, directory), learned)
 
 
 def _judged_elsewhere(
-    place: tuple[Path, Path, Path | None], number: int, test: SentenceTest, options: Mapping[str, Any]
+    place: tuple[DomainFolder, Path, Path | None], number: int, test: SentenceTest, options: Mapping[str, Any]
 ) -> tuple[int, SentenceResult | ModelError]:
     """Run a sentence test in a process of its own; the kit is made once for each process."""
     return number, _kit_at(*place)._judged(test, options)

@@ -268,7 +268,7 @@ class Progress:
 _ROOT = Path(__file__).resolve().parent
 # The packages and modules of ``tmd`` whose code decides what is learned from a demonstration.
 _SOURCES = ("pddl", "world", "language", "library", "goals", "inference/policy", "knowledge.py")
-_DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
+_DOMAIN = ("objects.yaml", "lexicon.yaml")
 
 
 def digest(corpus: Corpus) -> str:
@@ -282,7 +282,7 @@ def digest(corpus: Corpus) -> str:
 
 
 def _files(corpus: Corpus) -> Iterator[tuple[str, Path]]:
-    for name in _DOMAIN:
+    for name in (corpus.folder.file, *_DOMAIN):
         path = corpus.folder.path / name
         if path.is_file():
             yield name, path

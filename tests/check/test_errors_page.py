@@ -25,6 +25,7 @@ KINDS = {kind for kind, *_ in _ROW.findall(PAGE)}
 SHOWN_ELSEWHERE = {
     "unreadable", "not-text", "not-utf8", "too-large", "too-many", "control-character", "nested-too-deeply",
     "empty-file", "missing-file", "ambiguous-domain", "domain-not-found", "too-many-cases",
+    "cost-missing", "latin1-comment",
 }  # fmt: skip
 """These have no example that a page can show; test_bad_input.py and test_slips.py have them."""
 

@@ -116,3 +116,35 @@ def test_a_verb_that_the_check_calls_served_is_ground(tmd: Tmd, drawer: Path, ve
     ended = tmd("ground", "--domain", drawer.parent, "--environment", environment, "--text", f"{verb} the key.")
     assert (ended.code == 0) is served
     assert ("polish(key1)" in ended.out) is served
+
+
+def test_a_domain_that_is_named_beside_the_problem_is_its_domain(tmd: Tmd, tmp_path: Path) -> None:
+    problem = "(define (problem x) (:domain e) (:objects o) (:init) (:goal (p o)))"
+    for name, text in {"one": GOOD, "two": GOOD.replace("domain d", "domain e"), "x": problem}.items():
+        (tmp_path / f"{name}.pddl").write_text(text)
+    assert tmd("check", tmp_path / "two.pddl", tmp_path / "x.pddl").code == 0
+    ended = tmd("check", tmp_path / "one.pddl", tmp_path / "x.pddl")
+    assert ended.code == 13 and "domain-mismatch" in ended.out
+
+
+def test_commands_use_the_files_that_are_named(tmd: Tmd, tmp_path: Path) -> None:
+    """Beside the files stands a ``domain.pddl`` of the same name, in which nothing works."""
+    lamp = "(define (domain lamp)\n  (:predicates (lit ?x) (lamp ?x))\n  (:action switch_on\n    :parameters (?x)\n"
+    files = {
+        "domain": f"{lamp}    :precondition (and (lit ?x) (lamp ?x))\n    :effect (lit ?x)))\n",
+        "mine": f"{lamp}    :precondition (lamp ?x)\n    :effect (lit ?x)))\n",
+        "hall": "(define (problem hall) (:domain lamp) (:objects l) (:init (lamp l)) (:goal (lit l)))\n",
+    }
+    for name, text in files.items():
+        (tmp_path / f"{name}.pddl").write_text(text)
+    test = {"id": "a", "domain": "-", "environment": "-", "text": "Switch on the lamp.", "goal": "(lit l)"}
+    (tmp_path / "my.sentences.jsonl").write_text(json.dumps(test))
+    given = tmp_path / "mine.pddl", tmp_path / "hall.pddl"
+    assert "(switch_on l)" in tmd("plan", *given).out
+    assert tmd("view", *given, "--out", tmp_path / "a.html").code == 0
+    assert "switch_on" in (tmp_path / "a.html").read_text()
+    assert tmd("export", *given, tmp_path / "out").code == 0
+    assert "(switch_on l)" in (tmp_path / "out" / "plan.plan").read_text()
+    assert "switch_on(l)" in tmd("ground", *given, "--text", "Switch on l.").out
+    assert "1 of 1 right" in tmd("test", *given).out
+    assert tmd("ground", *given, "x.pddl", "--text", "Switch on l.").code == 30

@@ -145,10 +145,10 @@ CASES = {
         ["compile", ROOT / "problems/kitchen/environments/kitchen1.yaml", "--goal", "(hot pot12)"],
         r'error: --goal:1:\d+: unknown object "pot12"\n.*\n *\^\nhint: did you mean "pot1"',
     ),
-    "domain-without-folder": (
-        ExitCode.BAD_INPUT,
-        ["ground", "--environment", PROBLEM, "--domain", PROBLEM, "--text", "a"],
-        r"error: .*p01.pddl is not a domain folder\nhint: put the file into a folder as domain.pddl",
+    "named-twice": (
+        ExitCode.USAGE,
+        ["ground", DOMAIN, PROBLEM, "--environment", PROBLEM, "--text", "a"],
+        r"error: name each file once: DOMAIN PROBLEM, or --domain and --environment\n",
     ),
     "no-data": (ExitCode.BAD_DATA, ["data", "check", "none"], r"error: none is not a directory\nhint: "),
     "other-data": (ExitCode.BAD_DATA, ["data", "check", ROOT / "domains"], r"error: .*data.xml is missing\nhint: "),

@@ -2,11 +2,30 @@
 
 from __future__ import annotations
 
+from itertools import pairwise, product
+
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
 from tmd.pddl import semantics
-from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.model import (
+    And,
+    Exists,
+    Forall,
+    Formula,
+    GroundAtom,
+    Imply,
+    Instruction,
+    Not,
+    Or,
+    Problem,
+    State,
+    Universe,
+    parts_of,
+    universe,
+)
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.writer import format_formula
 
@@ -129,3 +148,76 @@ def test_wrong_type() -> None:
 def test_bound_text_leaves_quantified_variables_alone() -> None:
     problem = _problem("(exists (?x - b) (p ?x))")
     assert format_formula(problem.goal, {"?x": "u"}) == "(exists (?x - b) (p ?x))"
+
+
+_NAMES = st.sampled_from(["?x", "?y", "?z", "u", "v"])
+_LITERAL = st.one_of(
+    st.builds("({} {})".format, st.sampled_from(["p", "q"]), _NAMES),
+    st.builds("(r {} {})".format, _NAMES, _NAMES),
+    st.builds("(= {} {})".format, _NAMES, _NAMES),
+)
+_CONDITION = st.recursive(
+    _LITERAL,
+    lambda inner: st.one_of(
+        st.builds("(not {})".format, inner),
+        st.builds("({} {} {})".format, st.sampled_from(["and", "or", "imply"]), inner, inner),
+        st.builds("({} (?w - b) (or (r ?w ?x) {}))".format, st.sampled_from(["forall", "exists"]), inner),
+    ),
+    max_leaves=6,
+)
+_ATOMS = [f"{p} {x}" for p in "pq" for x in "uvw"] + [f"r {x} {y}" for x in "uvw" for y in "uvw"]
+
+
+def _enumerated(formula: Formula, state: State, objects: Universe, binding: dict[str, str]) -> bool:
+    """The meaning of a condition by its definition: every choice of objects is looked at."""
+    if isinstance(formula, Forall | Exists):
+        choices = product(*(objects.of(p.types) for p in formula.parameters))
+        names = [p.name for p in formula.parameters]
+        held = (_enumerated(formula.part, state, objects, binding | dict(zip(names, c, strict=True))) for c in choices)
+        return all(held) if isinstance(formula, Forall) else any(held)
+    parts = [_enumerated(part, state, objects, binding) for part in parts_of(formula)]
+    match formula:
+        case Not():
+            return not parts[0]
+        case And():
+            return all(parts)
+        case Or():
+            return any(parts)
+        case Imply():
+            return not parts[0] or parts[1]
+    return semantics.holds(formula, state, objects, binding)
+
+
+@settings(max_examples=50)
+@given(_CONDITION, st.sampled_from(["forall", "exists"]), st.lists(st.sampled_from(_ATOMS)))
+def test_a_join_finds_what_enumeration_finds(condition: str, word: str, atoms: list[str]) -> None:
+    domain = parse_domain(DOMAIN)
+    problem = parse_problem(PROBLEM.format(f"({word} (?x ?z - a ?y - b) {condition})"), domain)
+    state, objects = _state(*atoms), universe(problem)
+    held = _enumerated(problem.goal, state, objects, {})
+    assert semantics.holds(problem.goal, state, problem) == held
+    assert (semantics.first_false(problem.goal, state, problem) is None) == held
+    inner = problem.goal
+    assert isinstance(inner, Forall | Exists)
+    names = [p.name for p in inner.parameters]
+    choices = [dict(zip(names, c, strict=True)) for c in product(*(objects.of(p.types) for p in inner.parameters))]
+    found = semantics.solutions(inner.parameters, inner.part, state, objects, {})
+    wanted = [choice for choice in choices if _enumerated(inner.part, state, objects, choice)]
+    assert sorted(sorted(f.items()) for f in found) == sorted(sorted(w.items()) for w in wanted)
+
+
+def test_a_condition_over_many_objects_is_joined() -> None:
+    """Six variables over sixty objects are 46 billion choices."""
+    names = [f"o{number}" for number in range(60)]
+    links = " ".join(f"(r {one} {two})" for one, two in pairwise(names))
+    path = "(and (r ?a ?b) (r ?b ?c) (r ?c ?d) (r ?d ?e) (r ?e ?f))"
+    quantified = "(?a ?c ?e ?b ?d ?f - a)"
+    goals = {
+        f"(exists {quantified} (and {path} (r ?f ?a)))": False,
+        f"(exists {quantified} {path})": True,
+        f"(forall {quantified} (imply {path} (or (q ?f) (not (p ?a)))))": True,
+    }
+    for goal, held in goals.items():
+        text = f"(define (problem x) (:domain d) (:objects {' '.join(names)} - a) (:init {links}) (:goal {goal}))"
+        problem = parse_problem(text, parse_domain(DOMAIN))
+        assert (semantics.first_false(problem.goal, problem.init, problem) is None) == held

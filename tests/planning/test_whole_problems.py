@@ -371,3 +371,21 @@ def test_no_engine_outlives_the_program(alike: Problem, tmp_path: Path, number: 
         running.communicate()
     assert all_gone(str(tmp_path))
     assert sorted(path.name for path in tmp_path.iterdir()) == ["d.pddl", "p.pddl"]
+
+
+def test_the_limit_holds_for_the_replay_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A replay that never ends is stopped a second after the limit, and so is reading."""
+
+    def replay(*_: object) -> None:
+        while True:
+            time.sleep(0.01)
+
+    monkeypatch.setattr("tmd.pddl.validator.validate", replay)
+    problem = parse_problem(ALIKE_PROBLEM, parse_domain(ALIKE))
+    begin = time.monotonic()
+    answer = solve(problem, seconds=0.3)
+    assert isinstance(answer, GaveUp) and "0.3 s" in answer.limit
+    assert time.monotonic() - begin < 2.3
+    with pytest.raises(processes.TimeIsUpError), processes.limited(processes.Deadline(0)):
+        replay()
+    assert signal.getitimer(signal.ITIMER_REAL) == (0.0, 0.0)

@@ -14,6 +14,7 @@ from tmd.check.pddl_file import (
     CheckedDomain,
     check_domain_text,
     check_problem_text,
+    explain_objects,
 )
 from tmd.diagnostics import Location, TmdError
 from tmd.files import real
@@ -148,6 +149,8 @@ class Checker:
         path = found.file
         checked = self._domain(path) if path else None
         result = check_problem_text(text, str(file), checked)
+        if checked and result.problem:
+            explain_objects(checked, result.problem)
         self._add_all(result.faults, file)
         if path is None and name:
             self._not_found(name, result.source, found.others)
@@ -157,8 +160,10 @@ class Checker:
         self._read[real(file)] = None if faulty or checked is None else result.problem
 
     def _domain_file(self, problem: Path, name: str) -> FoundDomain:
-        """Return the domain of a problem: of its name among the files given, or as elsewhere, or the only one given."""
+        """Return the domain of a problem: of its name among the files given, or the one beside it, or as elsewhere."""
         named = [file for file, domain in self._given.items() if domain == name]
+        if not named and problem in self.given:
+            named = [file for file in self._given if file.parent == problem.parent]
         if len(named) == 1:
             return FoundDomain(named[0])
         found = find_domain_file(problem, name, self.domains)
@@ -199,7 +204,7 @@ class Checker:
                 hint = "this is not a file that people write"
                 message = f"larger than {MAX_BYTES // 1_000_000} MB"
                 raise TmdError(message, location=Location(str(file), 1, 1), hint=hint, code="too-large")
-            return read_text(file)
+            return read_text(file, lambda fault: self.report(fault, file))
         except TmdError as error:
             self.findings.add(error, Location(str(file), 1, 1))
             return None

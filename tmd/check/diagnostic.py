@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 
 
 class Severity(StrEnum):
@@ -23,6 +23,7 @@ _ERRORS = (
     # files
     "unreadable", "not-text", "not-utf8", "too-large", "control-character", "look-alike", "outside-folder",
     # form of PDDL
+    "foreign-text", "two-definitions", "other-notation",
     "unclosed-parenthesis", "extra-parenthesis", "nested-too-deeply", "empty-file", "syntax",
     "unknown-section", "unknown-keyword", "duplicate-section", "missing-section", "bad-name",
     "unknown-requirement", "not-supported", "when-in-condition", "not-an-effect",
@@ -41,7 +42,8 @@ _WARNINGS = (
     "undeclared-parent", "variable-twice", "glued-dash", "parent-after-child", "empty-condition",
     "nested-when", "said-twice", "contradictory-effects", "unused-predicate", "unused-parameter", "no-effect",
     "never-applies", "never-produced", "too-many-cases", "type-without-objects", "unreachable-goal",
-    "goal-holds", "ambiguous-domain", "unserved-verb", "unknown-target", "unread-noun", "impossible-goal",
+    "goal-holds", "ambiguous-domain", "constant-again", "section-order",
+    "cost-missing", "latin1-comment", "unserved-verb", "unknown-target", "unread-noun", "impossible-goal",
     "idle-phrase", "domain-not-found", "too-many",
 )  # fmt: skip
 SEVERITY: Mapping[str, Severity] = {
@@ -60,6 +62,7 @@ class Diagnostic:
         message: What is wrong, in one line.
         hint: What to do about it.
         source: The source line.
+        edits: The remedy, where it is mechanical.
     """
 
     location: Location
@@ -67,6 +70,7 @@ class Diagnostic:
     message: str
     hint: str | None = None
     source: str | None = None
+    edits: tuple[Edit, ...] = ()
 
     @property
     def severity(self) -> Severity:
@@ -78,17 +82,16 @@ class Findings:
     """The problems found so far, each once."""
 
     def __init__(self) -> None:
-        self._found: dict[tuple[Location, str, str], Diagnostic] = {}
+        self._found: dict[tuple[Location, str, str], TmdError] = {}
 
     def __len__(self) -> int:
         return len(self._found)
 
     def add(self, error: TmdError, place: Location) -> None:
         """Add a fault, at ``place`` if it has no location."""
-        location, code = error.location or place, error.code or "syntax"
-        found = Diagnostic(location, code, error.message, error.hint, error.source)
-        self._found.setdefault((location, code, error.message), found)
+        self._found.setdefault((error.location or place, error.code or "syntax", error.message), error)
 
     def sorted(self) -> list[Diagnostic]:
         """Return all of them by file, line and column."""
-        return [self._found[key] for key in sorted(self._found)]
+        found = sorted(self._found.items(), key=lambda item: item[0])
+        return [Diagnostic(*key, error.hint, error.source, error.edits) for key, error in found]

@@ -69,6 +69,7 @@ def check_domain_text(text: str, file: str) -> CheckedDomain:
 def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> CheckedProblem:
     """Return the same for a problem; without its domain only its form is checked."""
     faults: list[TmdError] = []
+    checked = checked if checked and checked.domain.name else None
     domain = checked.domain if checked else Domain(domain_named_in(text))
     try:
         problem, source = parse_problem_unchecked(text, domain, file, faults.append)
@@ -84,6 +85,24 @@ def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> C
     return CheckedProblem(problem, source, _without_echoes(faults, checked.faults))
 
 
+def explain_objects(checked: CheckedDomain, problem: Problem) -> None:
+    """Give the remedy of the objects that a domain names and only its problem declares: they are constants."""
+    declared = {o.name: o for o in problem.objects}
+    names = {fault: declared.get(_quoted(fault)) for fault in checked.faults if fault.code == "unknown-object"}
+    found = {o.name: o.typed() for o in names.values() if o is not None}
+    edits = [checked.source.declaration(":constants", " ".join(found.values()))]
+    for fault, named in names.items():
+        if named is not None and not fault.edits:
+            fault.hint = f"an action needs a constant: declare {named.typed()} under (:constants ...) of the domain"
+            fault.edits = tuple(edits)
+
+
+def _quoted(fault: TmdError) -> str:
+    """Return the name that a message speaks of."""
+    found = re.search(r'"([^"]*)"', fault.message)
+    return found[1] if found else ""
+
+
 def _is_error(fault: TmdError) -> bool:
     return SEVERITY.get(fault.code, Severity.ERROR) is Severity.ERROR
 
@@ -93,22 +112,26 @@ _ECHOES = {
     "unknown-requirement": ("missing-requirement", ""),
     "unknown-function": ("missing-requirement", ":action-costs"),
     "type-cycle": ("parent-after-child", ""),
+    "missing-section": ("missing-requirement", ":typing"),
+    "other-notation": ("missing-requirement", ":equality"),
+    "unknown-section": ("missing-section", ""),
+    "bad-name": ("domain-mismatch", ""),
 }
+
+
+# Faults of a name in a domain that are not repeated in its problems.
+_ONCE = frozenset({"odd-name", "wrong-arity", "unknown-type", "unknown-predicate", "unknown-function"})
 
 
 def _without_echoes(faults: list[TmdError], others: Sequence[TmdError] = ()) -> list[TmdError]:
     """Return ``faults`` without those that only follow from them, or from ``others``."""
     found = [_ECHOES[fault.code] for fault in (*faults, *others) if fault.code in _ECHOES]
+    found += [(fault.code, f'"{_quoted(fault)}"') for fault in others if fault.code in _ONCE]
     return [f for f in faults if not any(f.code == code and part in f.message for code, part in found)]
 
 
 def _without_excused(faults: Iterable[TmdError], excused: Words) -> list[TmdError]:
-    kept = []
-    for fault in faults:
-        quoted = re.search(r'"([^"]*)"', fault.message)
-        if not (quoted and quoted[1] in excused.get(fault.code, ())):
-            kept.append(fault)
-    return kept
+    return [fault for fault in faults if _quoted(fault) not in excused.get(fault.code, ())]
 
 
 def _joined(one: Words, other: Words) -> Words:

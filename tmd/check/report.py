@@ -2,40 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from pathlib import Path
 
 from tmd.check.checker import Checker, files_of
 from tmd.check.diagnostic import Diagnostic, Severity
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 from tmd.files import write_text
-from tmd.pddl.reading.syntax import ODD_BLANK, Group, parse, read_text, split_lines
-
-# The codes that may be fixed; parentheses only where there is one way to do it.
-FIXABLE = frozenset(
-    {
-        "empty-condition",
-        "glued-dash",
-        "glued-variable",
-        "missing-requirement",
-        "unclosed-parenthesis",
-        "extra-parenthesis",
-        "look-alike",
-        "stale-domain",
-    }
-)  # fmt: skip
-
-
-@dataclass(frozen=True, slots=True, order=True)
-class _Edit:
-    """``length`` characters at a place are replaced by ``text``; lines and columns count from 0."""
-
-    line: int
-    column: int
-    length: int
-    text: str
+from tmd.pddl.reading.syntax import read_text, split_lines
 
 
 def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
@@ -46,13 +22,7 @@ def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
     """
     if any(diagnostic.code == "stale-domain" for diagnostic in diagnostics):
         return _compiled(file)
-    text = read_text(file)
-    lines = list(split_lines(text))
-    edits = sorted(set(_edits(text, lines, file, diagnostics)), reverse=True)
-    for edit in edits:
-        line = lines[edit.line]
-        lines[edit.line] = line[: edit.column] + edit.text + line[edit.column + edit.length :]
-    return "\n".join(lines) if edits else None
+    return _edited(file, _edits(file, diagnostics))
 
 
 def _compiled(file: Path) -> str | None:
@@ -65,61 +35,53 @@ def _compiled(file: Path) -> str | None:
         return None
 
 
-def _edits(text: str, lines: Sequence[str], file: Path, diagnostics: Sequence[Diagnostic]) -> Iterator[_Edit]:
+def _edits(file: Path, diagnostics: Sequence[Diagnostic]) -> list[Edit]:
+    """Return the edits of ``file`` that the diagnostics have; those of parentheses only where there are no others."""
+    edits = [edit for d in diagnostics for edit in d.edits if edit.start.file == str(file)]
     parentheses = [d for d in diagnostics if d.code in ("unclosed-parenthesis", "extra-parenthesis")]
-    for diagnostic in diagnostics:
-        row, column = diagnostic.location.line - 1, diagnostic.location.column - 1
-        if diagnostic.code == "empty-condition":
-            found = re.compile(r"\(\s*\)").match(lines[row], column)
-            if found:
-                yield _Edit(row, column, found.end() - column, "(and)")
-        elif diagnostic.code == "glued-dash":
-            yield _Edit(row, column + 1, 0, " ")
-        elif diagnostic.code == "glued-variable":
-            yield _Edit(row, column, 0, " ")
-        elif diagnostic.code == "look-alike":
-            plain = re.fullmatch(r'write "(.)"', diagnostic.hint or "")
-            if plain and plain[1] == " ":  # reported once a line
-                yield from (_Edit(row, found.start(), 1, " ") for found in ODD_BLANK.finditer(lines[row], column))
-            elif plain:
-                yield _Edit(row, column, 1, plain[1])
-        elif diagnostic in parentheses and len(parentheses) == 1:
-            yield from _parenthesis(diagnostic, text, lines)
-    wanted = {d.hint.split()[1] for d in diagnostics if d.code == "missing-requirement" and d.hint}
-    if wanted and not parentheses:
-        yield from _requirements(text, str(file), wanted)
+    if len(parentheses) == 1 and not edits:
+        edits = list(_parenthesis(parentheses[0], split_lines(read_text(file))))
+    return edits
 
 
-def _parenthesis(diagnostic: Diagnostic, text: str, lines: Sequence[str]) -> Iterator[_Edit]:
+def _edited(file: Path, edits: Iterable[Edit]) -> str | None:
+    """Return the text of ``file`` with ``edits``, without those that overlap others; ``None`` where there are none.
+
+    Raises:
+        TmdError: The file cannot be read.
+    """
+    wanted = sorted(set(edits))
+    if not wanted:
+        return None
+    if not wanted[0].start.line:
+        return wanted[0].text
+    lines = split_lines(read_text(file))
+    starts = [0, *accumulate(len(line) + 1 for line in lines)]
+    text = "\n".join(lines)
+    made: list[str] = []
+    done = 0
+    for edit in wanted:
+        start, end = (starts[place.line - 1] + place.column - 1 for place in (edit.start, edit.end))
+        if start >= done:
+            made += (text[done:start], edit.text)
+            done = end
+    return "".join((*made, text[done:]))
+
+
+def _parenthesis(diagnostic: Diagnostic, lines: Sequence[str]) -> Iterator[Edit]:
     """Yield the edit of a parenthesis at the end of the file; elsewhere only the author knows its place."""
+    place = diagnostic.location
     if "no opening parenthesis" in diagnostic.message:
-        yield _Edit(diagnostic.location.line - 1, diagnostic.location.column - 1, 1, "")
+        yield Edit(place, Location(place.file, place.line, place.column + 1))
     elif diagnostic.hint == 'add the missing ")"' and '"(define"' in diagnostic.message:
         last = max(number for number, line in enumerate(lines) if line.strip())
         code = lines[last].partition(";")[0].rstrip()
-        yield _Edit(last, len(code), 0, ")")
-
-
-def _requirements(text: str, file: str, wanted: Iterable[str]) -> Iterator[_Edit]:
-    document = parse(text, file, lambda _: None)
-    added = " ".join(sorted(wanted))
-    sections = [part for part in document.groups[0].parts if isinstance(part, Group)]
-    declared = next((group for group in sections if group.head == ":requirements"), None)
-    if declared is not None:
-        yield _insertion(declared.end, f" {added}")
-    else:
-        title = sections[0].end
-        strips = ":strips " if sections[0].head == "domain" else ""
-        place = Location(title.file, title.line, title.column + 1)
-        yield _insertion(place, f"\n  (:requirements {strips}{added})")
-
-
-def _insertion(place: Location, text: str) -> _Edit:
-    return _Edit(place.line - 1, place.column - 1, 0, text)
+        end = Location(place.file, last + 1, len(code) + 1)
+        yield Edit(end, end, ")")
 
 
 # Fixing one thing may bring another to light.
-_MOST_ROUNDS = 4
+_MOST_ROUNDS = 8
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,10 +124,12 @@ def check_paths(
     Raises:
         TmdError: There is nothing at a path, or a fixed file cannot be written.
     """
-    chosen = [Path(path) for path in paths]
-    given = [path for path in chosen if not path.is_dir()]
+    named = [Path(path) for path in paths]
     fixed: dict[Path, None] = {}
+    made: list[Path] = []
     for rounds in reversed(range(_MOST_ROUNDS + 1)):
+        chosen = named + made
+        given = [path for path in chosen if not path.is_dir()]
         stamps = {file: _stamp(file) for path in chosen for file in files_of(path)} if fix else {}
         checker = Checker(domains, domain, problems, given)
         for path in chosen:
@@ -175,6 +139,7 @@ def check_paths(
         if not (changed or stale):
             break
         fixed |= dict.fromkeys(changed)
+        made += [file for file in changed if file not in checker.files]
     return CheckReport(tuple(checker.files), tuple(checker.findings.sorted()), tuple(fixed))
 
 
@@ -200,8 +165,11 @@ def _fix(checker: Checker, stamps: Mapping[Path, tuple[int, int, int] | None]) -
     """
     by_file: dict[Path, list[Diagnostic]] = {}
     for diagnostic in checker.findings.sorted():
-        if diagnostic.code in FIXABLE:
-            by_file.setdefault(Path(diagnostic.location.file), []).append(diagnostic)
+        new = {Path(edit.start.file) for edit in diagnostic.edits if not edit.start.line}
+        if not any(path.exists() for path in new):
+            files = {Path(diagnostic.location.file), *(Path(edit.start.file) for edit in diagnostic.edits)}
+            for file in files:
+                by_file.setdefault(file, []).append(diagnostic)
     changed, stale = [], False
     for file, diagnostics in sorted(by_file.items()):
         text = fix_file(file, diagnostics)

@@ -62,6 +62,25 @@ overwrite_option = click.option(
 )
 
 
+def named_files(
+    files: tuple[str, ...], environment: str | None, domain: str | None, option: str = "--environment"
+) -> tuple[str, str | None]:
+    """Return an environment or problem, and its domain, of the arguments ``[[DOMAIN] PROBLEM]`` or of the options.
+
+    Raises:
+        click.UsageError: One of them is named twice, or there is no environment.
+    """
+    if len(files) > 2 or (files and environment) or (len(files) == 2 and domain):
+        raise click.UsageError(f"name each file once: DOMAIN PROBLEM, or --domain and {option}")
+    if files:
+        environment = files[-1]
+        domain = files[0] if len(files) == 2 else domain
+    if environment is None:
+        raise click.UsageError(f"Missing {'option ' if option[0] == '-' else ''}'{option}'.")
+    return environment, domain
+
+
+files_argument = click.argument("files", nargs=-1, metavar="[[DOMAIN] PROBLEM]")
 environment_option = click.option(
     "--environment",
     required=True,

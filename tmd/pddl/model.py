@@ -53,6 +53,10 @@ class TypedName:
     types: tuple[str, ...] = (OBJECT,)
     location: Location | None = field(default=None, compare=False, repr=False)
 
+    def typed(self) -> str:
+        """Return ``name - type`` as it is declared; the name alone where it has no type."""
+        return self.name if self.types in ((), (OBJECT,)) else f"{self.name} - {self.types[0]}"
+
 
 @dataclass(frozen=True, slots=True)
 class TypeDeclaration:

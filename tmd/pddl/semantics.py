@@ -15,7 +15,6 @@ from tmd.pddl.model import (
     ActionSchema,
     And,
     Atom,
-    Effect,
     Equals,
     Exists,
     Forall,
@@ -29,7 +28,6 @@ from tmd.pddl.model import (
     State,
     TypedName,
     Universe,
-    conjuncts,
     free_variables,
     parts_of,
     universe,
@@ -90,9 +88,9 @@ def _holds(formula: Formula, state: State, objects: Universe, binding: Binding) 
         case Imply(left, right):
             return not _holds(left, state, objects, binding) or _holds(right, state, objects, binding)
         case Forall(parameters, part):
-            return all(_holds(part, state, objects, b) for b in bindings(parameters, objects, binding))
+            return not _some(parameters, _signed(part, False), state, objects, binding)
         case Exists(parameters, part):
-            return any(_holds(part, state, objects, b) for b in bindings(parameters, objects, binding))
+            return _some(parameters, _signed(part, True), state, objects, binding)
 
 
 def size(formula: Formula, objects: Universe) -> int:
@@ -167,7 +165,7 @@ def apply(instruction: Instruction, state: State, problem: Problem) -> State:
     added: set[GroundAtom] = set()
     deleted: set[GroundAtom] = set()
     for effect in schema_of(problem, instruction).effects:
-        for binding in _satisfying(effect, state, objects, outer):
+        for binding in solutions(effect.parameters, effect.condition, state, objects, outer):
             (added if effect.positive else deleted).add(instantiate(effect.atom, binding))
     return close((state - deleted) | added, problem)
 
@@ -181,56 +179,175 @@ def close(state: State, problem: Problem) -> State:
     names = {axiom.head.predicate for axiom in axioms}
     found = frozenset(atom for atom in state if atom.predicate not in names)
     for stratum in strata(axioms) or ():
-        rules = [Effect(axiom.head, True, axiom.condition, axiom.parameters) for axiom in stratum]
         before = None
         while found != before:
             before = found
-            new = {instantiate(r.atom, binding) for r in rules for binding in _satisfying(r, found, objects, {})}
-            found |= new
+            found |= {
+                instantiate(axiom.head, binding)
+                for axiom in stratum
+                for binding in solutions(axiom.parameters, axiom.condition, found, objects, {})
+            }
     return found
 
 
-def _satisfying(effect: Effect, state: State, objects: Universe, outer: Binding) -> list[Binding]:
-    """Return the bindings of the effect's parameters under which its condition holds.
-
-    Each conjunct is tested as soon as its variables are bound, which spares most combinations of objects; atoms come
-    first, because they are looked up without writing out a binding.
-    """
-    found = [outer]
-    for parameter, atoms, tests in _stages(effect):
-        if parameter:
-            name, values = parameter.name, objects.of(parameter.types)
-            found = [{**b, name: o} for b in found for o in _standing(atoms, name, values, state, b)]
-        found = [b for b in found if all(_holds(test, state, objects, b) for test in tests)]
-    return found
-
-
-def _standing(atoms: Sequence[Atom], name: str, values: Iterable[str], state: State, binding: Binding) -> Iterable[str]:
-    """Return the values of the parameter ``name`` for which the atoms are in ``state``."""
-    for atom in atoms:
-        predicate, terms = atom.predicate, [None if t == name else binding.get(t, t) for t in atom.terms]
-        values = [value for value in values if GroundAtom(predicate, tuple([t or value for t in terms])) in state]
-    return values
+_Part: TypeAlias = tuple[Formula, bool, frozenset[str]]
+"""A condition, whether it holds, and its free variables."""
+_Signed: TypeAlias = tuple[_Part, ...]
+"""Conditions that hold or do not hold together."""
 
 
 @lru_cache(maxsize=4096)
-def _stages(effect: Effect) -> tuple[tuple[TypedName | None, tuple[Atom, ...], tuple[Formula, ...]], ...]:
-    """Return the effect's parameters, each with the atoms and the other conjuncts that it completes.
+def _signed(formula: Formula, wanted: bool) -> _Signed:
+    """Return the conjuncts of ``formula``, or of its negation where it is not ``wanted``."""
+    match formula:
+        case Not(part):
+            return _signed(part, not wanted)
+        case And(parts) if wanted:
+            return tuple(inner for part in parts for inner in _signed(part, True))
+        case Or(parts) if not wanted:
+            return tuple(inner for part in parts for inner in _signed(part, False))
+        case Imply(left, right) if not wanted:
+            return _signed(left, True) + _signed(right, False)
+    return ((formula, wanted, free_variables(formula)),)
 
-    The first stage is without a parameter, and has all its conjuncts among the others.
+
+def _alternatives(formula: Formula, wanted: bool) -> list[_Signed]:
+    """Return the cases of a disjunction; none for any other formula."""
+    match formula:
+        case Or(parts) | And(parts) if isinstance(formula, Or) == wanted:
+            return [_signed(part, wanted) for part in parts]
+        case Imply(left, right) if wanted:
+            return [_signed(left, False), _signed(right, True)]
+    return []
+
+
+class _Facts:
+    """The atoms of a state, found by their predicate and one of their arguments."""
+
+    def __init__(self, state: State) -> None:
+        self.rows: dict[str, list[GroundAtom]] = {}
+        for atom in state:
+            self.rows.setdefault(atom.predicate, []).append(atom)
+        self._with: dict[tuple[str, int], dict[str, list[GroundAtom]]] = {}
+
+    def matching(self, atom: Atom, binding: Binding) -> Sequence[GroundAtom]:
+        """Return the atoms that agree with one of the bound arguments of ``atom``: the fewest."""
+        found: Sequence[GroundAtom] = self.rows.get(atom.predicate, ())
+        for place, term in enumerate(atom.terms):
+            value = binding.get(term, term)
+            if found and not value.startswith("?"):
+                found = min(found, self._column(atom.predicate, place).get(value, ()), key=len)
+        return found
+
+    def _column(self, predicate: str, place: int) -> Mapping[str, Sequence[GroundAtom]]:
+        column = self._with.get((predicate, place))
+        if column is None:
+            column = self._with[predicate, place] = {}
+            for atom in self.rows[predicate]:
+                column.setdefault(atom.args[place], []).append(atom)
+        return column
+
+
+_facts = lru_cache(maxsize=8)(_Facts)
+
+
+def _some(parameters: Sequence[TypedName], parts: _Signed, state: State, objects: Universe, binding: Binding) -> bool:
+    """Return whether some choice of objects for ``parameters`` makes all ``parts`` true.
+
+    Parts without a common parameter are looked at one after another.
     """
-    own = {p.name for p in effect.parameters}
-    waiting = [(free_variables(part) & own, part) for part in conjuncts(effect.condition)]
-    stages: list[tuple[TypedName | None, tuple[Atom, ...], tuple[Formula, ...]]] = []
-    bound: set[str] = set()
-    for parameter in (None, *effect.parameters):
-        if parameter:
-            bound.add(parameter.name)
-        ready = [part for needed, part in waiting if needed <= bound]
-        atoms = tuple(part for part in ready if parameter and isinstance(part, Atom))
-        stages.append((parameter, atoms, tuple(part for part in ready if part not in atoms)))
-        waiting = [(needed, part) for needed, part in waiting if not needed <= bound]
-    return tuple(stages)
+    binding = _without(binding, parameters)
+    names = {p.name for p in parameters}
+    if not _agree([part for part in parts if part[2].isdisjoint(names)], state, objects, binding):
+        return False
+    groups = _groups(parameters, [part for part in parts if not part[2].isdisjoint(names)])
+    return all(_some_of_group(own, group, state, objects, binding) for own, group in groups)
+
+
+def _without(binding: Binding, parameters: Sequence[TypedName]) -> Binding:
+    """Return ``binding`` without what it says of ``parameters``, which a quantifier binds again."""
+    hidden = {p.name for p in parameters if p.name in binding}
+    return {name: value for name, value in binding.items() if name not in hidden} if hidden else binding
+
+
+def _agree(parts: Iterable[_Part], state: State, objects: Universe, binding: Binding) -> bool:
+    return all(_holds(formula, state, objects, binding) == wanted for formula, wanted, _ in parts)
+
+
+def _some_of_group(
+    parameters: Sequence[TypedName], parts: _Signed, state: State, objects: Universe, binding: Binding
+) -> bool:
+    """Return whether there is a solution of parts that share parameters: case by case, or value by value."""
+    cases = _alternatives(*parts[0][:2]) if len(parts) == 1 else []
+    if cases:
+        return any(_some(parameters, case, state, objects, binding) for case in cases)
+    return any(
+        _some(tuple(p for p in parameters if p.name not in more), parts, state, objects, more)
+        for more in _extended(parameters, parts, state, objects, binding)
+    )
+
+
+def _groups(parameters: Sequence[TypedName], parts: Sequence[_Part]) -> list[tuple[list[TypedName], _Signed]]:
+    """Divide parameters, with their parts, into those that no part connects."""
+    groups: list[tuple[list[TypedName], _Signed]] = [([p], ()) for p in parameters]
+    for part in parts:
+        joined = [group for group in groups if any(p.name in part[2] for p in group[0])]
+        groups = [group for group in groups if group not in joined]
+        own = [p for group in joined for p in group[0]]
+        groups.append((own, (*(inner for group in joined for inner in group[1]), part)))
+    return groups
+
+
+def _extended(
+    parameters: Sequence[TypedName], parts: _Signed, state: State, objects: Universe, binding: Binding
+) -> Iterator[Binding]:
+    """Yield ``binding`` with more parameters bound: those of the atom that the fewest atoms of the state match.
+
+    Without such an atom it is the first parameter, with each object of its types.
+    """
+    types = {p.name: p.types for p in parameters}
+    atoms = [f for f, wanted, names in parts if wanted and isinstance(f, Atom) and not names.isdisjoint(types)]
+    if not atoms:
+        yield from bindings((parameters[0],), objects, binding)
+        return
+    facts = _facts(state)
+    rows, atom = min(((facts.matching(atom, binding), atom) for atom in atoms), key=lambda pair: len(pair[0]))
+    for row in rows:
+        found = _unified(atom, row, binding)
+        if found and all(objects.is_a(found[term], types[term]) for term in atom.terms if term in types):
+            yield found
+
+
+def _unified(atom: Atom, fact: GroundAtom, binding: Binding) -> Binding | None:
+    """Return ``binding`` extended so that ``atom`` is ``fact``; ``None`` where that contradicts it."""
+    found = dict(binding)
+    for term, value in zip(atom.terms, fact.args, strict=True):
+        if (found.setdefault(term, value) if term.startswith("?") else term) != value:
+            return None
+    return found
+
+
+def solutions(
+    parameters: Sequence[TypedName], condition: Formula, state: State, objects: Universe, outer: Binding
+) -> list[Binding]:
+    """Return ``outer`` extended by each choice of objects for ``parameters`` for which ``condition`` holds.
+
+    Its atoms are joined, so the number of combinations counts only where they do not restrict it.
+    """
+    found: list[Binding] = []
+    waiting = [(tuple(parameters), _signed(condition, True), _without(outer, parameters))]
+    while waiting:
+        unbound, parts, binding = waiting.pop()
+        names = {p.name for p in unbound}
+        if not _agree([part for part in parts if part[2].isdisjoint(names)], state, objects, binding):
+            continue
+        if not unbound:
+            found.append(binding)
+            continue
+        rest = tuple(part for part in parts if not part[2].isdisjoint(names))
+        for more in _extended(unbound, rest, state, objects, binding):
+            waiting.append((tuple(p for p in unbound if p.name not in more), rest, more))
+    return found
 
 
 def cost(instruction: Instruction, problem: Problem) -> int:
@@ -283,13 +400,26 @@ def _first_false(formula: Formula, state: State, objects: Universe, binding: Bin
         found = (_first_false(p, state, objects, binding, wanted) for p in formula.parts)
         return next((b for b in found if b), None)
     if isinstance(formula, Forall if wanted else Exists):
-        inner = bindings(formula.parameters, objects, binding)
-        return next((b for b in (_first_false(formula.part, state, objects, x, wanted) for x in inner) if b), None)
+        inner = _first_solution(formula.parameters, _signed(formula.part, not wanted), state, objects, binding)
+        return _first_false(formula.part, state, objects, inner, wanted) if inner is not None else None
     if _holds(formula, state, objects, binding) == wanted:
         return None
     atom = instantiate(formula, binding) if isinstance(formula, Atom) else None
     text = format_formula(formula, binding)
     return Broken(text if wanted else f"(not {text})", atom, wanted)
+
+
+def _first_solution(
+    parameters: Sequence[TypedName], parts: _Signed, state: State, objects: Universe, binding: Binding
+) -> Binding | None:
+    """Return the first choice of objects, in the order of their declaration, that makes all ``parts`` true."""
+    if not _some(parameters, parts, state, objects, binding):
+        return None
+    found = dict(binding)
+    for number, parameter in enumerate(parameters, start=1):
+        values = ({**found, parameter.name: name} for name in objects.of(parameter.types))
+        found = next(more for more in values if _some(parameters[number:], parts, state, objects, more))
+    return found
 
 
 def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:

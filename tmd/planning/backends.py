@@ -16,7 +16,7 @@ from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.planning.fast_downward import binaries, fast_downward, first_plan_of_gap
 from tmd.planning.kairos import kairos
-from tmd.planning.processes import Deadline, memory_limit
+from tmd.planning.processes import Deadline, TimeIsUpError, limited, memory_limit
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved, Unreachable, filled
 from tmd.planning.up_planners import EngineSpec, fast_downward_engine, require_unified_planning, solve_with_engine
 
@@ -255,6 +255,7 @@ def solve(
     optimal: bool = False,
     seconds: float | None = None,
     memory: int | None = None,
+    deadline: Deadline | None = None,
 ) -> Solution:
     """Solve a whole PDDL problem, from its initial state to its goal.
 
@@ -265,6 +266,7 @@ def solve(
         seconds: The limit of time, :data:`TIME_LIMIT` by default. The search in this process has a cap of states too.
         memory: The limit in bytes, for each planner process, and for the search in this process beyond the memory that
             it has already; ``None`` for most of the machine's memory.
+        deadline: Both limits, instead, where the time has begun before.
 
     Raises:
         TmdError: There is no such planner, it does not take the problem, or (in this process) that cannot be
@@ -272,7 +274,12 @@ def solve(
         MissingToolError: The planner is not installed.
         PlannerError: The planner died, or its plan is not valid.
     """
-    answer = _solution(problem, planner, optimal, Deadline(TIME_LIMIT if seconds is None else seconds, memory))
+    deadline = deadline or Deadline(TIME_LIMIT if seconds is None else seconds, memory)
+    try:
+        with limited(deadline):
+            answer = _solution(problem, planner, optimal, deadline)
+    except TimeIsUpError:
+        answer = GaveUp(f"{deadline.seconds:g} s")
     if optimal and isinstance(answer, Solved) and not answer.optimal:
         return GaveUp(f"a plan of cost {answer.cost} that {planner} did not prove to be optimal")
     return answer

@@ -18,7 +18,7 @@ from tmd.diagnostics import LimitError, MissingToolError, TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.processes import Deadline, PlannerProcess, Prover, ending, unnamed_file
+from tmd.planning.processes import Deadline, PlannerProcess, Prover, ending, memory_limit, unnamed_file
 from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
 
 NAME = "Fast Downward"
@@ -158,7 +158,7 @@ def _answer(
     code = process.wait(deadline)
     if code == 0:
         plan.seek(0)
-        return checked(problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL)
+        return checked(problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL, deadline)
     limit = _limit(code, process, deadline)
     if limit is not None:
         return GaveUp(f"{limit} of {NAME}")
@@ -219,8 +219,8 @@ def texts_for_planners(problem: Problem) -> tuple[IO[bytes], IO[bytes]]:
     return unnamed_file(format_domain(plain.domain).encode()), unnamed_file(format_problem(plain).encode())
 
 
-def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool) -> Solved:
-    """Read and execute the plan that a planner wrote.
+def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool, deadline: Deadline) -> Solution:
+    """Read and execute the plan that a planner wrote, within the memory of ``deadline``.
 
     Raises:
         PlannerError: It cannot be read, or does not work.
@@ -232,7 +232,11 @@ def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool)
         plan = parse_plan(text).instructions
     except TmdError as error:
         raise process.failed(f"wrote what is no plan ({error.message})") from error
-    verdict = validate(problem, plan)
+    try:
+        with memory_limit(deadline.memory):
+            verdict = validate(problem, plan)
+    except MemoryError:
+        return GaveUp(f"{deadline.memory_limit()} while the plan of {process.name} was checked")
     if not verdict.valid:
         raise process.failed(f"gave a plan that does not work ({verdict.reason})")
     return Solved(plan, verdict.cost, optimal)

@@ -43,7 +43,7 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
             match process.wait(later):
                 case 0:
                     last = _BETTER.split(process.output())[-1]
-                    return checked(problem, last, process, _PROVEN in process.log())
+                    return checked(problem, last, process, _PROVEN in process.log(), deadline)
                 case None | 11:
                     return GaveUp(f"{deadline.seconds:g} s of {NAME}")
                 case 10:

@@ -13,6 +13,7 @@ import resource
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
@@ -25,7 +26,7 @@ from typing import IO
 
 import psutil
 
-from tmd.diagnostics import PlannerError
+from tmd.diagnostics import LimitError, PlannerError
 from tmd.pddl.model import Problem
 
 MEGABYTE = 1 << 20
@@ -201,6 +202,39 @@ def memory_limit(memory: int | None) -> Iterator[None]:
         yield
     finally:
         resource.setrlimit(resource.RLIMIT_AS, before)
+
+
+class TimeIsUpError(LimitError):
+    """The time of :func:`limited` is over."""
+
+
+# Seconds that the planner processes get to end at their deadline themselves, before this process is stopped.
+_GRACE = 1.0
+
+
+@contextmanager
+def limited(deadline: Deadline) -> Iterator[None]:
+    """Limit what the main thread does, such as reading and replay, to the time of ``deadline``.
+
+    Other threads get no signals, and are not limited.
+
+    Raises:
+        TimeIsUpError: The deadline has passed.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+
+    def stop(*_: object) -> None:
+        raise TimeIsUpError(f"not done within {deadline.seconds:g} s", hint="raise --time-limit")
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, min(deadline.left() + _GRACE, threading.TIMEOUT_MAX))
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
 
 
 def _limit(kind: int, most: int) -> None:

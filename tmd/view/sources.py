@@ -106,6 +106,8 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
         TmdError: It is of no kind that is known, or something in it or around it is wrong.
         OptionError: An option has no meaning for this kind.
     """
+    if asked.problem == asked.path:
+        return _planned(roots, asked)
     if asked.source != STANDARD and asked.path.is_dir():
         raise TmdError(f"{asked.source} is a directory", hint=_KINDS.replace("give", "give a file:", 1))
     text = read_standard_input() if asked.source == STANDARD else read_text(asked.path)
@@ -114,6 +116,22 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
         raise TmdError(f"{asked.name} is empty", hint=_KINDS)
     of_json = lines[0][1].lstrip().startswith(("{", "["))
     return _of_json(roots, asked, text, lines) if of_json else _plan_found(roots, asked, text)
+
+
+def _planned(roots: Roots, asked: ViewRequest) -> FoundSubject:
+    """Return a problem with a plan that is found for it."""
+    from tmd.planning.backends import solve
+    from tmd.planning.result import Solved
+
+    problem = roots.problem(asked.path, asked.domain)
+    answer = solve(problem)
+    if not isinstance(answer, Solved):
+        raise TmdError(
+            f"{asked.name}: no plan was found to show", hint=f"tmd plan {asked.domain or 'DOMAIN'} {asked.name}"
+        )
+    steps = tuple(PlannedStep(instruction) for instruction in answer.plan)
+    where = {"problem": asked.problem, "domain": problem.domain.name}
+    return FoundSubject(Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where)))
 
 
 def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> FoundSubject:

@@ -76,8 +76,8 @@ def compile_domain(folder: DomainFolder) -> str:
     lines = text.split("\n")
     insertions = []
     for section, added in ((":types", types), (":constants", constants)):
-        group = next((g for g in document.groups[0].parts[1:] if getattr(g, "head", "") == section), None)
-        if group is None or not hasattr(group, "end"):
+        group = document.source.sections.get(section)
+        if group is None:
             raise TmdError(f"{path}: has no ({section} …) for objects.yaml to add to", hint=f"write ({section})")
         insertions.append((group.end, added, section))
     for end, added, section in sorted(insertions, key=lambda item: item[0], reverse=True):

@@ -25,25 +25,34 @@ if TYPE_CHECKING:
     from tmd.world.classes import Classes
 
 
+DOMAIN_FILE = "domain.pddl"
+
+
 @dataclass(frozen=True)
 class DomainFolder:
-    """A domain's folder, and what it holds, read when first asked for."""
+    """A domain's folder, and what it holds, read when first asked for.
+
+    Attributes:
+        path: The folder.
+        file: The name of the domain's file, where it is another than the usual one.
+    """
 
     path: Path
+    file: str = DOMAIN_FILE
 
     @property
     def name(self) -> str:
-        """The folder's name, which is the domain's."""
-        return self.path.name
+        """The folder's name, which is the domain's; of another file than the usual one the name of that."""
+        return self.path.name if self.file == DOMAIN_FILE else Path(self.file).stem
 
     @cached_property
     def domain(self) -> Domain:
-        """``domain.pddl``.
+        """The PDDL domain.
 
         Raises:
             TmdError: It is missing or wrong.
         """
-        return read_domain(self.path / "domain.pddl")
+        return read_domain(self.path / self.file)
 
     @cached_property
     def classes(self) -> Classes:

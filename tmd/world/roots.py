@@ -32,17 +32,14 @@ class Roots:
     problems: Path | None = None
 
     def folder(self, name: str) -> DomainFolder:
-        """Return the domain ``name``, or the one in the directory, or of the ``domain.pddl``, at that path.
+        """Return the domain ``name``, or the one in a file or directory where it is written as a path.
 
         Raises:
             TmdError: There is none.
         """
         path = Path(name)
-        if path.is_file():
-            if path.name != _DOMAIN_FILE:
-                raise TmdError(f"{name} is not a domain folder", hint=f"put the file into a folder as {_DOMAIN_FILE}")
-            path = path.resolve().parent
-            return find_domain(path.name, path.parent)
+        if path.suffix == ".pddl":
+            return DomainFolder(path.absolute().parent, path.name)
         if _is_path(name) and path.is_dir():
             return find_domain(path.resolve().name, path.resolve().parent)
         return find_domain(name, self.domains)
@@ -84,13 +81,19 @@ class Roots:
     def problem(self, path: Path, domain: str | None = None) -> Problem:
         """Return a PDDL problem with its domain.
 
-        That is the one that was asked for, or else that of :func:`tmd.world.problem_domain.find_domain_file`.
+        That is the one that was asked for, or else that of :meth:`of_problem`.
 
         Raises:
             TmdError: One of them is missing or wrong.
         """
-        if domain is not None:
-            return read_problem(path, self.domain(domain))
+        return read_problem(path, self.domain(domain) if domain is not None else self.of_problem(path).domain)
+
+    def of_problem(self, path: Path) -> DomainFolder:
+        """Return the domain of a PDDL problem, by :func:`tmd.world.problem_domain.find_domain_file`.
+
+        Raises:
+            TmdError: There is none, or several.
+        """
         name = domain_named_in(read_text(path))
         found = find_domain_file(path, name, self.domains)
         if found.others or not name:
@@ -100,7 +103,7 @@ class Roots:
                 location=Location(str(path), 1, 1),
                 hint="give --domain NAME or FILE, or write (:domain NAME)",
             )
-        return read_problem(path, read_domain(found.file) if found.file else self.folder(name).domain)
+        return self.folder(str(found.file) if found.file else name)
 
     def path(self, name: str) -> Path:
         """Return the file or directory of that name; where there is none, the folder of the domain of that name.
@@ -166,18 +169,8 @@ class Roots:
                 domain = load_environment(path).domain
             elif path.parent.name == "environments":
                 domain = path.parent.parent.name
-            else:
-                domain = self._domain_of(path)
-        corpus = self.corpus(self.folder(domain))
+        corpus = self.corpus(self.of_problem(path) if domain is None else self.folder(domain))
         return corpus, corpus.world(path.stem if path == corpus.directory / "environments" / path.name else path)
-
-    def _domain_of(self, problem: Path) -> str:
-        """Return the ``domain.pddl`` of a PDDL problem, which the same rule finds as for other commands."""
-        found = find_domain_file(problem, domain_named_in(read_text(problem)), self.domains).file
-        if found is None or found.name != _DOMAIN_FILE:
-            hint = f"give --domain NAME, or put the domain beside it as {_DOMAIN_FILE}"
-            raise TmdError(f"{problem}: the domain of this PDDL problem was not found", hint=hint)
-        return str(found)
 
     def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:
         """Return an environment of which the robot's scene can be built, and its domain.

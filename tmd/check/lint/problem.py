@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from math import prod
 from pathlib import Path
 
 from tmd.check.lint.domain import said_twice
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import Edit, TmdError
 from tmd.pddl.derived import as_actions
 from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, Reachability, Rule
 from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import (
     ActionSchema,
+    And,
     Atom,
     Domain,
     Effect,
@@ -24,7 +25,8 @@ from tmd.pddl.model import (
     conjuncts,
     universe,
 )
-from tmd.pddl.reading.syntax import Source, read_text, split_lines
+from tmd.pddl.reading.syntax import Group, Node, Source, Word, after, read_text, replaced, split_lines
+from tmd.pddl.semantics import instantiate, solutions
 from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
 from tmd.planning.unsolvable import reachable, relaxed_literals, unreachable_reason
@@ -147,10 +149,63 @@ def types_of(parameters: Iterable[TypedName]) -> dict[str, tuple[str, ...]]:
 def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
     """Return the warnings for a problem that has no faults."""
     return [
+        *_constants_again(problem, source),
+        *_costs_missing(problem, source),
         *said_twice(problem.goal, "the goal", source),
         *lint_cases(problem),
         *(_contradictory_goal(problem, source) or _goal_holds(problem, source) or _unreachable(problem, source)),
     ]
+
+
+def _constants_again(problem: Problem, source: Source) -> Iterator[TmdError]:
+    """Yield a warning on constants of the domain that are listed as objects."""
+    constants = {constant.name for constant in problem.domain.constants}
+    again = [o for o in problem.objects if o.name in constants]
+    if again:
+        names = ", ".join(f'"{o.name}"' for o in again)
+        message = f"constants of the domain stand here again, which other planners refuse: {names}"
+        edits = list(_removals(source.sections[":objects"], {o.name for o in again}))
+        yield source.error(message, again[0].location, "remove them here", "constant-again", edits)
+
+
+def _removals(section: Group, names: set[str]) -> Iterator[Edit]:
+    """Yield the edits that remove names from a typed list, and the types that are left without names."""
+    listed: list[Word] = []
+    parts = iter(section.parts[1:])
+    for part in parts:
+        if isinstance(part, Word) and part.text != "-":
+            listed.append(part)
+        else:
+            yield from _removed(listed, names, next(parts, None))
+            listed = []
+    yield from _removed(listed, names, None)
+
+
+def _removed(listed: Sequence[Word], names: set[str], kind: Node | None) -> Iterator[Edit]:
+    gone = [word for word in listed if word.text in names]
+    if gone and kind and len(gone) == len(listed):
+        yield Edit(gone[0].location, after(kind))
+    else:
+        yield from (replaced(word, "") for word in gone)
+
+
+def _costs_missing(problem: Problem, source: Source) -> Iterator[TmdError]:
+    """Yield a warning for each action whose cost has no value where nothing that never changes forbids the action."""
+    changed = {effect.atom.predicate for action in as_actions(problem.domain).actions for effect in action.effects}
+    objects = universe(problem)
+    for action in problem.domain.actions if problem.minimize_cost else ():
+        lasting = [p for p in conjuncts(action.precondition) if isinstance(p, Atom) and p.predicate not in changed]
+        bound = {term for atom in lasting for term in atom.terms}
+        free = prod(len(objects.of(p.types)) for p in action.parameters if p.name not in bound)
+        if not isinstance(action.cost, Atom) or free > _MOST_GROUND:
+            continue
+        found = solutions(action.parameters, And(tuple(lasting)), problem.init, objects, {})
+        missing = sorted({instantiate(action.cost, binding) for binding in found} - problem.function_values.keys())
+        if missing:
+            more = f" (nor have {len(missing) - 1} others)" if len(missing) > 1 else ""
+            message = f'{missing[0]} has no value{more}, and action "{action.name}" needs it'
+            place = problem.metric_location or problem.location
+            yield source.error(message, place, f"add (= {missing[0]} 1) to :init", "cost-missing")
 
 
 def _contradictory_goal(problem: Problem, source: Source) -> list[TmdError]:

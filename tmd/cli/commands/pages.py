@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.options import PATH, learned_option
+from tmd.cli.options import PATH, learned_option, named_files
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
 from tmd.world.roots import Roots
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @click.command("view", short_help="Write one HTML page of a plan or a run.")
-@click.argument("source", metavar="PLAN|RUN")
+@click.argument("paths", nargs=-1, required=True, metavar="[[DOMAIN] PROBLEM] [PLAN|RUN]")
 @click.option("--environment", metavar="FILE|NAME", help="Where: for a plan file, or instead of what a file names.")
 @click.option("--problem", type=PATH, metavar="FILE", help="Of a plan file: its PDDL problem.")
 @click.option(
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 @click.pass_obj
 def view(
     roots: Roots,
-    source: str,
+    paths: tuple[str, ...],
     environment: str | None,
     problem: Path | None,
     domain_name: str | None,
@@ -36,16 +36,22 @@ def view(
     """Write one HTML page: the request, its goals, the plan step by step, and the candidates.
 
     PLAN|RUN is what "tmd ground --json" or "tmd run --json" printed, a log of "tmd run", or a plan file (with --problem
-    or --environment); - is standard input, as in "tmd ground ... --json | tmd view -". Ends with 11 where the plan does
-    not work and with 12 where there is none; the page is written all the same.
+    or --environment, or after DOMAIN and PROBLEM); - is standard input, as in "tmd ground ... --json | tmd view -". For
+    DOMAIN and PROBLEM alone a plan is found. Ends with 11 where the plan does not work and with 12 where there is none;
+    the page is written all the same.
     """
     from tmd.files import write_text
     from tmd.view.page import render
     from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
+    files = tuple(paths) if paths[-1].endswith(".pddl") else paths[:-1]
+    source = paths[-1]
+    if files:
+        where, domain_name = named_files(files, str(problem) if problem else environment, domain_name, "--problem")
+        problem = Path(where)
     found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem))
     target = out or (STANDARD if source == STANDARD else str(Path(source).with_suffix(".html")))
-    for path in (source, problem):
+    for path in (source, problem, domain_name):
         if path is not None and target != STANDARD and Path(target).resolve() == Path(path).resolve():
             raise click.UsageError(f"the page would overwrite {path}: give another --out")
     page = render(found.subject)

@@ -16,6 +16,7 @@ from tmd.cli.options import (
     json_option,
     limit_options,
     name_list,
+    named_files,
     overwrite_option,
     reading_options,
     text_options,
@@ -50,7 +51,8 @@ def plan(
     optimal: bool,
     output: Path | None,
     as_json: bool,
-    **limits: Any,  # noqa: ANN401 - arguments of solve
+    seconds: float | None,
+    memory: int | None,
 ) -> ExitCode:
     """Find a plan for PROBLEM, one (action argument ...) a line.
 
@@ -60,12 +62,15 @@ def plan(
     """
     from tmd.cli.plans import answer_json, exit_code, plan_text, why_none
     from tmd.pddl.reading.reader import read_problem
-    from tmd.planning.backends import AUTO, solve
+    from tmd.planning.backends import AUTO, TIME_LIMIT, solve
+    from tmd.planning.processes import Deadline, limited, memory_limit
     from tmd.planning.result import Solved
 
     name = planner or AUTO
-    wanted = read_problem(problem, roots.domain(domain))
-    answer = solve(wanted, name, optimal=optimal, **limits)
+    deadline = Deadline(TIME_LIMIT if seconds is None else seconds, memory)
+    with limited(deadline), memory_limit(memory):
+        wanted = read_problem(problem, roots.domain(domain))
+    answer = solve(wanted, name, optimal=optimal, deadline=deadline)
     if isinstance(answer, Solved) and output:
         from tmd.files import write_text
 
@@ -144,8 +149,7 @@ def _read(roots: Roots, domain: str, name: str) -> Problem:
 
 
 @click.command("export", short_help="Write a problem and its plan for other tools.")
-@click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json")
-@click.argument("directory", type=PATH, metavar="DIR")
+@click.argument("paths", nargs=-1, required=True, metavar="[DOMAIN] PROBLEM|ENVIRONMENT|PLAN.json DIR")
 @click.option(
     "--format",
     "formats",
@@ -170,8 +174,8 @@ def _read(roots: Roots, domain: str, name: str) -> Problem:
 def export(
     roots: Roots,
     /,
-    source: str,
-    directory: Path,
+    paths: tuple[str, ...],
+    domain: str | None,
     formats: Sequence[str],
     spoken: GivenText,
     overwrite: bool,
@@ -188,10 +192,13 @@ def export(
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
 
+    *files, target = paths
+    source, domain = named_files(tuple(files), None, domain, "PROBLEM")
+    directory = Path(target)
     check_directory(directory, overwrite=overwrite)
     text = spoken.request() if spoken else None
     try:
-        found = planned_source(roots, source, text=text, **options)
+        found = planned_source(roots, source, domain=domain, text=text, **options)
     except NotPlannedError as none:
         emit(f"{'invalid' if none.code is ExitCode.INVALID_PLAN else 'no plan'}: {none}\n", error=True)
         return none.code

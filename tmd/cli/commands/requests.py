@@ -14,10 +14,11 @@ from tmd.cli.options import (
     GivenText,
     ReadingOptions,
     environment_domain_option,
-    environment_option,
+    files_argument,
     grounding_options,
     json_option,
     learned_option,
+    named_files,
     reading_options,
     text_options,
 )
@@ -47,7 +48,8 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
 
 
 @click.command("ground", short_help="Ground a request in an environment: ranked, validated plans.")
-@environment_option
+@files_argument
+@click.option("--environment", metavar="FILE|NAME", help="An environment (YAML or PDDL), or the name of a bundled one.")
 @text_options
 @environment_domain_option
 @grounding_options
@@ -62,7 +64,8 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
 @click.pass_obj
 def ground(
     roots: Roots,
-    environment: str,
+    files: tuple[str, ...],
+    environment: str | None,
     spoken: GivenText,
     domain_name: str | None,
     options: dict[str, Any],
@@ -73,7 +76,7 @@ def ground(
     goal_only: bool,
     as_json: bool,
 ) -> ExitCode:
-    """Ground a request in an environment: print ranked, validated plans.
+    """Ground a request in an environment, or in the PDDL files DOMAIN and PROBLEM: print ranked, validated plans.
 
     The demonstrations of the domain are learned from once; `tmd list` names the bundled environments. Ends with 12
     where no plan was found, and with 15 where two readings of the request differ and nobody chose one; the plan is then
@@ -86,11 +89,12 @@ def ground(
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
     if ask and spoken.text_file == "-":
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
+    place, domain_name = named_files(files, environment, domain_name)
     request = spoken.request()
     settings = reading.settings() if show_prompt else None
     if show_prompt and settings is None:
         raise click.UsageError("--show-prompt is for --reader llm")
-    corpus, world = roots.world(environment, domain_name)
+    corpus, world = roots.world(place, domain_name)
     if settings is not None:
         from tmd.readers.llm.reader import llm_reader
 
@@ -98,7 +102,7 @@ def ground(
         emit(f"{prompt.system}\n\n{prompt.user}\n")
         return ExitCode.OK
     asking = partial(ask_on_terminal, world.task.problem) if ask else None
-    found = answer(corpus, world, environment, request, reading, ask=asking, **options)
+    found = answer(corpus, world, place, request, reading, ask=asking, **options)
     if as_json:
         emit((found.record.goal_only() if goal_only else found.record).to_value())
     else:
@@ -110,6 +114,7 @@ def ground(
 
 @click.command("test", short_help="Run sentence tests: requests with expected goals.")
 @click.argument("domain", metavar="[DOMAIN]", required=False)
+@click.argument("problem", metavar="[PROBLEM]", required=False)
 @click.option(
     "--cases",
     type=PATH,
@@ -127,6 +132,7 @@ def ground(
 def test(
     roots: Roots,
     domain: str | None,
+    problem: str | None,
     cases: tuple[Path, ...],
     model_name: str,
     guess: bool,
@@ -135,14 +141,14 @@ def test(
     learned: Path | None,
     as_json: bool,
 ) -> ExitCode:
-    """Run the sentence tests of a domain, or those of a file.
+    """Run the sentence tests of a domain, or those of a file; with the PDDL files DOMAIN and PROBLEM all of them there.
 
     A test is a line of JSON: {"id", "domain", "environment", "text", "goal"}; the goal is a PDDL condition that must
     hold at the end of the first plan, or null where the request must be refused. Ends with 1 where a test fails.
     """
     from tmd.evaluation.sentence_tests import report
 
-    tests = _tests(roots, domain, cases)
+    tests = _tests_of_files(domain, problem, cases) if domain and problem else _tests(roots, domain, cases)
     how = {"reader": reading.reader, "llm": reading.settings(), "verify": reading.verify}
     found = _run(roots, tests, learned, {"model": model_name, "guess": guess, "jobs": jobs, **how})
     emit(report(found, reading.reader).to_value() if as_json else _text(found))
@@ -157,6 +163,14 @@ def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[Sent
     if domain:
         return domain_sentences(roots.corpus(roots.folder(domain)).directory)
     return [test for path in cases for test in read_sentences(path)]
+
+
+def _tests_of_files(domain: str, problem: str, cases: Sequence[Path]) -> list[SentenceTest]:
+    """Return the tests of files, or those beside a problem, in this domain and problem."""
+    from tmd.world.sentence_file import domain_sentences, read_sentences
+
+    found = [t for path in cases for t in read_sentences(path)] if cases else domain_sentences(Path(problem).parent)
+    return [test.model_copy(update={"domain": domain, "environment": problem}) for test in found]
 
 
 def _run(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.derived import strata
 from tmd.pddl.model import (
     MOST_LEVELS,
@@ -36,7 +36,7 @@ from tmd.pddl.model import (
     parts_of,
     walk,
 )
-from tmd.pddl.reading.syntax import Source, nearest
+from tmd.pddl.reading.syntax import Source, Word, nearest, shifted
 
 MOST_FAULTS = 250
 """Number of faults after which the rest of a problem is not checked: their places and hints take time."""
@@ -52,7 +52,8 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
     check.axioms()
     for action in domain.actions:
         check.action(action)
-    check.faults.extend(missing_requirements(domain))
+    check.types_missing()
+    check.faults.extend(missing_requirements(domain, None, check.source))
     return _in_order(check.faults, source)
 
 
@@ -72,7 +73,8 @@ def check_problem(problem: Problem, source: Source | None = None) -> list[TmdErr
             check.underived(Atom(atom.predicate, atom.args, place), "at the start")
     check.values(problem)
     check.formula(problem.goal, {})
-    check.faults.extend(missing_requirements(problem.domain, problem))
+    check.types_of_objects_missing()
+    check.faults.extend(missing_requirements(problem.domain, problem, check.source))
     return _in_order(check.faults, source)
 
 
@@ -106,16 +108,47 @@ class _Check:
         self.predicates = {p.name: p for p in domain.predicates}
         self.functions = {f.name: f for f in domain.functions}
         self.derived = {axiom.head.predicate for axiom in domain.derived}
-        self.known_objects = {o.name: o.types for o in objects}
+        self.known_objects: dict[str, tuple[str, ...] | None] = {
+            o.name: o.types if len(o.types) == 1 else None for o in objects
+        }
+        self.of_problem: Problem | None = None
         self.faults: list[TmdError] = []
         self.cyclic: set[str] = set()
         self.two_of_one_name = False
+        self.action_checked: ActionSchema | None = None
+        self.first: dict[object, tuple[TmdError, str, int]] = {}
+        """The first fault of each name, its message, and the number of times that it stands elsewhere."""
+        self.undeclared: dict[str, Location | None] = {}
+        """Types where the domain declares none at all."""
         self.deepest_type: str | None = None
         """The first type with too many ancestors, which is reported once."""
 
-    def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
-        """Add a fault at ``location``."""
-        self.faults.append(TmdError(message, location=location, hint=hint, code=code))
+    def fault(
+        self,
+        message: str,
+        location: Location | None,
+        hint: str | None,
+        code: str,
+        edits: Sequence[Edit] = (),
+        slip: object = None,
+    ) -> None:
+        """Add a fault at ``location``; others of the same ``slip`` are counted with it (:meth:`again`)."""
+        found = TmdError(message, location=location, hint=hint, code=code, edits=edits)
+        self.faults.append(found)
+        if slip is not None:
+            self.first[slip] = found, message, 0
+
+    def again(self, slip: object, location: Location | None, edits: Sequence[Edit] = ()) -> bool:
+        """Return whether this slip has been reported, and count it."""
+        if slip not in self.first:
+            return False
+        found, message, times = self.first[slip]
+        if location and found.location and location < found.location:
+            found.location = location
+        found.edits += tuple(edits)
+        self.first[slip] = found, message, times + 1
+        found.message = f"{message} (and {times + 1} more time{'s' if times else ''})"
+        return True
 
     def declarations(self) -> None:
         """Check types, constants, predicates and functions."""
@@ -148,10 +181,33 @@ class _Check:
 
     def type_known(self, name: str, location: Location | None) -> None:
         """Check that a type is declared; ``location`` is that of the name with this type."""
-        if not self.hierarchy.known(name):
+        if self.hierarchy.known(name):
+            return
+        place = self.source.type_of(location, name)
+        if not self.domain.types:
+            self.undeclared.setdefault(name, place)
+        elif not self.again(("type", name), place):
             names = [OBJECT, *self.hierarchy.parents]
-            place = self.source.type_of(location, name)
-            self.fault(f'unknown type "{name}"', place, nearest(name, names, what="types"), "unknown-type")
+            hint = nearest(name, names, what="types")
+            self.fault(f'unknown type "{name}"', place, hint, "unknown-type", slip=("type", name))
+
+    def types_missing(self) -> None:
+        """Report that the domain uses types and declares none."""
+        if self.undeclared:
+            names = " ".join(self.undeclared)
+            place = min(filter(None, self.undeclared.values()), default=None)
+            hint, edits = f"add (:types {names})", [self.source.declaration(":types", names)]
+            self.fault(f"the domain has no (:types ...) for {names}", place, hint, "missing-section", edits)
+
+    def types_of_objects_missing(self) -> None:
+        """Report that the problem uses types, and neither its domain nor the predicates in it do."""
+        typed = _Check(self.domain, self.domain.constants)
+        typed.declarations()
+        names = [name for name in self.undeclared if name not in typed.undeclared]
+        if names and not typed.undeclared:
+            message = f"the domain has no (:types ...), and its problem uses {', '.join(names)}"
+            hint = f"add (:types {' '.join(names)}) to the domain, or leave the types out here"
+            self.fault(message, self.undeclared[names[0]], hint, "unknown-type")
 
     def no_cycle(self, name: str, location: Location | None) -> None:
         chain = self.hierarchy.ancestors(name)
@@ -159,11 +215,27 @@ class _Check:
         if cycle and self.hierarchy.parents.get(cycle[-1]) == name:
             if name not in self.cyclic:
                 self.cyclic.update(cycle)
-                self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name)), "type-cycle")
+                self.fault(*self.cycle(name, cycle, location), "type-cycle")
         elif len(chain) >= MOST_LEVELS and self.deepest_type is None:
             self.deepest_type = name
             message = f'the type "{name}" has {MOST_LEVELS} ancestors or more'
             self.fault(message, location, "declare fewer levels of types", "nested-too-deeply")
+
+    def cycle(self, name: str, cycle: Sequence[str], location: Location | None) -> tuple[str, Location | None, str]:
+        """Return message, place and hint of a type that is its own ancestor.
+
+        Where it is its own parent, it stands in the list that "- type" ends, perhaps lines below.
+        """
+        dash = self.dash(location)
+        listed = [t.name for t in self.domain.types if t.parent == name and self.dash(t.location) == dash]
+        if len(cycle) > 1 or len(listed) < 2 or dash is None:
+            return f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name))
+        message = f'"- {name}" in line {dash.line} is the parent of {", ".join(listed)}, so of "{name}" itself'
+        return message, location, f'end the types that are not of "{name}" with "- object", and "{name}" too'
+
+    def dash(self, location: Location | None) -> Location | None:
+        """Return the place of the next dash in the list in which a typed name stands."""
+        return next((place for token, place in self.source.tokens(location) if token in ("-", ")")), None)
 
     def one_type(self, declared: TypedName, what: str) -> None:
         for name in declared.types:
@@ -193,6 +265,7 @@ class _Check:
     def action(self, action: ActionSchema) -> None:
         scope = self.parameters(action.parameters, {})
         self.two_of_one_name = len(scope) < len(action.parameters)
+        self.action_checked = action
         self.formula(action.precondition, scope)
         for effect in action.effects:
             self.effect(effect, scope)
@@ -201,7 +274,9 @@ class _Check:
         if action.cost is not None and TOTAL_COST not in self.functions:
             place = action.cost.location if isinstance(action.cost, Atom) else action.location
             hint = f"declare (:functions ({TOTAL_COST}) - number)"
-            self.fault(f'unknown function "{TOTAL_COST}"', place, hint, "unknown-function")
+            if not self.again(TOTAL_COST, place):
+                edits = [self.source.declaration(":functions", f"({TOTAL_COST}) - number")]
+                self.fault(f'unknown function "{TOTAL_COST}"', place, hint, "unknown-function", edits, TOTAL_COST)
 
     def effect(self, effect: Effect, scope: Mapping[str, tuple[str, ...]]) -> None:
         inner = self.parameters(effect.parameters, scope)
@@ -245,21 +320,20 @@ class _Check:
         """Check predicate or function, number of arguments, and the type of each."""
         signature = signatures.get(atom.predicate)
         if signature is None:
-            hint = nearest(atom.predicate, list(signatures), what=f"{what}s")
-            self.fault(f'unknown {what} "{atom.predicate}"', self.word(atom, 0), hint, f"unknown-{what}")
-            for number, term in enumerate(atom.terms, start=1):
-                self.term(term, scope, atom.location, number)
+            self.unknown(atom, scope, list(signatures), what)
             return
         shown = f"({' '.join((signature.name, *(p.name for p in signature.parameters)))})"
         if len(atom.terms) != len(signature.parameters):
-            self.fault(
-                f'{what} "{atom.predicate}" takes {len(signature.parameters)} argument(s), found {len(atom.terms)}',
-                atom.location,
-                f"declared as {shown}",
-                "wrong-arity",
-            )
+            slip = "arity", atom.predicate, len(atom.terms)
+            message = f"takes {len(signature.parameters)} argument(s), found {len(atom.terms)}"
+            if not self.again(slip, atom.location):
+                message = f'{what} "{atom.predicate}" {message}'
+                self.fault(message, atom.location, f"declared as {shown}", "wrong-arity", slip=slip)
             return
-        types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
+        types = [
+            self.term(term, scope, atom.location, number, signature.parameters[number - 1].types)
+            for number, term in enumerate(atom.terms, start=1)
+        ]
         wrong = [n for n, given in enumerate(types) if not self.may_fit(signature.parameters[n], given)]
         swapped = self.swapped(signature, types, wrong)
         if swapped:
@@ -272,12 +346,51 @@ class _Check:
             return
         for number in wrong:
             term, parameter, given = atom.terms[number], signature.parameters[number], types[number] or ()
-            self.fault(
-                f'"{term}" is of type {_either(given)}, {parameter.name} of {shown} needs {_either(parameter.types)}',
-                self.word(atom, number + 1),
-                None,
-                "wrong-type",
-            )
+            place = self.word(atom, number + 1)
+            misfit = "wrong", term, given, parameter.types, self.action_checked
+            needed = f"{parameter.name} of {shown} needs {_either(parameter.types)}"
+            if not self.again(misfit, place):
+                message = f'"{term}" is of type {_either(given)}, {needed}'
+                self.fault(message, place, self.typed_far_below(term), "wrong-type", slip=misfit)
+
+    def unknown(self, atom: Atom, scope: Mapping[str, tuple[str, ...]], known: Sequence[str], what: str) -> None:
+        """Report an undeclared predicate or function, and check its arguments."""
+        joined = f"{atom.predicate}-{atom.terms[0]}" if atom.terms else ""
+        if joined in known:
+            start, end = self.word(atom, 0), self.word(atom, 1)
+            edits = [Edit(shifted(start, len(atom.predicate)), end, "-")] if start and end else []
+            if not self.again((what, joined), start, edits):
+                self.fault("a name has no blanks", start, f"write {joined}", "bad-name", edits, (what, joined))
+            return
+        types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
+        place, slip = self.word(atom, 0), (what, atom.predicate)
+        if self.again(slip, place):
+            return
+        if atom.predicate in ("true", "nil"):
+            self.fault(f'"({atom.predicate})" is not PDDL', place, "write (and)", "other-notation", slip=slip)
+            return
+        names = (term if term.startswith("?") else f"?x{number}" for number, term in enumerate(atom.terms, start=1))
+        typed = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
+        cure = f"declare ({' '.join((atom.predicate, *typed))}) under (:{what}s ...)"
+        hint = _or_cure(nearest(atom.predicate, known, what=f"{what}s"), cure)
+        self.fault(f'unknown {what} "{atom.predicate}"', place, hint, f"unknown-{what}", slip=slip)
+
+    def typed_far_below(self, name: str) -> str | None:
+        """Return a hint where the type of an object stands in a line below it: that of a list which it ends."""
+        declared = next(
+            (
+                o
+                for o in (self.of_problem.all_objects() if self.of_problem else self.domain.constants)
+                if o.name == name
+            ),
+            None,
+        )
+        place = declared.location if declared else None
+        dash = self.dash(place)
+        if declared is None or place is None or dash is None or dash.line == place.line:
+            return None
+        kind = declared.types[0]
+        return f'"- {kind}" in line {dash.line} is the type of all names above it: give line {place.line} its own'
 
     def may_fit(self, parameter: TypedName, given: Sequence[str] | None) -> bool:
         """Return whether a term of the types ``given`` fits ``parameter``; unknown types are reported elsewhere."""
@@ -309,30 +422,76 @@ class _Check:
         return self.source.word(atom.location, number)
 
     def term(
-        self, term: str, scope: Mapping[str, tuple[str, ...]], location: Location | None, number: int
+        self,
+        term: str,
+        scope: Mapping[str, tuple[str, ...]],
+        location: Location | None,
+        number: int,
+        wanted: Sequence[str] = (),
     ) -> tuple[str, ...] | None:
-        """Return the types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault)."""
+        """Return the types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault).
+
+        ``wanted`` are the types that it should have.
+        """
         if term.startswith("?"):
             if term not in scope and not self.two_of_one_name:  # else it is what one of the two should be called
-                hint = nearest(term, list(scope), what="variables here")
-                self.fault(f'free variable "{term}"', self.source.word(location, number), hint, "free-variable")
+                self.free(term, scope, self.source.word(location, number), wanted)
             return scope.get(term)
-        if term not in self.known_objects:
+        if term in self.known_objects:
+            return self.known_objects[term]
+        place, variable = self.source.word(location, number), f"?{term}"
+        slip = "object", term, variable in scope and self.action_checked
+        edits = [Edit(place, place, "?")] if place and variable in scope else []
+        if not self.again(slip, place, edits):
             hint = nearest(term, list(self.known_objects), what="objects")
-            if f"?{term}" in scope:
-                hint = f'did you mean "?{term}"?'
-            self.fault(f'unknown object "{term}"', self.source.word(location, number), hint, "unknown-object")
-        return self.known_objects.get(term)
+            if variable in scope:
+                hint = f'did you mean "{variable}"?'
+            else:
+                where = ":objects" if self.of_problem else ":constants"
+                hint = _or_cure(hint, f'declare "{TypedName(term, tuple(wanted)).typed()}" under ({where} ...)')
+            self.fault(f'unknown object "{term}"', place, hint, "unknown-object", edits, slip)
+        return None
+
+    def free(
+        self, term: str, scope: Mapping[str, tuple[str, ...]], place: Location | None, wanted: Sequence[str]
+    ) -> None:
+        """Report a variable that nothing binds."""
+        slip = "variable", term, self.action_checked
+        if self.again(slip, place):
+            return
+        hint = nearest(term, list(scope), what="variables here")
+        bound = _bound_in(self.action_checked, term)
+        if bound is not None:
+            hint = f"it is bound only in {bound}: make it a parameter"
+        elif self.of_problem:
+            hint = f"bind it: (exists ({TypedName(term, tuple(wanted)).typed()}) ...), or name an object"
+        elif self.action_checked:
+            hint = _or_cure(hint, f"add {TypedName(term, tuple(wanted)).typed()} to :parameters")
+        self.fault(f'free variable "{term}"', place, hint, "free-variable", slip=slip)
 
     def objects(self, problem: Problem) -> None:
         """Check the problem's objects. A constant may be listed again with the same type."""
+        self.of_problem = problem
         self.unique(problem.objects, "object")
+        if self.types_first(problem):
+            return
         constants = {c.name: c.types for c in problem.domain.constants}
         for declared in problem.objects:
             self.one_type(declared, "object")
             if constants.get(declared.name, declared.types) != declared.types:
                 message = f'"{declared.name}" is a constant of another type'
                 self.fault(message, declared.location, "rename the object", "duplicate-name")
+
+    def types_first(self, problem: Problem) -> bool:
+        """Return whether types stand before their objects, ``cart - k1 k2``, which is reported."""
+        turned = [o for o in problem.objects if self.hierarchy.known(o.name) and not self.hierarchy.known(o.types[0])]
+        if not turned or self.domain.name == "" or not self.domain.types:
+            return False
+        names = {word.text for word in self.source.sections[":objects"].parts if isinstance(word, Word)}
+        self.known_objects.update(dict.fromkeys(names))
+        message = "the type stands behind the names of its objects"
+        self.fault(message, turned[0].location, f"write {turned[0].types[0]} - {turned[0].name}", "unknown-type")
+        return True
 
     def values(self, problem: Problem) -> None:
         """Check the values of cost functions, and that there is a cost to minimise."""
@@ -352,6 +511,22 @@ class _Overlapping(_Check):
     def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
         above = self.hierarchy.ancestors
         return not given or any(w in above(g) or g in above(w) for w in wanted for g in given)
+
+
+def _or_cure(hint: str | None, cure: str) -> str:
+    """Return the hint where it knows what was meant; otherwise the cure first."""
+    return hint if hint and hint.startswith("did") else "; ".join(filter(None, (cure, hint)))
+
+
+def _bound_in(action: ActionSchema | None, variable: str) -> str | None:
+    """Return the quantifier of ``action`` that binds a variable, such as "the exists of line 6"."""
+    for part in walk((action.precondition, action.effects)) if action else ():
+        quantified = part.parameters if isinstance(part, Forall | Exists | Effect) else ()
+        for parameter in quantified:
+            if parameter.name == variable and parameter.location:
+                word = keyword(part) if isinstance(part, Forall | Exists) else "forall"
+                return f"the {word} of line {parameter.location.line}"
+    return None
 
 
 def _either(types: Sequence[str]) -> str:
@@ -382,22 +557,26 @@ _OTHER_NOT = '"not" around something else than an atom'
 _Use = tuple[str, str, Location | None]
 
 
-def missing_requirements(domain: Domain, problem: Problem | None = None) -> list[TmdError]:
+def missing_requirements(domain: Domain, problem: Problem | None, source: Source) -> list[TmdError]:
     """Return a fault for each requirement that is used and not declared, at its first use.
 
     Without ``problem`` the domain is checked; with it, the problem, which inherits the requirements of its domain.
     Those that the domain lacks itself are not repeated.
     """
     of_the_domain = {name for name, _, _ in _undeclared(domain, None)} if problem else set[str]()
+    missing = [use for use in _undeclared(domain, problem) if use[0] not in of_the_domain]
+    names = sorted({name for name, _, _ in missing})
+    strips = () if problem or ":requirements" in source.sections else (":strips",)
+    edits = [source.declaration(":requirements", " ".join((*strips, *names)))]  # all of them, with each fault
     return [
         TmdError(
             f"{feature} needs {name}",
             location=place,
             hint=f"add {name} to (:requirements ...)",
             code="missing-requirement",
+            edits=edits,
         )
-        for name, feature, place in _undeclared(domain, problem)
-        if name not in of_the_domain
+        for name, feature, place in missing
     ]
 
 

@@ -11,7 +11,7 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -29,7 +29,7 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
-from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word
+from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word, after, replaced, shifted
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 # What planners take for a name although PDDL does not.
@@ -107,18 +107,23 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
         message = (
             f'"{node.text}" has a character that PDDL does not: {letter!r} ({unicodedata.name(letter, "unnamed")})'
         )
-        raise source.error(message, place, look_alike(letter) or hint, "look-alike")
+        plain = look_alike(letter)
+        edits = [Edit(place, shifted(place, 1), plain)] if plain else []
+        raise source.error(message, place, f'write "{plain}"' if plain else hint, "look-alike", edits)
     if not accepted.fullmatch(node.text):
         raise source.error(f'"{node.text}" is not {what}', node.location, hint, "bad-name")
+    if node.text in source.reported:
+        return
+    source.reported.add(node.text)
     source.warn(
         f'"{node.text}" is not a name by the letter of PDDL; some tools refuse it', node.location, hint, "odd-name"
     )
 
 
 def look_alike(letter: str) -> str | None:
-    """Return a hint with the ASCII character that ``letter`` looks like."""
+    """Return the ASCII character that ``letter`` looks like, if there is one."""
     plain = _LOOK_ALIKES.get(letter) or unicodedata.normalize("NFKD", letter)[0]
-    return f'write "{plain}"' if plain.isascii() and plain.isprintable() else None
+    return plain if plain.isascii() and plain.isprintable() else None
 
 
 # Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like.
@@ -166,6 +171,8 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
     rest = list(reversed(nodes))
     while rest:
         node = rest.pop()
+        if isinstance(node, Word) and ":" in node.text and node.text[0] != ":":
+            node = _before_colon(node, rest, source)
         if isinstance(node, Word) and len(node.text) > 1 and node.text[0] == "-":
             rest.append(_after_dash(node, source))
             node = Word("-", node.location)
@@ -184,12 +191,23 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
     return tuple(found)
 
 
+def _before_colon(node: Word, rest: list[Node], source: Source) -> Word:
+    """Return the name in ``name:type`` or ``name: type``; the rest begins with the type then."""
+    name, _, kind = node.text.partition(":")
+    place = shifted(node.location, len(name))
+    edits = [Edit(place, shifted(place, 1), " - " if kind else " -")]
+    message = "a type stands behind a dash, not behind a colon"
+    source.fault_once(message, place, f"write {name} - {kind or 'type'}", "other-notation", edits)
+    rest += [Word(kind, shifted(place, 1)), Word("-", place)] if kind else [Word("-", place)]
+    return Word(name, node.location)
+
+
 def _after_dash(node: Word, source: Source) -> Word:
     """Return the type in ``-type``, which wants a space."""
     message = f'some tools want a space between "-" and "{node.text[1:]}"'
-    source.warn(message, node.location, f'write "- {node.text[1:]}"', "glued-dash")
-    place = node.location
-    return Word(node.text[1:], Location(place.file, place.line, place.column + 1))
+    place = shifted(node.location, 1)
+    source.warn(message, node.location, f'write "- {node.text[1:]}"', "glued-dash", [Edit(place, place, " ")])
+    return Word(node.text[1:], place)
 
 
 def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...]:
@@ -199,6 +217,11 @@ def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...
 
 def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list[Word]:
     """Return the name at ``node``; nothing where it is none and faults are collected."""
+    if not variables and isinstance(node, Word) and is_variable(node.text) and len(node.text) > 1:
+        name = node.text.lstrip("?")
+        message, edits = f'"{node.text}" is not the name of {what}', [replaced(node, name)]
+        source.fault_at(message, node.location, f'write "{name}"', "bad-name", edits)
+        node = Word(name, node.location)
     if not variables:
         return source.recover([], lambda: [read_name(node, source, f"the name of {what}")])
     if isinstance(node, Group):
@@ -206,7 +229,11 @@ def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list
         return []
     if not _VARIABLE.fullmatch(node.text):
         name = f"?{node.text.lstrip('?')}"
-        source.recover(None, _odd_name, node, source, what, _ODD_VARIABLE, f'write "{name}"')
+        if _NAME.fullmatch(node.text):
+            edits = [replaced(node, name)]
+            source.fault_at(f'"{node.text}" is not {what}', node.location, f'write "{name}"', "bad-name", edits)
+        else:
+            source.recover(None, _odd_name, node, source, what, _ODD_VARIABLE, f'write "{name}"')
         node = Word(name, node.location)
     return [node]
 
@@ -228,6 +255,78 @@ def read_parameters(node: Node, source: Source) -> tuple[TypedName, ...]:
     return read_typed_list(node.parts, source, variables=True, what="a variable")
 
 
+# Conditions without a part in other notations, and connectives with their words of PDDL.
+_EMPTY = frozenset({"nil", "none", "null", "true", "empty", "n/a", "[]", "{}", "t"})
+_CONNECTIVES = {
+    "&&": "and", "&": "and", "||": "or", "|": "or", "!": "not", "~": "not", "implies": "imply", "=>": "imply",
+    "->": "imply", "if": "when", "for-all": "forall", "foreach": "forall", "exist": "exists",
+    "there-exists": "exists", "thereexists": "exists",
+}  # fmt: skip
+_UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~=", "neq", "not-equal", "not="})
+
+
+def _not_in_parentheses(node: Word, source: Source, what: str) -> TmdError:
+    """Return the error for a word where a group should be."""
+    if node.text in _EMPTY:
+        edits = [replaced(node, "(and)")]
+        return source.error(f'"{node.text}" is not PDDL', node.location, "write (and)", "other-notation", edits)
+    hint = f"write ({node.text})"
+    return source.error(f'expected {what}, found "{node.text}"', node.location, hint, "syntax")
+
+
+def _in_pddl(node: Group, source: Source) -> Group:
+    """Return ``node`` with the connective or equation of another notation, which is reported, in that of PDDL."""
+    if not node.parts:
+        return node
+    head, *rest = node.parts
+    if isinstance(head, Group):
+        return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
+    signs = {*_UNEQUAL, "=", "=="}
+    between = rest[0].text if len(rest) == 2 and isinstance(rest[0], Word) else ""
+    if between in signs:
+        return _equation(node, between, (head, rest[1]), source)
+    groups = any(isinstance(part, Group) for part in rest)
+    if node.head in signs - {"="} and not groups:
+        return _equation(node, node.head, rest, source)
+    plain = _CONNECTIVES.get(node.head) if groups else None
+    if plain:
+        _of_pddl(head, plain, node.head, source)
+        return _group(node, Word(plain, node.location), *rest)
+    return node
+
+
+def _equation(node: Group, sign: str, terms: Sequence[Node], source: Source) -> Group:
+    """Return an equation or its negation that is written in another notation, which is reported."""
+    shown = f"(= {' '.join(source.text(term.location, after(term)) for term in terms)})"
+    equation = _group(node, Word("=", node.location), *terms)
+    if sign in _UNEQUAL:
+        shown, equation = f"(not {shown})", _group(node, Word("not", node.location), equation)
+    _of_pddl(node, shown, sign if node.head == sign else f"({node.head} {sign} ...)", source)
+    return equation
+
+
+def _without_word(node: Group, between: Sequence[Word], source: Source) -> Group:
+    """Return ``((a) and (b))`` and ``((a) (b))``, which are reported, as ``(and (a) (b))``."""
+    place, word = shifted(node.location, 1), between[0].text if between else "and"
+    if word not in ("and", "or") or any(each.text != word for each in between):
+        return node
+    edits = [Edit(place, place, f"{word} "), *(replaced(each, "") for each in between)]
+    message = f'"{word}" does not stand before its parts' if between else '"and" is missing here'
+    start = between[0].location if between else node.location
+    source.fault_at(message, start, f"write ({word} (...) (...))", "other-notation" if between else "syntax", edits)
+    return _group(node, Word(word, place), *(part for part in node.parts if isinstance(part, Group)))
+
+
+def _group(node: Group, *parts: Node) -> Group:
+    return Group(parts, node.location, node.end, node.depth)
+
+
+def _of_pddl(node: Node, plain: str, found: str, source: Source) -> None:
+    """Report the notation ``found`` at ``node``, for which PDDL has ``plain``."""
+    edits = [replaced(node, plain)]
+    source.fault_at(f'"{found}" is not PDDL', node.location, f"write {plain}", "other-notation", edits)
+
+
 # The other words that are not supported may be names of predicates, and then have no conditions in them.
 _NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
 _EFFECT_WORDS = frozenset({"assign", "change", "decrease", "scale-up", "scale-down", "oneof", "probabilistic"})
@@ -241,9 +340,11 @@ def read_condition(node: Node, source: Source) -> Formula:
         TmdError: It is not a formula, or it holds something that is not supported.
     """
     if isinstance(node, Word):
-        raise source.error(f'expected a condition, found "{node.text}"', node.location, f"write ({node.text})")
+        raise _not_in_parentheses(node, source, "a condition")
+    node = _in_pddl(node, source)
     if not node.parts:
-        source.warn("() is empty, and some tools read it as false", node.location, "write (and)", "empty-condition")
+        message, edits = "() is empty, and some tools read it as false", [replaced(node, "(and)")]
+        source.warn(message, node.location, "write (and)", "empty-condition", edits)
         return And((), node.location)
     head, parts, place = node.head, node.parts[1:], node.location
     if head in ("and", "or"):
@@ -337,7 +438,8 @@ def read_effects(node: Node, source: Source) -> Effects:
 
 def _read_effect(node: Node, source: Source, around: _Around, found: Effects) -> None:
     if isinstance(node, Word):
-        raise source.error(f'expected an effect, found "{node.text}"', node.location, f"write ({node.text})")
+        raise _not_in_parentheses(node, source, "an effect")
+    node = _in_pddl(node, source)
     head, parts = node.head, node.parts[1:]
     if head == "and" or not node.parts:
         for part in parts:

@@ -6,14 +6,15 @@ Supported: typed ADL with action costs. Everything else is refused by its name. 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
+from itertools import pairwise, takewhile
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -44,17 +45,53 @@ from tmd.pddl.reading.formulas import (
     read_typed_list,
     unsupported,
 )
-from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, Word, nearest, parse, read_text
+from tmd.pddl.reading.syntax import (
+    Document,
+    Group,
+    Node,
+    Report,
+    Source,
+    Word,
+    after,
+    nearest,
+    parse,
+    read_text,
+    replaced,
+)
 from tmd.pddl.semantics import close
 
 
 def only_part(group: Group, source: Source) -> Node:
     """Return the one part that ``group`` must have."""
-    if len(group.parts) != 2:
-        raise source.error(
-            f'"{group.head}" takes one part, found {len(group.parts) - 1}', group.location, "use (and ...)"
-        )
-    return group.parts[1]
+    parts = group.parts[1:]
+    if len(parts) == 1:
+        return parts[0]
+    message = f'"{group.head}" takes one part, found {len(parts)}'
+    if group.head == ":goal" and parts and all(isinstance(part, Group) for part in parts):
+        source.fault(_joined(message, parts, source))
+        return Group((Word("and", group.location), *parts), group.location, group.end, group.depth)
+    raise source.error(message, group.location, "write one")
+
+
+def _joined(message: str, parts: Sequence[Node], source: Source) -> TmdError:
+    """Return the error for several conditions or effects where one should be."""
+    start, end = parts[0].location, after(parts[-1])
+    edits = [Edit(start, start, "(and "), Edit(end, end, ")")]
+    return source.error(message, start, "use (and (...) (...)) for several", "syntax", edits)
+
+
+def read_title(nodes: Sequence[Node], place: Location, source: Source, what: str) -> Word:
+    """Read the name of a domain, problem or action, which may have blanks by mistake."""
+    words = [node for node in nodes if isinstance(node, Word)]
+    if not nodes:
+        raise source.error(f"expected {what}, found nothing", place)
+    name = read_name(nodes[0], source, what)
+    if len(nodes) == 1 or len(words) < len(nodes):
+        return name
+    joined = "-".join(word.text for word in words)
+    edits = [Edit(after(one), other.location, "-") for one, other in pairwise(words)]
+    source.fault_at("a name has no blanks", words[1].location, f"write {joined}", "bad-name", edits)
+    return Word(joined, name.location)
 
 
 def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
@@ -62,7 +99,10 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
     names: list[str] = []
     for node in group.parts[1:]:
         if isinstance(node, Group) or not node.text.startswith(":"):
-            source.fault_at("a requirement begins with a colon", node.location)
+            plain = isinstance(node, Word) and f":{node.text}" in REQUIREMENTS
+            edits = [Edit(node.location, node.location, ":")] if plain else []
+            hint = f"write :{node.text}" if isinstance(node, Word) else None
+            source.fault_once("a requirement begins with a colon", node.location, hint, "unknown-requirement", edits)
             continue
         if node.text in UNSUPPORTED:
             source.warn(
@@ -74,7 +114,7 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
         elif node.text not in REQUIREMENTS:
             message = f'"{node.text}" is not a known requirement'
             hint = nearest(node.text, [*REQUIREMENTS, *UNSUPPORTED])
-            source.fault_at(message, node.location, hint, "unknown-requirement")
+            source.fault_at(message, node.location, hint, "unknown-requirement", _meant(node, REQUIREMENTS))
             continue
         if node.text not in names:
             names.append(node.text)
@@ -188,8 +228,12 @@ def _read_signature(node: Node, document: Document, comment: str = "") -> Predic
         raise unsupported(source, UNSUPPORTED[node.head], node.head, node.location)
     if not node.parts:
         raise source.error("expected (name ?parameter ...), found ()", node.location)
-    name = read_name(node.parts[0], source, "the name of a predicate")
-    parameters = read_typed_list(node.parts[1:], source, variables=True, what="a parameter")
+    named = list(takewhile(lambda part: isinstance(part, Word) and part.text[0] not in "?-", node.parts))
+    rest = node.parts[len(named) :]
+    if len(named) < 2 or not rest or not isinstance(rest[0], Word) or rest[0].text[0] != "?":
+        named, rest = [node.parts[0]], node.parts[1:]  # those are variables without a mark
+    name = read_title(named, node.location, source, "the name of a predicate")
+    parameters = read_typed_list(rest, source, variables=True, what="a parameter")
     return Predicate(name.text, _each_named(parameters, source), comment, node.location)
 
 
@@ -231,8 +275,9 @@ def read_action(group: Group, source: Source) -> ActionSchema:
     """Read ``(:action name ...)``; what is left out is empty."""
     if len(group.parts) < 2:
         raise source.error("this action has no name", group.location)
-    name = read_name(group.parts[1], source, "the name of an action")
-    parts = _parts_of_action(group, name.text, source)
+    named = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), group.parts[1:]))
+    name = read_title(named or group.parts[1:2], group.location, source, "the name of an action")
+    parts = _parts_of_action(group, len(named) + 1, name.text, source)
     effects = Effects()
     precondition: Formula = TRUE
     parameters: tuple[TypedName, ...] = ()
@@ -286,24 +331,76 @@ def _with_declared_types(axiom: Axiom, predicates: Mapping[str, Predicate]) -> A
 _PARTS_OF_ACTIONS = (":parameters", ":precondition", ":effect")
 
 
-def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Node]:
-    """Return the node after each keyword of an action."""
+def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> dict[str, Node]:
+    """Return the node after each keyword of an action, whose parts begin with number ``begin``."""
     parts: dict[str, Node] = {}
-    nodes = list(group.parts[2:])
+    nodes = list(group.parts[begin:])
+    found: list[_Part] = []
     while nodes:
         keyword = nodes.pop(0)
         if isinstance(keyword, Group):
-            message = "expected :parameters, :precondition or :effect, found a parenthesis"
-            source.fault_at(message, keyword.location, "use (and ...) for several conditions or effects")
+            _without_keyword(keyword, nodes, parts, source)
             continue
         value = nodes[0] if nodes else None
         if value is None or (isinstance(value, Word) and value.text.startswith(":")):
             source.fault_at(f'nothing follows "{keyword.text}"', keyword.location)
             continue
+        if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
+            value = nodes[0] = _in_parentheses(nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
         meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # its value is not reported as missing as well
         parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
+        if keyword.text in _PARTS_OF_ACTIONS:
+            found.append((_PARTS_OF_ACTIONS.index(keyword.text), keyword.text, keyword.location, after(value)))
+    warn_of_order(found, source)
     return parts
+
+
+def _in_parentheses(nodes: list[Node], source: Source) -> Group:
+    """Return the parameters that ``nodes`` begin with, which lack their parentheses, and keep one of them."""
+    words = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
+    del nodes[1 : len(words)]
+    start, end = words[0].location, after(words[-1])
+    edits = [Edit(start, start, "("), Edit(end, end, ")")]
+    source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
+    return Group(tuple(words), start, end, 2)
+
+
+def _without_keyword(group: Group, nodes: list[Node], parts: dict[str, Node], source: Source) -> None:
+    """Report a group without a keyword before it, and those that follow: several conditions or effects."""
+    more = list(takewhile(lambda node: isinstance(node, Group), nodes))
+    del nodes[: len(more)]
+    message = "expected :parameters, :precondition or :effect, found a parenthesis"
+    last = next(reversed(parts)) if parts else ""
+    if last not in (":precondition", ":effect"):
+        hint = "use (and (...) (...)) for several conditions or effects"
+        source.fault_at(message, group.location, hint)
+        return
+    joined = [parts[last], group, *more]
+    source.fault(_joined(f'"{last}" takes one part, found {len(joined)}', joined, source))
+    place = joined[0].location
+    parts[last] = Group((Word("and", place), *joined), place, group.end, group.depth)
+
+
+_Part: TypeAlias = tuple[int, str, Location, Location]
+"""A part of a text: its rank in the usual order, its name, its beginning and its end."""
+
+
+def warn_of_order(found: Sequence[_Part], source: Source) -> None:
+    """Warn of parts that stand in another order than other planners need."""
+    for (before, other, *_), (rank, name, start, _) in pairwise(found):
+        if rank < before:
+            pairs = zip(found, sorted(found, key=lambda part: part[0]), strict=True)
+            edits = [Edit(*old[2:], source.text(*new[2:])) for old, new in pairs if old != new]
+            message = f'"{name}" stands after "{other}", which other planners refuse'
+            source.warn(message, start, f'put "{name}" before it', "section-order", edits)
+            return
+
+
+def _meant(word: Word, names: Sequence[str]) -> list[Edit]:
+    """Return the edit that puts the nearest of ``names`` for a keyword of PDDL that is misspelt."""
+    meant = get_close_matches(word.text.replace("_", "-"), names, n=1)
+    return [replaced(word, meant[0])] if meant else []
 
 
 def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Source) -> None:
@@ -312,7 +409,7 @@ def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Sourc
     if keyword.text not in _PARTS_OF_ACTIONS:
         hint = nearest(keyword.text, _PARTS_OF_ACTIONS, what="parts of an action")
         message = f'"{keyword.text}" is not a part of an action'
-        raise source.error(message, keyword.location, hint, "unknown-keyword")
+        raise source.error(message, keyword.location, hint, "unknown-keyword", _meant(keyword, _PARTS_OF_ACTIONS))
     if keyword.text in seen:
         message = f'"{keyword.text}" appears twice in action "{action}"'
         raise source.error(message, keyword.location, code="duplicate-section")
@@ -320,7 +417,7 @@ def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Sourc
 
 def read_domain_name(group: Group, domain: Domain, source: Source) -> str:
     """Read ``(:domain name)``, which must name ``domain``."""
-    name = read_name(only_part(group, source), source, "the name of a domain")
+    name = read_title(group.parts[1:], group.location, source, "the name of a domain")
     if name.text != domain.name:
         source.fault_at(
             f'the problem is of domain "{name.text}", the domain given is "{domain.name}"',
@@ -444,7 +541,10 @@ def parse_problem_unchecked(
     for needed in (":domain", ":goal"):
         if needed not in heads:
             message = f"the problem has no ({needed} ...)"
-            source.fault_at(message, name.location, "add it", "missing-section")
+            known = needed == ":domain"
+            edits = [source.declaration(needed, domain.name)] if known else []
+            hint = f"add (:domain {domain.name})" if known else "add it"
+            source.fault_at(message, name.location, hint, "missing-section", edits)
     problem = Problem(
         name.text,
         domain,
@@ -475,6 +575,17 @@ def _read_sections(
 
     for group in sections:
         source.recover(None, read, group)
+    ranks = _RANKS_OF_PROBLEM if ":goal" in readers else _RANKS_OF_DOMAIN
+    found = [(ranks[group.head], group.head, group.location, after(group)) for group in sections if group.head in ranks]
+    warn_of_order(found, source)
+
+
+# The order of sections that all planners read; those of one rank in any order.
+_RANKS_OF_DOMAIN = {
+    **dict.fromkeys((":requirements", ":types", ":constants", ":predicates", ":functions"), 0),
+    **dict.fromkeys((":derived", ":action"), 1),
+}
+_RANKS_OF_PROBLEM = {":domain": 0, ":requirements": 1, ":objects": 1, ":init": 2, ":goal": 3, ":metric": 4}
 
 
 def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
@@ -490,10 +601,12 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     if first.head != "define" or len(first.parts) < 2:
         raise source.error(f"expected (define ({kind} name) ...)", first.location)
     title, *sections = first.parts[1:]
-    if not isinstance(title, Group) or title.head != kind or len(title.parts) != 2:
+    if isinstance(title, Word) and title.text == kind and sections and isinstance(sections[0], Word):
+        title = _title_in_parentheses(title, sections.pop(0), source)
+    if not isinstance(title, Group) or title.head != kind or len(title.parts) < 2:
         found = f", found ({title.head} ...)" if isinstance(title, Group) else ""
         raise source.error(f"expected ({kind} name){found}", title.location)
-    name = read_name(title.parts[1], source, f"the name of a {kind}")
+    name = read_title(title.parts[1:], title.location, source, f"the name of a {kind}")
     for section in sections:
         if isinstance(section, Word):
             source.fault_at(
@@ -504,14 +617,34 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     return name, [s for s in sections if isinstance(s, Group)]
 
 
+def _title_in_parentheses(kind: Word, name: Node, source: Source) -> Group:
+    """Return the title of a definition that lacks its parentheses, which is reported."""
+    start, end = kind.location, after(name)
+    title = Group((kind, name), start, end, 1)
+    message, hint = f"the name of the {kind.text} stands in parentheses", f"write ({source.text(start, end)})"
+    source.fault_at(message, start, hint, "syntax", [Edit(start, start, "("), Edit(end, end, ")")])
+    return title
+
+
 def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source: Source) -> str:
     head = group.head
     if head in UNSUPPORTED:
         raise unsupported(source, UNSUPPORTED[head], head, group.location)
     if head not in known:
         shown = f'"({head} ...)"' if head else "this group"
-        hint = nearest(head, known, what="sections")
-        raise source.error(f"{shown} is not a section", group.location, hint, "unknown-section")
+        other = "problem" if ":action" in known else "domain"
+        if head in (*_RANKS_OF_DOMAIN, *_RANKS_OF_PROBLEM):
+            message = f"{shown} belongs in the {other}"
+            edits: list[Edit] = []
+            hint = f"move it to the file of the {other}"
+            if head == ":objects":
+                hint += ", or name it (:constants ...)"
+                edits = [replaced(group.parts[0], ":constants")]
+            raise source.error(message, group.location, hint, "unknown-section", edits)
+        word = group.parts[0] if head else None
+        nearby = nearest(head, known, what="sections")
+        edits = _meant(word, known) if isinstance(word, Word) and (head[0] == ":" or f":{head}" in known) else []
+        raise source.error(f"{shown} is not a section", group.location, nearby, "unknown-section", edits)
     if head in seen:
         raise source.error(f'the section "{head}" appears twice', group.location, "join the two", "duplicate-section")
     return head
@@ -548,7 +681,8 @@ class InitReader:
 
     def _read_entry(self, node: Node) -> None:
         if isinstance(node, Word):
-            raise self.source.error(f'expected an atom, found "{node.text}"', node.location, f"write ({node.text})")
+            hint = f"write ({node.text})" if node.text.strip(".") else "write out what is left out"
+            raise self.source.error(f'expected an atom, found "{node.text}"', node.location, hint)
         if node.head in ("unknown", "oneof") and any(isinstance(p, Group) for p in node.parts):
             raise unsupported(self.source, "uncertain initial states", node.head, node.location)
         if node.head == "=":

@@ -17,8 +17,9 @@ from itertools import islice
 from pathlib import Path
 from typing import ParamSpec, TypeAlias, TypeVar
 
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Edit, Location, TmdError
 from tmd.files import read_bytes
+from tmd.pddl.reading.foreign import pddl_lines
 
 TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+")
 """Parentheses and words; a variable always begins a new word."""
@@ -91,6 +92,13 @@ class Source(Reporting):
     file: str
     lines: tuple[str, ...]
     report: Report | None = field(default=None, compare=False, repr=False)
+    code: tuple[str, ...] = ()
+    """The lines without comments and text that is not PDDL, as long as before."""
+    once: dict[str, TmdError] = field(default_factory=dict, compare=False, repr=False)
+    reported: set[str] = field(default_factory=set, compare=False, repr=False)
+    """The names of which was warned: once is enough."""
+    sections: dict[str, Group] = field(default_factory=dict, compare=False, repr=False)
+    """The first group of each head within ``(define``."""
 
     def line(self, location: Location | None) -> str | None:
         """Return the source line at ``location``, if it lies in this text."""
@@ -98,18 +106,62 @@ class Source(Reporting):
             return None
         return self.lines[location.line - 1]
 
-    def error(self, message: str, location: Location | None, hint: str | None = None, code: str = "syntax") -> TmdError:
+    def error(
+        self,
+        message: str,
+        location: Location | None,
+        hint: str | None = None,
+        code: str = "syntax",
+        edits: Sequence[Edit] = (),
+    ) -> TmdError:
         """Return an error at ``location`` that carries its source line."""
-        return TmdError(message, location=location, hint=hint, source=self.line(location), code=code)
+        return TmdError(message, location=location, hint=hint, source=self.line(location), code=code, edits=edits)
 
-    def fault_at(self, message: str, location: Location | None, hint: str | None = None, code: str = "syntax") -> None:
+    def fault_at(
+        self,
+        message: str,
+        location: Location | None,
+        hint: str | None = None,
+        code: str = "syntax",
+        edits: Sequence[Edit] = (),
+    ) -> None:
         """Raise the error of :meth:`error`, or report it and return."""
-        self.fault(self.error(message, location, hint, code))
+        self.fault(self.error(message, location, hint, code, edits))
 
-    def warn(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
+    def fault_once(self, message: str, location: Location, hint: str | None, code: str, edits: Sequence[Edit]) -> None:
+        """Do the same; a habit of the author, of one message, is reported once, with the edits of all its places."""
+        found = self.once.get(message)
+        if found is not None:
+            found.edits += tuple(edits)
+            return
+        self.once[message] = found = self.error(message, location, hint, code, edits)
+        self.fault(found)
+
+    def warn(
+        self, message: str, location: Location | None, hint: str | None, code: str, edits: Sequence[Edit] = ()
+    ) -> None:
         """Report a warning; it is dropped where faults are raised."""
         if self.report is not None:
-            self.report(self.error(message, location, hint, code))
+            self.report(self.error(message, location, hint, code, edits))
+
+    def text(self, start: Location, end: Location) -> str:
+        """Return the text from ``start`` to before ``end``."""
+        lines = list(self.lines[start.line - 1 : end.line])
+        lines[-1] = lines[-1][: end.column - 1]
+        lines[0] = lines[0][start.column - 1 :]
+        return "\n".join(lines)
+
+    def declaration(self, section: str, words: str) -> Edit:
+        """Return the edit that adds ``words`` to a section, which is made where there is none."""
+        if section in self.sections:
+            place = self.sections[section].end
+            return Edit(place, place, f" {words}")
+        before = self.sections.get(":requirements") if section not in (":requirements", ":domain") else None
+        if section == ":constants":
+            before = self.sections.get(":types", before)
+        before = before or next(iter(self.sections.values()), None)
+        place = after(before) if before else Location(self.file, 1, 1)
+        return Edit(place, place, f"\n  ({section} {words})")
 
     def closed_too_early(self, group: Group) -> None:
         """Raise or report that more text follows a group, which should be its last part."""
@@ -139,10 +191,27 @@ class Source(Reporting):
         """Yield the tokens from ``location`` on, as they are written."""
         if self.line(location) is None or location is None:
             return
-        for number in range(location.line, len(self.lines) + 1):
-            code = self.lines[number - 1].partition(";")[0]
+        lines = self.code or self.lines
+        for number in range(location.line, len(lines) + 1):
+            code = lines[number - 1].partition(";")[0]
             for match in TOKEN.finditer(code, location.column - 1 if number == location.line else 0):
                 yield match[0], Location(self.file, number, match.start() + 1)
+
+
+def after(node: Node) -> Location:
+    """Return the place behind a word or group."""
+    end = node.end if isinstance(node, Group) else node.location
+    return shifted(end, 1 if isinstance(node, Group) else len(node.text))
+
+
+def shifted(place: Location, columns: int) -> Location:
+    """Return the place so many columns behind ``place``."""
+    return Location(place.file, place.line, place.column + columns)
+
+
+def replaced(node: Node, text: str) -> Edit:
+    """Return the edit that puts ``text`` in the place of ``node``."""
+    return Edit(node.location, after(node), text)
 
 
 @dataclass(frozen=True, slots=True)
@@ -183,8 +252,10 @@ def _alike(name: str, declared: Sequence[str]) -> list[str]:
     return list(islice(near, _MOST_COMPARED))
 
 
-def read_text(path: str | Path) -> str:
+def read_text(path: str | Path, report: Report | None = None) -> str:
     """Return the text of a UTF-8 file, without byte order mark.
+
+    Comments of PDDL may hold any bytes, which are read as Latin-1; ``report`` takes a warning then.
 
     Raises:
         TmdError: The file is missing, unreadable, binary or not UTF-8.
@@ -204,13 +275,15 @@ def read_text(path: str | Path) -> str:
     except UnicodeDecodeError as error:
         before = data[: error.start].decode("utf-8-sig", errors="replace")
         line = before.count("\n") + 1
-        column = len(before) - (before.rfind("\n") + 1) + 1
-        raise TmdError(
-            f"is not UTF-8: byte 0x{data[error.start]:02x}",
-            location=Location(str(path), line, column),
-            hint="save the file as UTF-8 text",
-            code="not-utf8",
-        ) from error
+        place = Location(str(path), line, len(before) - (before.rfind("\n") + 1) + 1)
+        byte = f"0x{data[error.start]:02x}"
+        if Path(path).suffix != ".pddl" or not re.sub(rb";[^\r\n]*", b"", data).isascii():
+            hint = "save the file as UTF-8 text"
+            raise TmdError(f"is not UTF-8: byte {byte}", location=place, hint=hint, code="not-utf8") from error
+        if report is not None:
+            message, edit = f"this comment is not UTF-8 (byte {byte}), which some tools refuse", Edit(place, place)
+            report(TmdError(message, location=place, hint="save it as UTF-8", code="latin1-comment", edits=[edit]))
+        return data.decode("latin-1")
 
 
 def read_standard_input() -> str:
@@ -232,7 +305,7 @@ def split_lines(text: str) -> tuple[str, ...]:
     return tuple(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n").split("\n"))
 
 
-ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]")
+ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]|[\u200b-\u200d\u2060\ufeff]")
 """Blanks that only look like one: the no-break space, the ideographic space and the like."""
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 _CONNECTIVES = frozenset({"and", "or", "not", "imply", "forall", "exists", "when"})
@@ -248,6 +321,16 @@ _SECTIONS = frozenset(
 _MOST_FAULTS = 100
 
 
+# Words with groups behind them, and the groups in which names stand with their arguments.
+_CONNECTING = frozenset({"and", "or", "not", "when", "imply", "forall", "exists"})
+_OPERATORS = _CONNECTING | {
+    "define", "increase", "decrease", "assign", "scale-up", "scale-down", "preference", "oneof", "probabilistic",
+    "=", "<", ">", "<=", ">=", "+", "-", "*", "/", "either", "always", "sometime", "!", "~",
+}  # fmt: skip
+_CALLED = re.compile(r"[a-z0-9_][a-z0-9_-]*")
+_WITH_ATOMS = _CONNECTING | {":init", ":goal", ":predicates", ":precondition", ":effect"}
+
+
 @dataclass(slots=True)
 class _Open:
     """A group that is still open."""
@@ -256,10 +339,25 @@ class _Open:
     parts: list[Node]
     first: bool
     """Whether it is the first of its line."""
+    spread: bool = False
+    """Whether its parts are those of the group around it, as in ``(on(a b))``."""
+    called: bool = False
+    """Whether it was written like a call."""
 
     @property
     def head(self) -> str:
         return self.parts[0].text if self.parts and isinstance(self.parts[0], Word) else ""
+
+
+def _may_be_name(word: str) -> bool:
+    """Return whether a word before a parenthesis may be the name of a call."""
+    return bool(_CALLED.fullmatch(word)) and word not in _OPERATORS - {"not"} and word not in ("minimize", "maximize")
+
+
+def _keyword_before(around: _Open) -> bool:
+    """Return whether the last word is a condition or effect itself, as in ``:effect done()``."""
+    before = around.parts[-2] if len(around.parts) > 1 else None
+    return isinstance(before, Word) and before.text in _WITH_ATOMS
 
 
 def parse(text: str, file: str, report: Report | None = None) -> Document:
@@ -273,13 +371,22 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
     Raises:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
     """
-    source = Source(file, split_lines(text), report)
+    lines = split_lines(text)
+    code, foreign = pddl_lines(lines, file)
+    source = Source(file, lines, report, code)
+    commas = [fault for fault in foreign if "commas" in fault.message]
+    for fault in foreign:
+        if fault not in commas:
+            source.fault(fault)
     parser = _Parser(source)
-    for number, line in enumerate(source.lines, start=1):
+    for number, line in enumerate(source.code, start=1):
         parser.read_line(number, line)
         if parser.faults > _MOST_FAULTS:
             break
-    parser.end()
+    parser.end(commas)
+    for part in parser.groups[0].parts if parser.groups else ():
+        if isinstance(part, Group):
+            source.sections.setdefault(part.head, part)
     return Document(source, tuple(parser.groups), parser.comments, parser.deepest)
 
 
@@ -296,6 +403,12 @@ class _Parser:
     """The first group that the indentation of the text says should have been closed before."""
     outside: bool = False
     faults: int = 0
+    undefined: TmdError | None = None
+    """The fault that there is no ``(define``."""
+    called: list[Edit] = field(default_factory=list)
+    """The edits of ``on(a b)`` to ``(on a b)``."""
+    call: str = "(name argument ...)"
+    """The first of them as it should be."""
 
     def read_line(self, number: int, line: str) -> None:
         code, mark, comment = line.partition(";")
@@ -310,7 +423,9 @@ class _Parser:
         if blank:
             place = Location(self.source.file, number, blank.start() + 1)
             message = f"this is no blank of PDDL: {blank[0]!r} ({unicodedata.name(blank[0], 'unnamed')})"
-            self.fault(message, place, 'write " "', "look-alike")
+            places = [Location(self.source.file, number, m.start() + 1) for m in ODD_BLANK.finditer(code)]
+            edits = [Edit(odd, shifted(odd, 1), " ") for odd in places]
+            self.fault(message, place, 'write " "', "look-alike", edits)
             code = ODD_BLANK.sub(" ", code)
         if mark:
             self.comments[number] = comment.lstrip(";").strip()
@@ -321,21 +436,40 @@ class _Parser:
             token = match[0].lower()
             if match.start() == ended and token[0] == "?":
                 message = f'some tools want a blank before "{token}"'
-                self.source.warn(message, location, "put a blank before it", "glued-variable")
+                edits = [Edit(location, location, " ")]
+                self.source.warn(message, location, "put a blank before it", "glued-variable", edits)
             ended = match.end() if token not in "()" else -1
             if first:
                 self.look_at_indentation(token, location)
             if token == "(":
-                self.stack.append(_Open(location, [], first))
+                self.open(location, first)
             elif token == ")":
                 self.close(location)
             else:
                 self.add_word(Word(token, location))
             first = False
 
-    def fault(self, message: str, location: Location, hint: str | None, code: str) -> None:
+    def open(self, location: Location, first: bool) -> None:
+        """Begin a group: a new one, or in ``on(a b)`` that of the name before it."""
+        around = self.stack[-1] if self.stack else None
+        word = around.parts[-1] if around and around.parts else None
+        if around is None or not isinstance(word, Word) or after(word) != location or not _may_be_name(word.text):
+            self.stack.append(_Open(location, [], first))
+        elif len(around.parts) == 1 and around.head not in _OPERATORS:
+            self.called.append(Edit(location, shifted(location, 1), " "))
+            self.stack.append(_Open(location, [], first, spread=True, called=True))
+        elif around.head in _WITH_ATOMS or _keyword_before(around):
+            self.called.append(
+                Edit(word.location, shifted(location, 1), f"({self.source.text(word.location, location)} ")
+            )
+            around.parts.pop()
+            self.stack.append(_Open(word.location, [word], first, called=True))
+        else:
+            self.stack.append(_Open(location, [], first))
+
+    def fault(self, message: str, location: Location, hint: str | None, code: str, edits: Sequence[Edit] = ()) -> None:
         self.faults += 1
-        self.source.fault_at(message, location, hint, code)
+        self.source.fault_at(message, location, hint, code, edits)
 
     def look_at_indentation(self, token: str, location: Location) -> None:
         """Suspect a group that a line stands in although it begins left of it: the group may lack its end."""
@@ -355,10 +489,29 @@ class _Parser:
     def pop(self, location: Location) -> None:
         """Make the innermost open group a part of the one around it."""
         opened = self.stack.pop()
+        if opened.spread:
+            self.called.append(Edit(location, shifted(location, 1)))
+            self.stack[-1].parts.extend(opened.parts)
+        if opened.called and opened.head == "not" and len(opened.parts) > 1 and isinstance(opened.parts[1], Word):
+            self.negated(opened, location)
+        if opened.called and self.call.startswith("(name"):
+            words = (
+                part.text for part in (self.stack[-1] if opened.spread else opened).parts if isinstance(part, Word)
+            )
+            self.call = f"({' '.join(words)})"
+        if opened.spread:
+            return
         group = Group(tuple(opened.parts), opened.location, location, len(self.stack))
         (self.stack[-1].parts if self.stack else self.groups).append(group)
         if self.deepest is None or group.depth > self.deepest.depth:
             self.deepest = group
+
+    def negated(self, opened: _Open, end: Location) -> None:
+        """Make a group of the atom in ``not(on a b)``."""
+        head, *atom = opened.parts
+        place = atom[0].location
+        self.called += (Edit(place, place, "("), Edit(end, end, ")"))
+        opened.parts = [head, Group(tuple(atom), place, end, len(self.stack) + 1)]
 
     def reopen(self, group: Group) -> _Open:
         """Open a group again that was closed too early."""
@@ -399,16 +552,28 @@ class _Parser:
         if not opened.parts and len(self.stack) == 2 and word.text in _SECTIONS:
             self.suspect = None  # the sections before are closed, with any indentation
         if not opened.parts and len(self.stack) == 1 and self.groups:
-            self.closed_too_early(self.groups[-1])
-            self.stack.insert(0, self.reopen(self.groups.pop()))
+            self.stack.insert(0, self.outermost(self.groups.pop()))
         elif not opened.parts and len(self.stack) > 2 and word.text in _SECTIONS:
             self.never_closed(self.stack[-2])
             self.stack.pop()
             while len(self.stack) > 1:
                 self.pop(word.location)
             self.stack.append(opened)
-        elif word.text in _PARTS and opened.parts and not opened.head.startswith(":"):
+        elif word.text in _PARTS and opened.parts and opened.head[:1] != ":" and f":{opened.head}" not in _SECTIONS:
             self.fix_part(word)
+
+    def outermost(self, group: Group) -> _Open:
+        """Open the definition around sections: ``group``, which ended too early, or one of which only the title is."""
+        if group.head not in ("domain", "problem"):
+            self.closed_too_early(group)
+            return self.reopen(group)
+        place = group.location
+        edits = [Edit(place, place, "(define ")]
+        self.undefined = self.source.error(f'"(define" is missing before "({group.head}"', place, None, "syntax", edits)
+        self.undefined.hint = f'write "(define ({group.head} ...)", and ")" at the end'
+        self.faults += 1
+        self.source.fault(self.undefined)
+        return _Open(place, [Word("define", place), group], False)
 
     def fix_part(self, word: Word) -> None:
         """Repair ``:effect`` outside its action: the action ended too early, or something in it did not end."""
@@ -425,12 +590,24 @@ class _Parser:
         while len(self.stack) > 2 and not self.stack[-1].head.startswith(":"):
             self.pop(word.location)
 
-    def end(self) -> None:
-        """Close what is still open."""
+    def end(self, commas: Sequence[TmdError]) -> None:
+        """Close what is still open, and report calls; those have commas, which are no other slip."""
+        if self.called:
+            place = self.called[0].start
+            message = f"this is written like a call{' with commas' if commas else ''}; PDDL has none"
+            edits = (*self.called, *(edit for fault in commas for edit in fault.edits))
+            self.fault(message, place, f"write {self.call}", "other-notation", edits)
+        else:
+            for fault in commas:
+                self.source.fault(fault)
         if not self.stack:
             return
-        self.never_closed(self.stack[-1], len(self.stack))
         last = len(self.source.lines)
+        if self.undefined and len(self.stack) == 1:
+            end = Location(self.source.file, last, len(self.source.lines[-1]) + 1)
+            self.undefined.edits += (Edit(end, end, ")\n"),)
+        else:
+            self.never_closed(self.stack[-1], len(self.stack))
         while self.stack:
             self.pop(Location(self.source.file, last, len(self.source.lines[-1]) + 1))
 

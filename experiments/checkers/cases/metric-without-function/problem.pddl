@@ -2,5 +2,5 @@
   (:domain cafe)
   (:objects cup - mug bun - food sink - place)
   (:init (at cup counter) (at bun counter) (tap sink))
-  (:metric minimize (total-cost))
-  (:goal (and (full cup) (at cup counter))))
+  (:goal (and (full cup) (at cup counter)))
+  (:metric minimize (total-cost)))

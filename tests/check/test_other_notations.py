@@ -1,0 +1,254 @@
+"""PDDL as language models and students write it: one message for a slip, and a repair where it is clear."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tmd.check.diagnostic import Diagnostic, Severity
+from tmd.check.report import check_paths
+
+DOMAIN = """\
+(define (domain garden)
+  (:requirements :strips :typing)
+  (:types can bed)
+  (:predicates (at ?c - can ?b - bed) (path ?x ?y - bed) (full ?c - can) (moist ?b - bed))
+  (:action carry
+    :parameters (?c - can ?x ?y - bed)
+    :precondition (and (at ?c ?x) (path ?x ?y))
+    :effect (and (at ?c ?y) (not (at ?c ?x))))
+  (:action pour
+    :parameters (?c - can ?b - bed)
+    :precondition (and (at ?c ?b) (full ?c))
+    :effect (moist ?b)))
+"""
+PROBLEM = """\
+(define (problem june)
+  (:domain garden)
+  (:objects tin jug - can roses herbs - bed)
+  (:init (at tin roses) (at jug herbs) (full tin) (path roses herbs))
+  (:goal (and (moist roses) (moist herbs))))
+"""
+PRECONDITION = "(and (at ?c ?x) (path ?x ?y))"
+NO_TYPES = ("  (:types can bed)\n", "")
+
+# Which file, what is replaced by what, the kind, and what the hint says. Each is repaired by --fix.
+REPAIRED = {
+    "fences": ("domain", "(define (domain", "```lisp\n(define (domain", "foreign-text", "remove"),
+    "fences around": ("problem", PROBLEM, f"```\n{PROBLEM}```\n", "foreign-text", "remove"),
+    "a sentence before": ("domain", "(define (domain", "Sure (as asked):\n(define (domain", "foreign-text", "remove"),
+    "a sentence behind": ("problem", "herbs))))\n", "herbs))))\nWater (all) beds.\n", "foreign-text", "remove"),
+    "a heading": ("domain", "(define (domain", "## The domain\n(define (domain", "foreign-text", '";"'),
+    "Lisp": ("problem", "(define (problem", "(in-package :pddl)\n(define (problem", "foreign-text", "remove"),
+    "a block of comments": ("domain", "  (:types", "#| two\ntypes |# (:types", "foreign-text", '";"'),
+    "comments of C": ("domain", "  (:types", "  // two types\n  (:types", "foreign-text", '";"'),
+    "escaped": ("domain", DOMAIN, DOMAIN.replace("\n", "\\n"), "foreign-text", "ends of lines"),
+    "two problems": (
+        "problem",
+        "herbs))))\n",
+        "herbs))))\n\n(define (problem july) (:domain garden) (:goal (and)))\n",
+        "two-definitions",
+        "july.pddl",
+    ),
+    "commas": ("problem", "tin jug - can roses herbs", "tin, jug - can roses,herbs", "other-notation", "blanks"),
+    "commas of parameters": ("domain", "?c - can ?x ?y - bed", "?c - can, ?x, ?y - bed", "other-notation", "blanks"),
+    "calls": ("problem", "(at tin roses)", "at(tin, roses)", "other-notation", "(at tin roses)"),
+    "calls within": ("domain", ":effect (moist ?b)", ":effect (moist(?b))", "other-notation", "(moist ?b)"),
+    "calls as effects": ("domain", ":effect (moist ?b)", ":effect moist(?b)", "other-notation", "(moist ?b)"),
+    "calls negated": ("domain", "(not (at ?c ?x))", "not(at(?c, ?x))", "other-notation", "(at ?c ?x)"),
+    "calls declared": ("domain", "(full ?c - can)", "full(?c - can)", "other-notation", "(full ?c - can)"),
+    "unequal": ("domain", "(path ?x ?y))\n", "(path ?x ?y) (!= ?x ?y))\n", "other-notation", "(not (= ?x ?y))"),
+    "unequal between": ("domain", "(path ?x ?y))\n", "(path ?x ?y) (?x != ?y))\n", "other-notation", "(not (= ?x ?y))"),
+    "and between": ("domain", PRECONDITION, "((at ?c ?x) and (path ?x ?y))", "other-notation", "(and"),
+    "ampersands": ("domain", "(and (at ?c ?b)", "(&& (at ?c ?b)", "other-notation", "and"),
+    "exclamation mark": ("domain", "(not (at ?c ?x))", "(! (at ?c ?x))", "other-notation", "not"),
+    "nil": ("domain", f":precondition {PRECONDITION}", ":precondition nil", "other-notation", "(and)"),
+    "colons": ("domain", "(?c - can ?b - bed)\n", "(?c: can ?b:bed)\n", "other-notation", "?c - "),
+    "no and": ("domain", PRECONDITION, "(at ?c ?x) (path ?x ?y)", "syntax", "(and ("),
+    "no and in the goal": (
+        "problem",
+        "(and (moist roses) (moist herbs))",
+        "(moist roses) (moist herbs)",
+        "syntax",
+        "(and (",
+    ),
+    "a list": ("problem", "(and (moist roses)", "((moist roses)", "syntax", "(and ("),
+    "no types": ("domain", *NO_TYPES, "missing-section", "(:types can bed)"),
+    "no colon": ("domain", ":strips :typing", "strips typing", "unknown-requirement", ":strips"),
+    "underscore": ("domain", ":typing", ":typing :negative_preconditions", "unknown-requirement", ":negative-"),
+    "an object in the domain": (
+        "domain",
+        "(full ?c))",
+        "(full ?c) (path roses ?b) (path ?b roses))",
+        "unknown-object",
+        "roses - bed",
+    ),
+    "objects in the domain": (
+        "domain",
+        "  (:predicates",
+        "  (:objects barrel - can)\n  (:predicates",
+        "unknown-section",
+        ":constants",
+    ),
+    "blank in an action": ("domain", "(:action carry", "(:action carry can", "bad-name", "carry-can"),
+    "blank in a problem": ("problem", "(problem june)", "(problem june 1)", "bad-name", "june-1"),
+    "marks of objects": ("problem", "(:objects tin", "(:objects ?tin", "bad-name", '"tin"'),
+    "no mark": ("domain", "(at ?c ?b)", "(at ?c b)", "unknown-object", '"?b"'),
+    "no parentheses": ("domain", "(?c - can ?b - bed)\n", "?c - can ?b - bed\n", "syntax", "(?x - type)"),
+    "brackets": ("domain", "(?c - can ?b - bed)\n", "[?c - can ?b - bed]\n", "other-notation", '"("'),
+    "no colon of a section": ("domain", "(:types can bed)", "(types can bed)", "unknown-section", ":types"),
+    "no colon of an action": ("domain", "(:action pour", "(action pour", "unknown-section", ":action"),
+    "comments of TeX": ("domain", "  (:types", "  % two types\n  (:types", "foreign-text", '";"'),
+    "thoughts": ("domain", "(define (domain", "I (define) it:\n(define (domain", "foreign-text", "remove"),
+    "no (define": ("domain", "(define (domain garden)", "(domain garden)", "syntax", "(define (domain"),
+    "no (domain": ("domain", "(domain garden)", "domain garden", "syntax", "(domain garden)"),
+    "no :domain": ("problem", "  (:domain garden)\n", "", "missing-section", "(:domain garden)"),
+    "order of an action": (
+        "domain",
+        f"    :precondition {PRECONDITION}\n    :effect (and (at ?c ?y) (not (at ?c ?x))))",
+        f"    :effect (and (at ?c ?y) (not (at ?c ?x)))\n    :precondition {PRECONDITION})",
+        "section-order",
+        "before",
+    ),
+    "order of a problem": (
+        "problem",
+        "  (:domain garden)\n  (:objects tin jug - can roses herbs - bed)",
+        "  (:objects tin jug - can roses herbs - bed)\n  (:domain garden)",
+        "section-order",
+        "before",
+    ),
+    "plural": (
+        "domain",
+        ":precondition (and (at ?c ?b)",
+        ":preconditions (and (at ?c ?b)",
+        "unknown-keyword",
+        ":precondition",
+    ),
+}
+
+# The same, where only the author knows the repair.
+TOLD = {
+    "types of all lines above": (
+        "domain",
+        "(:types can bed)",
+        "(:types\n can\n bed\n herb_bed - bed)",
+        "type-cycle",
+        '"- object"',
+    ),
+    "a variable in the goal": ("problem", "(moist roses)", "(moist ?b)", "free-variable", "exists (?b - bed)"),
+    "undeclared": (
+        "domain",
+        ":effect (moist ?b)",
+        ":effect (and (moist ?b) (not (dry ?b)))",
+        "unknown-predicate",
+        "(dry ?b - bed)",
+    ),
+    "arity": ("domain", "(at ?c - can ?b - bed)", "(at ?c - can)", "wrong-arity", "(at ?c)"),
+    "a typed problem of an untyped domain": (
+        "domain",
+        DOMAIN,
+        "(define (domain garden) (:predicates (at ?c ?b) (path ?x ?y) (full ?c) (moist ?b)))\n",
+        "unknown-type",
+        "(:types can bed)",
+    ),
+    "types before objects": (
+        "problem",
+        "tin jug - can roses herbs - bed",
+        "can - tin jug bed - roses herbs",
+        "unknown-type",
+        "tin - can",
+    ),
+    "predicates in a problem": ("problem", "  (:init", "  (:predicates (wet))\n  (:init", "unknown-section", "domain"),
+    "left out": ("problem", "(path roses herbs))", "(path roses herbs) ...)", "syntax", "left out"),
+}
+
+
+def _written(folder: Path, file: str, old: str, new: str) -> list[Path]:
+    texts = {"domain": DOMAIN, "problem": PROBLEM}
+    assert old in texts[file]
+    texts[file] = texts[file].replace(old, new)
+    paths = [folder / f"{name}.pddl" for name in texts]
+    for path, text in zip(paths, texts.values(), strict=True):
+        path.write_text(text)
+    return paths
+
+
+def _wrong(found: tuple[Diagnostic, ...]) -> list[Diagnostic]:
+    return [d for d in found if d.severity is Severity.ERROR or d.code in ("section-order", "constant-again")]
+
+
+@pytest.mark.parametrize("name", REPAIRED)
+def test_a_slip_is_told_once_and_repaired(tmp_path: Path, name: str) -> None:
+    *change, kind, hint = REPAIRED[name]
+    paths = _written(tmp_path, *change)
+    (told,) = _wrong(check_paths(paths).diagnostics)
+    assert told.code == kind and hint in (told.hint or "")
+    assert _wrong(check_paths(paths, fix=True).diagnostics) == []
+
+
+@pytest.mark.parametrize("name", TOLD)
+def test_a_slip_is_told_once_with_its_cure(tmp_path: Path, name: str) -> None:
+    *change, kind, hint = TOLD[name]
+    (told,) = _wrong(check_paths(_written(tmp_path, *change)).diagnostics)
+    assert told.code == kind and hint in (told.hint or "")
+
+
+def test_an_object_of_the_domain_moves_from_the_problem(tmp_path: Path) -> None:
+    paths = _written(tmp_path, "domain", "(full ?c))", "(full ?c) (path roses ?b) (path ?b herbs))")
+    check_paths(paths, fix=True)
+    assert "(:constants roses - bed herbs - bed)" in paths[0].read_text()
+    assert "(:objects tin jug - can )" in paths[1].read_text()
+
+
+def test_a_new_file_never_replaces_one(tmp_path: Path) -> None:
+    paths = _written(
+        tmp_path, "problem", "herbs))))\n", "herbs))))\n(define (problem july) (:domain garden) (:goal (and)))\n"
+    )
+    before = paths[1].read_text()
+    (tmp_path / "july.pddl").write_text("; mine\n")
+    check_paths(paths, fix=True)
+    assert paths[1].read_text() == before and (tmp_path / "july.pddl").read_text() == "; mine\n"
+
+
+def test_a_comment_may_be_latin_1(tmp_path: Path) -> None:
+    paths = _written(tmp_path, "domain", "garden)\n", "garden) ; Beete begie\u00dfen\n")
+    paths[0].write_bytes(paths[0].read_text().encode("latin-1"))
+    assert [d.code for d in check_paths(paths).diagnostics] == ["latin1-comment"]
+    assert check_paths(paths, fix=True).diagnostics == ()
+    assert "begie\u00dfen" in paths[0].read_text(encoding="utf-8")
+
+
+def test_a_cost_without_a_value_is_a_warning(tmp_path: Path) -> None:
+    costly = DOMAIN.replace(":typing)", ":typing :action-costs)").replace(
+        "  (:action carry", "  (:functions (total-cost) (length ?x ?y - bed))\n  (:action carry"
+    )
+    costly = costly.replace("(not (at ?c ?x))", "(not (at ?c ?x)) (increase (total-cost) (length ?x ?y))")
+    paths = _written(tmp_path, "domain", DOMAIN, costly)
+    for values, told in (("", ["cost-missing"]), (" (= (length roses herbs) 2)", [])):
+        problem = PROBLEM.replace("(path roses herbs))", f"(path roses herbs){values})").replace(
+            "herbs))))", "herbs)))\n  (:metric minimize (total-cost)))"
+        )
+        paths[1].write_text(problem)
+        assert [d.code for d in check_paths(paths).diagnostics] == told
+
+
+@given(
+    st.lists(
+        st.sampled_from(
+            ["```", "(", ")", ",", "at(", "!=", "#|", "|#", ";", "\n", ":init", "nil", "?c:", "(define", " "]
+        )
+    ),
+    st.integers(0, len(DOMAIN)),
+)
+def test_repairing_ends_and_keeps_to_pddl(
+    tmp_path_factory: pytest.TempPathFactory, words: list[str], place: int
+) -> None:
+    path = tmp_path_factory.mktemp("mixed") / "domain.pddl"
+    path.write_text(DOMAIN[:place] + "".join(words) + DOMAIN[place:])
+    check_paths([path], fix=True)
+    once = path.read_text()
+    check_paths([path], fix=True)
+    assert path.read_text() == once

@@ -1,0 +1,212 @@
+"""Text in and around PDDL that is not PDDL: Markdown, prose, comments of other languages, commas, a second definition.
+
+Language models answer with it, and students paste it. It is found before the parentheses are read and blanked out, so
+that everything else keeps its place and is read as if it were alone.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Iterator, Sequence
+from itertools import accumulate
+from pathlib import Path
+
+from tmd.diagnostics import Edit, Location, TmdError
+
+_MARKS = re.compile(
+    r"(?P<comment>;[^\n]*)"
+    r"|(?P<fence>(?:```|~~~)[a-zA-Z]*)"
+    r"|(?P<block>\#\|.*?(?:\|\#|\Z)|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z))"
+    r"|(?P<escape>\\[nrt\"])"
+    r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*)",
+    re.DOTALL,
+)
+_TOLD = {
+    "fence": ("the marks of a Markdown block are not PDDL", "remove them"),
+    "block": ("this is not a comment of PDDL", 'write ";" before each of its lines'),
+    "escape": ("the ends of lines are written as letters here", "write them as ends of lines"),
+    "remark": ("this is not a comment of PDDL", 'begin it with ";"'),
+}
+_DEFINE = re.compile(r"\(\s*define\b", re.IGNORECASE)
+_DEFINITION = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\b\s*([^\s()]*)", re.IGNORECASE)
+# Text behind a definition that belongs into it: the definition was closed too early.
+_STRUCTURE = re.compile(r"\A\s*[():]|\(\s*:|^\s*:", re.MULTILINE)
+_ROUND = str.maketrans("[]{}\uff08\uff09", "()()()")
+_LINE = re.compile(r"[^\n]+")
+
+
+def pddl_lines(lines: Sequence[str], file: str) -> tuple[tuple[str, ...], list[TmdError]]:
+    """Return ``lines`` with everything blanked out that is not PDDL, and a fault for each kind of that."""
+    text = _Text(lines, file)
+    text.marks()
+    text.around()
+    text.brackets()
+    text.commas()
+    return tuple(text.kept.split("\n")), text.faults
+
+
+class _Text:
+    """A text, what is kept of it (``kept``), and the same without comments (``bare``); all of one length."""
+
+    def __init__(self, lines: Sequence[str], file: str) -> None:
+        self.lines = lines
+        self.file = file
+        self.kept = self.bare = "\n".join(lines)
+        self.starts = [0, *accumulate(len(line) + 1 for line in lines)]
+        self.faults: list[TmdError] = []
+
+    def place(self, offset: int) -> Location:
+        line = bisect_right(self.starts, offset)
+        return Location(self.file, line, offset - self.starts[line - 1] + 1)
+
+    def fault(self, message: str, offset: int, hint: str, code: str, edits: Sequence[Edit]) -> None:
+        place = self.place(offset)
+        source = self.lines[place.line - 1]
+        self.faults.append(TmdError(message, location=place, hint=hint, source=source, code=code, edits=edits))
+
+    def edit(self, start: int, end: int, text: str = "") -> Edit:
+        return Edit(self.place(start), self.place(end), text)
+
+    def removal(self, start: int, end: int) -> Edit:
+        """Return the edit that removes a part of the text, whole lines with their ends."""
+        first = self.starts[self.place(start).line - 1]
+        last = self.kept.find("\n", end)
+        if not self.bare[first:start].strip() and last >= 0 and not self.kept[end:last].strip():
+            return self.edit(first, last + 1)
+        return self.edit(start, end)
+
+    def blank(self, spans: Sequence[tuple[int, int]]) -> None:
+        """Blank parts of the text, in the order in which they stand."""
+        self.kept, self.bare = (_without(text, spans) for text in (self.kept, self.bare))
+
+    def marks(self) -> None:
+        """Blank the marks of Markdown and comments of other languages; comments of PDDL are no part of ``bare``."""
+        found: dict[str, list[re.Match[str]]] = {}
+        for match in _MARKS.finditer(self.bare):
+            if match.lastgroup and match.lastgroup != "comment":
+                found.setdefault(match.lastgroup, []).append(match)
+        self.blank(sorted(match.span() for matches in found.values() for match in matches))
+        self.bare = re.sub(r";[^\n]*", lambda comment: _blanks(comment[0]), self.bare)
+        for kind, matches in found.items():
+            message, hint = _TOLD[kind]
+            edits = [edit for match in matches for edit in self._mended(kind, match)]
+            self.fault(message, matches[0].start() + _indent(matches[0][0]), hint, "foreign-text", edits)
+
+    def _mended(self, kind: str, match: re.Match[str]) -> Iterator[Edit]:
+        if kind == "fence":
+            yield self.removal(*match.span())
+        elif kind == "escape":
+            yield self.edit(*match.span(), {"n": "\n", '"': '"'}.get(match[0][1], " "))
+        elif kind == "remark":
+            mark = match[0].lstrip(" \t").partition(" ")[0].partition("\t")[0]
+            start = match.start() + _indent(match[0])
+            yield self.edit(start, start + (2 if mark.startswith("//") else len(mark)), ";")
+        else:
+            for line in _LINE.finditer(match[0]):
+                start = match.start() + line.start() + _indent(line[0])
+                yield self.edit(start, start, "; ")
+            after = self.kept.partition("\n")[0] if match.end() == 0 else self.kept[match.end() :].partition("\n")[0]
+            if after.strip():
+                yield self.edit(match.end(), match.end(), "\n")
+
+    def around(self) -> None:
+        """Blank what stands around the first definition."""
+        first = _DEFINITION.search(self.bare) or _DEFINE.search(self.bare)
+        if first is None:
+            return
+        begin = first.start()
+        if self.bare[:begin].strip():
+            self._prose(0, begin, 'this text before "(define" is not PDDL')
+        others = list(_DEFINITION.finditer(self.bare, begin + 1))
+        last = others[0].start() if others else len(self.bare)
+        end = _end_of_group(self.bare, begin, last)
+        rest = self.bare[end:last]
+        if rest.strip() and (others or not _STRUCTURE.search(rest)):
+            self._prose(end, last, "this text behind the definition is not PDDL")
+        if others:
+            self._definitions(others)
+
+    def _prose(self, start: int, end: int, message: str) -> None:
+        """Report and blank text; the comments of PDDL in it stay."""
+        spans = [(start + m.start(), start + m.end()) for m in re.finditer(r"\S(?:[^\n]*\S)?", self.bare[start:end])]
+        if re.match(r"\(\s*in-package\b", self.bare[spans[0][0] :], re.IGNORECASE):
+            message = '"(in-package ...)" is Lisp, not PDDL'
+        edits = [self.removal(*span) for span in spans]
+        self.fault(message, spans[0][0], 'remove it, or write ";" before each of its lines', "foreign-text", edits)
+        self.blank(spans)
+
+    def _definitions(self, others: Sequence[re.Match[str]]) -> None:
+        """Report and blank further definitions."""
+        ends = [*(match.start() for match in others[1:]), len(self.kept)]
+        edits = []
+        for match, end in zip(others, ends, strict=True):
+            path = str(self._file_for(match))
+            new = Location(path, 0, 0)
+            edits.append(Edit(new, new, self.kept[match.start() : end].strip() + "\n"))
+        edits.append(self.edit(len(self.kept[: others[0].start()].rstrip()), len(self.kept.rstrip())))
+        kind, name = others[0].groups()
+        message = f'this file has {len(others) + 1} definitions: here begins the {kind.lower()} "{name}"'
+        hint = f"put it into a file of its own, such as {Path(edits[0].start.file).name}"
+        self.fault(message, others[0].start(), hint, "two-definitions", edits)
+        self.blank([(others[0].start(), len(self.kept))])
+
+    def _file_for(self, match: re.Match[str]) -> Path:
+        """Return the file that a definition may be put into."""
+        kind, name = match[1].lower(), re.sub(r"[^\w.-]", "_", match[2])
+        own = Path(self.file)
+        names = (kind if kind == "domain" else name or kind, f"{kind}-{name}")
+        return next(path for n in names if (path := own.with_name(f"{n}.pddl")) != own)
+
+    def brackets(self) -> None:
+        """Read other brackets as parentheses."""
+        places = [match.start() for match in re.finditer(r"(?<!\x1b)[\[\]{}\uff08\uff09]", self.bare)]
+        if places:
+            edits = [self.edit(place, place + 1, self.bare[place].translate(_ROUND)) for place in places]
+            message = f'PDDL has round parentheses only, not "{self.bare[places[0]]}"'
+            self.fault(message, places[0], 'write "(" and ")"', "other-notation", edits)
+            self.kept = "".join(
+                b.translate(_ROUND) if b != " " else k for k, b in zip(self.kept, self.bare, strict=True)
+            )
+            self.bare = self.bare.translate(_ROUND)
+
+    def commas(self) -> None:
+        """Blank commas."""
+        places = [match.start() for match in re.finditer(",", self.bare)]
+        if not places:
+            return
+        edits = []
+        for place in places:
+            around = self.bare[max(0, place - 1) : place] + self.bare[place + 1 : place + 2]
+            edits.append(self.edit(place, place + 1, "" if re.search(r"[\s()]", around) or len(around) < 2 else " "))
+        more = f" ({len(places)} of them)" if len(places) > 1 else ""
+        self.fault(f"PDDL has no commas{more}", places[0], "separate words by blanks", "other-notation", edits)
+        self.blank([(place, place + 1) for place in places])
+
+
+def _without(text: str, spans: Sequence[tuple[int, int]]) -> str:
+    """Return ``text`` with ``spans`` blanked, as long as before."""
+    kept: list[str] = []
+    done = 0
+    for start, end in spans:
+        kept += (text[done:start], _blanks(text[start:end]))
+        done = end
+    return "".join((*kept, text[done:]))
+
+
+def _blanks(text: str) -> str:
+    return re.sub(r"[^\n]", " ", text)
+
+
+def _indent(text: str) -> int:
+    return len(text) - len(text.lstrip())
+
+
+def _end_of_group(text: str, begin: int, end: int) -> int:
+    """Return the place behind the group that begins at ``begin``; ``end`` where it is not closed before that."""
+    depth = 0
+    for match in re.compile(r"[()]").finditer(text, begin, end):
+        depth += 1 if match[0] == "(" else -1
+        if not depth:
+            return match.end()
+    return end
