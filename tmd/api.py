@@ -268,16 +268,17 @@ def find_plan(
     raise NoPlanError(f"the planner gave up at {answer.limit}; nothing is proven", proven=False)
 
 
-def read_plan(path: str | Path) -> tuple[Instruction, ...]:
-    """Return the plan in a file: of the planning competitions, or with times, as VAL, POPF and PlanSys2 have them.
+def read_plan(path: str | Path, problem: Problem | None = None) -> tuple[Instruction, ...]:
+    """Return the plan in a file: a plan file, or the output of a planner, a planning service or a language model.
 
     Args:
         path: The file.
+        problem: The problem that it is for. Without it, only steps in parentheses on lines of their own are found.
 
     Raises:
         TmdError: The file cannot be read, or a line of it is not an instruction.
     """
-    return read_plan_file(path).instructions
+    return read_plan_file(path, problem).instructions
 
 
 def export_plan(

@@ -89,17 +89,16 @@ def validate(roots: Roots, domain: str, problem: str, plan: Path, as_json: bool)
     """Execute PLAN in PROBLEM and name the first precondition that does not hold.
 
     DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. An environment is a YAML file or the name of
-    a bundled one, and of its plans only that they can be executed is asked. PLAN has one (action argument ...) a line;
-    plans with times are read as well, as VAL, POPF and PlanSys2 have them. Ends with 0 for a plan that works and 11
-    for one that does not.
+    a bundled one, and of its plans only that they can be executed is asked. PLAN is a plan file, or
+    what a planner, a planning service or a language model printed (docs/export.md). Ends with 0 for a plan that works
+    and 11 for one that does not.
     """
     from tmd.pddl.plan_file import read_plan
     from tmd.pddl.validator import validate
 
     world = _read(roots, domain, problem)
-    told = read_plan(plan)
-    if told.overlap:
-        emit(f"warning: {told.overlap}: instructions overlap in time; they are taken one after the other\n", error=True)
+    told = read_plan(plan, world)
+    emit("".join(f"warning: {warning}\n" for warning in told.warnings), error=True)
     verdict = validate(world, told.instructions)
     place = told.locations[verdict.step - 1] if verdict.step else None
     if as_json:
