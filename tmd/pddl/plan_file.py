@@ -313,7 +313,8 @@ class _Reader:
         for group in found:
             words = group.words
             if words and (pure or self.vocabulary.has(words) or (not known and self.vocabulary.resembles(words))):
-                _check_names(words, _at(place, group.start), source)
+                if not self.vocabulary.has(words):  # names of the domain may be odd
+                    _check_names(words, _at(place, group.start), source)
                 length = _DURATION.match(code, group.end)
                 stop = start + Decimal(length[1]) if start is not None and length else None
                 steps.append(_Step(_instruction(words), _at(place, group.start), source, start, stop))

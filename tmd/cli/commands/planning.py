@@ -28,6 +28,8 @@ if TYPE_CHECKING:
     from tmd.pddl.model import Problem
 
 
+# Number of renamed names that a warning lists.
+_SHOWN = 10
 FORMATS = ("adl", "ipc", "strips", "durative", "plansys2", "bt", "sas")
 """The forms of an export, the default first."""
 
@@ -201,6 +203,10 @@ def export(
     flat = {path: data for files in written.files.values() for path, data in files.items()}
     write_directory(directory, flat, overwrite=overwrite)
     emit("".join(f"{directory / path}\n" for path in flat))
+    if changed := written.renames:
+        told = ", ".join(f"{kind} {name} is {new}" for (kind, name), new in list(changed.items())[:_SHOWN])
+        more = f" and {len(changed) - _SHOWN} more" if len(changed) > _SHOWN else ""
+        emit(f"warning: other tools refuse names, which are written differently: {told}{more}\n", error=True)
     for name, error in failures.items():
         emit(f"not written: {name}: {one_line(str(error))}\n", error=True)
     return next((error.exit_code for error in failures.values()), ExitCode.OK)
