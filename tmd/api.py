@@ -157,7 +157,8 @@ def new_domain(
 
     Args:
         name: The domain.
-        start: Begin with ``plain`` PDDL, or with a ``graph``: classes of things that have parts.
+        start: Begin with ``plain`` PDDL, with a ``graph``: classes of things that have parts, ``empty``, or with the
+            PDDL domain in a file, whose actions give the lexicon.
         domains: Its folder is made in this directory.
         problems: The folder of its environments, problems and demonstrations is made in this directory.
 
@@ -169,7 +170,14 @@ def new_domain(
     """
     from tmd.world.scaffold import scaffold
 
-    return scaffold(name, start, Path(domains), Path(problems))
+    given = None
+    if start.endswith(".pddl"):
+        from tmd.goals.written_rows import lexicon_of_actions
+        from tmd.pddl.reading.reader import read_domain
+        from tmd.pddl.reading.syntax import read_text
+
+        given = read_text(start), lexicon_of_actions(read_domain(start))
+    return scaffold(name, start if given is None else "empty", Path(domains), Path(problems), given)
 
 
 def compile_domain(name: str, *, domains: str | Path | None = None, write: bool = True) -> bool:
@@ -268,16 +276,17 @@ def find_plan(
     raise NoPlanError(f"the planner gave up at {answer.limit}; nothing is proven", proven=False)
 
 
-def read_plan(path: str | Path) -> tuple[Instruction, ...]:
-    """Return the plan in a file: of the planning competitions, or with times, as VAL, POPF and PlanSys2 have them.
+def read_plan(path: str | Path, problem: Problem | None = None) -> tuple[Instruction, ...]:
+    """Return the plan in a file: a plan file, or the output of a planner, a planning service or a language model.
 
     Args:
         path: The file.
+        problem: The problem that it is for. Without it, only steps in parentheses on lines of their own are found.
 
     Raises:
         TmdError: The file cannot be read, or a line of it is not an instruction.
     """
-    return read_plan_file(path).instructions
+    return read_plan_file(path, problem).instructions
 
 
 def export_plan(

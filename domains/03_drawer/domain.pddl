@@ -71,14 +71,11 @@
     :precondition (and (near pr2 ?x) (free pr2) (opened ?x))
     :effect (not (opened ?x)))
 
-  ; Take x from where it is, if that is within reach and no closed drawer.
+  ; Take x from y. The place is a parameter: planners look for what fits, where they would enumerate an exists.
   (:action grasp
-    :parameters (?x - item)
-    :precondition (and (free pr2)
-      (exists (?y - fixture ?rel - relation)
-        (and (near pr2 ?y) (at ?x ?y ?rel) (or (opened ?y) (not (closes ?y))))))
-    :effect (and (holding pr2 ?x) (not (free pr2))
-      (forall (?y - fixture ?rel - relation) (not (at ?x ?y ?rel)))))
+    :parameters (?x - item ?y - fixture ?rel - relation)
+    :precondition (and (free pr2) (at ?x ?y ?rel) (near pr2 ?y) (or (opened ?y) (not (closes ?y))))
+    :effect (and (holding pr2 ?x) (not (free pr2)) (not (at ?x ?y ?rel))))
 
   ; Put x on or in y.
   (:action keep

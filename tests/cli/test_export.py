@@ -210,4 +210,20 @@ def test_an_overlapping_plan_is_taken_with_a_warning(tmd: Tmd, tmp_path: Path) -
     (tmp_path / "t.plan").write_text("".join(f"{number}.0: {line} [3.0]\n" for number, line in enumerate(lines)))
     ended = tmd("validate", DOMAIN, PROBLEM, "t.plan")
     assert (ended.code, ended.out) == (ExitCode.OK, "valid: 6 instructions, cost 6\n")
-    assert ended.err == "warning: t.plan:2:1: instructions overlap in time; they are taken one after the other\n"
+    assert ended.err == "warning: t.plan:2:6: instructions overlap in time; they are taken one after the other\n"
+
+
+def test_every_command_reads_what_planners_print(tmd: Tmd, tmp_path: Path) -> None:
+    steps = [line.strip("()") for line in PLAN.read_text().splitlines() if line.startswith("(")]
+    for name, log in {
+        "fd.log": "".join(
+            ["[t=0.0s] Solution found!\n", *(f"{step} (1)\n" for step in steps), "Plan length: 6 step(s).\n"]
+        ),
+        "api.json": json.dumps({"result": {"plan": [{"name": f"({step})"} for step in steps]}}),
+    }.items():
+        (tmp_path / name).write_text(log)
+        assert tmd("validate", DOMAIN, PROBLEM, name).out == "valid: 6 instructions, cost 6\n"
+        assert tmd("view", name, "--problem", PROBLEM).code == ExitCode.OK
+        assert tmd("export", PROBLEM, name.partition(".")[0], "--plan", name, "--format", "ipc").code == ExitCode.OK
+    ended = tmd("export", PROBLEM, "none", "--plan", DOMAIN)
+    assert (ended.code, ended.err.count("error: ")) == (ExitCode.BAD_INPUT, 1)

@@ -92,6 +92,58 @@ def test_an_unknown_start_gets_one_line(tmd: Tmd) -> None:
     assert "'plane'" in done.err
 
 
+PARCELS = """(define (domain parcels) (:requirements :strips :typing) (:types truck parcel place)
+  (:predicates (at ?x - (either truck parcel) ?p - place) (in ?x - parcel ?t - truck))
+  (:action load :parameters (?x - parcel ?t - truck ?p - place)
+    :precondition (and (at ?x ?p) (at ?t ?p)) :effect (and (in ?x ?t) (not (at ?x ?p))))
+  (:action drive :parameters (?t - truck ?from ?to - place)
+    :precondition (at ?t ?from) :effect (and (at ?t ?to) (not (at ?t ?from)))))
+"""
+
+
+def test_a_pddl_file_gives_its_lexicon(tmd: Tmd, tmp_path: Path) -> None:
+    (tmp_path / "parcels.pddl").write_text(PARCELS)
+    made = tmd("new", "post", "--from", "parcels.pddl")
+    assert made.code == ExitCode.OK, made.err
+    folder = tmp_path / "domains" / "post"
+    assert (folder / "domain.pddl").read_text() == PARCELS
+    lexicon = read_lexicon(folder / "lexicon.yaml")
+    assert {"load", "drive"} <= lexicon.goal_verbs
+    assert json.loads(tmd("check", "domains/post", "--json").out)["diagnostics"] == []
+    (tmp_path / "post1.pddl").write_text(
+        "(define (problem post1) (:domain parcels) (:objects van - truck box - parcel depot school - place)"
+        " (:init (at van depot) (at box school)) (:goal (and)))"
+    )
+    done = tmd("ground", "--domain", "post", "--environment", "post1.pddl", "--text", "Load the box into the van.")
+    assert done.code == ExitCode.OK and "(in box van)" in done.out, done.err
+
+
+def test_an_empty_one_has_a_frame_that_checks(tmd: Tmd, tmp_path: Path) -> None:
+    assert tmd("new", "shop", "--empty").code == ExitCode.OK
+    assert sorted(path.name for path in (tmp_path / "domains" / "shop").iterdir()) == [
+        "README.md",
+        "domain.pddl",
+        "lexicon.yaml",
+    ]
+    assert json.loads(tmd("check", "domains/shop", "--json").out)["diagnostics"] == []
+    assert tmd("new", "other", "--empty", "--from", "plain").code == ExitCode.USAGE
+
+
+@pytest.mark.parametrize("options", [(), ("--empty",)])
+def test_a_bundled_domain_is_not_hidden(options: tuple[str, ...], tmd: Tmd, tmp_path: Path) -> None:
+    done = tmd("new", "kitchen", *options)
+    assert done.code == ExitCode.BAD_INPUT
+    assert done.err.startswith("error: there is a domain 'kitchen' already: ")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_empty_folder_is_not_ok(tmd: Tmd, tmp_path: Path) -> None:
+    (tmp_path / "nothing").mkdir()
+    done = tmd("check", "nothing")
+    assert (done.code, done.out) == (ExitCode.BAD_INPUT, "")
+    assert done.err.startswith("error: there is nothing to check in nothing")
+
+
 @settings(max_examples=6, deadline=None)
 @given(name=st.from_regex(r"[a-z][a-z0-9_]{0,12}", fullmatch=True), start=st.sampled_from(sorted(STARTS)))
 def test_any_name_makes_a_domain_that_teaches_what_its_model_does(

@@ -86,7 +86,7 @@ class Val:
     def valid(self, domain: str, problem: str, plan: str) -> bool:
         """Tell whether it finds the plan valid."""
         self._write(domain, problem, plan)
-        said = self._run("Validate", "-t", "0.001", "domain.pddl", "problem.pddl", "plan.plan")
+        said = self._run("Validate", "domain.pddl", "problem.pddl", "plan.plan")
         return re.search(r"Plan valid|Successful plans", said) is not None
 
     def _write(self, domain: str, problem: str, plan: str) -> None:

@@ -26,8 +26,8 @@ def test_adl_is_read_back(source: Planned) -> None:
     files = FORMATS["adl"](source)
     problem = parse_problem(files["problem.pddl"], parse_domain(files["domain.pddl"]))
     assert problem == source.portable
-    plan = parse_plan(files["plan.plan"])
-    assert (plan.instructions, plan.cost) == (source.plan, source.cost)
+    assert parse_plan(files["plan.plan"]).instructions == source.plan
+    assert f"; cost = {source.cost} " in files["plan.plan"]
 
 
 def test_sas_is_what_fast_downward_searches(tmp_path: Path) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import xml.etree.ElementTree as ET
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 
 import tmd
 from tests.bundled import kit
@@ -58,6 +60,8 @@ def test_the_lines_say_where_everything_was(recorded: dict[str, Path]) -> None:
 
 def test_mcap_is_read_back_as_ros_2_messages(recorded: dict[str, Path]) -> None:
     reading = pytest.importorskip("mcap_ros2.reader", reason="needs the extra ros")
+    from mcap.reader import make_reader
+
     found: dict[str, list[Any]] = {}
     for message in reading.read_ros2_messages(str(recorded[".mcap"])):
         found.setdefault(message.channel.topic, []).append((message.log_time_ns, message.ros_msg))
@@ -71,6 +75,15 @@ def test_mcap_is_read_back_as_ros_2_messages(recorded: dict[str, Path]) -> None:
     assert transforms["base_footprint"].translation.x == pytest.approx(lines[-1].base[0], abs=1e-6)
     assert set(transforms) > {"pot1", "cup1"}
     assert {frame.child_frame_id for frame in found["/tf_static"][0][1].transforms} >= {"fridge1", "counter1"}
+    joints = {joint.get("name") for joint in ET.fromstring(found["/robot_description"][0][1].data).iter("joint")}
+    assert joints >= set(states[0][1].name)
+    with recorded[".mcap"].open("rb") as file:
+        channels = make_reader(file).get_summary().channels.values()
+    profiles = {
+        channel.topic: yaml.safe_load(channel.metadata.get("offered_qos_profiles", "[]")) for channel in channels
+    }
+    latched = {topic for topic, profile in profiles.items() if profile and profile[0]["durability"] == 1}
+    assert latched == {"/tf_static", "/robot_description"}
     assert [message.data for _, message in found["/instruction"] if message.data] == ["find(pot1)", "moveto(pot1)"]
 
 

@@ -18,7 +18,8 @@ def test_verdict(plan_path: Path, plan_problem: Problem) -> None:
     if plan_path.name.startswith("valid"):
         assert verdict.valid and verdict.status is Status.VALID and not verdict.reason
         assert len(verdict.trace) == len(plan.instructions) + 1
-        assert verdict.cost == (plan.cost if plan.cost is not None else len(plan.instructions))
+        cost = re.search(r"; cost = (\d+)", plan_path.read_text(encoding="utf-8"))
+        assert verdict.cost == (int(cost[1]) if cost else len(plan.instructions))
         return
     expected = EXPECTED.match(plan_path.read_text(encoding="utf-8"))
     assert expected, "the plan does not say how it fails"

@@ -27,7 +27,13 @@ from tmd.view.subject import PlannedStep, Subject, grounded_subject
 from tmd.world.world import World
 
 TEXT = "Open the drawer. Take the key and put it on the table. Close the drawer. Close the drawer."
-PLAN = ["moveto(desk1)", "open(desk1_drawer)", "grasp(key1)", "moveto(table1)", "keep(key1, table1, on)"]
+PLAN = [
+    "moveto(desk1)",
+    "open(desk1_drawer)",
+    "grasp(key1, desk1_drawer, in)",
+    "moveto(table1)",
+    "keep(key1, table1, on)",
+]
 
 
 @pytest.fixture(scope="module")

@@ -10,6 +10,7 @@ import click
 
 from tmd.cli.grounding import Answer, answer, remarks
 from tmd.cli.options import ReadingOptions
+from tmd.cli.output import emit
 from tmd.cli.plans import exit_code, why_invalid, why_none
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
@@ -74,7 +75,8 @@ def planned_source(
     if goal:
         problem = with_goal(problem, goal)
     if plan:
-        found = read_plan(plan)
+        found = read_plan(plan, problem)
+        emit("".join(f"warning: {warning}\n" for warning in found.warnings), error=True)
         return _checked(problem, found, whole=path.suffix != ".pddl" and not goal)
     solution = solve(problem, planner or AUTO, **limits)
     if isinstance(solution, Solved):

@@ -99,13 +99,14 @@ def orders_of_file(path: Path, problem: Problem) -> Orders:
     Raises:
         TmdError: The file cannot be read, or has no instructions.
     """
-    plan = read_plan(path)
+    plan = read_plan(path, problem)
     if not plan.instructions:
         raise TmdError(f"{path}: the plan has no instructions", hint="write one (name argument ...) a line")
+    remarks = tuple(f"warning: {warning}\n" for warning in plan.warnings)
     fault = why_invalid(problem, plan)
     if fault:
-        return Orders((), ExitCode.INVALID_PLAN, (f"invalid: {fault}\n",))
-    return Orders(tuple(map(Order, plan.instructions)))
+        return Orders((), ExitCode.INVALID_PLAN, (*remarks, f"invalid: {fault}\n"))
+    return Orders(tuple(map(Order, plan.instructions)), remarks=remarks)
 
 
 def why_invalid(problem: Problem, plan: Plan) -> str:

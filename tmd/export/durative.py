@@ -26,8 +26,8 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.writer import format_domain, format_formula, format_problem
 
-# Between the end of an instruction and the start of the next; the tolerance of VAL and POPF.
-GAP = Decimal("0.001")
+# Between the end of an instruction and the start of the next: the tolerance of VAL where none is given.
+GAP = Decimal("0.01")
 
 
 def starts(count: int) -> list[Decimal]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from tmd.diagnostics import TmdError
+from tmd.export.names import Renames
 from tmd.export.planned_problem import Planned
 from tmd.export.strips import Strips
 from tmd.pddl.plan_file import format_plan
@@ -19,8 +20,12 @@ Texts: TypeAlias = Mapping[str, str]
 
 
 def _adl(source: Planned) -> Texts:
-    domain, problem = format_domain(source.portable.domain), format_problem(source.portable)
-    return {"domain.pddl": domain, "problem.pddl": problem, **_ipc(source)}
+    found = source.accepted
+    return {
+        "domain.pddl": format_domain(found.portable.domain),
+        "problem.pddl": format_problem(found.portable),
+        **_ipc(found),
+    }
 
 
 def _ipc(source: Planned) -> Texts:
@@ -30,7 +35,7 @@ def _ipc(source: Planned) -> Texts:
 def _strips(source: Planned) -> Texts:
     from tmd.export.strips import strips
 
-    found = strips(source)
+    found = strips(source.accepted)
     steps = "".join(f"; {found.instructions[step.name].pddl()}\n{step.pddl()}\n" for step in found.plan)
     return {
         "domain.pddl": _with_origins(format_domain(found.problem.domain), found),
@@ -51,9 +56,9 @@ def _durative(source: Planned) -> Texts:
     from tmd.export.durative import format_durative_domain, format_durative_problem, format_temporal
 
     return {
-        "domain.pddl": format_durative_domain(source.portable.domain),
-        "problem.pddl": format_durative_problem(source.portable),
-        "plan.plan": format_temporal(source.plan),
+        "domain.pddl": format_durative_domain(source.accepted.portable.domain),
+        "problem.pddl": format_durative_problem(source.accepted.portable),
+        "plan.plan": format_temporal(source.accepted.plan),
     }
 
 
@@ -61,7 +66,7 @@ def _plansys2(source: Planned) -> Texts:
     from tmd.export.durative import format_durative_domain, format_durative_problem, format_popf
     from tmd.export.strips import strips
 
-    found = strips(source, typed=True)
+    found = strips(source.accepted, typed=True)
     domain = format_durative_domain(found.problem.domain)
     return {
         "domain.pddl": _with_origins(domain, found, "durative-action"),
@@ -82,6 +87,8 @@ def _sas(source: Planned) -> Texts:
     return {"output.sas": translated(source.problem), "sas_plan": _ipc(source)["plan.plan"]}
 
 
+# Formats in which names keep: programs read the plan beside the problem as it is, or have no such rules.
+_UNCHANGED = frozenset({"ipc", "bt", "sas"})
 # What is written where no format is asked for.
 DEFAULT = "adl"
 
@@ -104,10 +111,12 @@ class ChosenFiles:
     Attributes:
         files: The files of each format that could be written, by path within one directory.
         failures: Why each other one could not.
+        renames: The names that other tools refuse, by the kind of what they name, with those that were written.
     """
 
     files: Mapping[str, Files]
     failures: Mapping[str, TmdError]
+    renames: Renames
 
 
 def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
@@ -125,7 +134,7 @@ def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
             files[name] = {prefix + path: text.encode("utf-8") for path, text in make(source).items()}
         except TmdError as error:
             failures[name] = error
-    return ChosenFiles(files, failures)
+    return ChosenFiles(files, failures, source.renames if files.keys() - _UNCHANGED else {})
 
 
 def _format(name: str) -> Callable[[Planned], Texts]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from tmd.diagnostics import TmdError
+from tmd.export.names import Renames, renamed, renames
 from tmd.pddl.model import TRUE, And, Atom, Instruction, Not, Problem, State
 from tmd.pddl.normalise import portable
 from tmd.pddl.validator import validate
@@ -38,6 +39,24 @@ class Planned:
             TmdError: It cannot be written so.
         """
         return portable(self.problem)
+
+    @cached_property
+    def renames(self) -> Renames:
+        """The names that other tools refuse, with those that they take."""
+        return renames(self.portable)
+
+    @cached_property
+    def accepted(self) -> Planned:
+        """The portable problem and the plan, in names that other tools take.
+
+        Raises:
+            TmdError: As :attr:`portable`.
+        """
+        if not self.renames:
+            return self
+        plan: tuple[Instruction, ...] = renamed(self.plan, self.renames)
+        states: tuple[State, ...] = renamed(self.states, self.renames)
+        return replace(self, problem=renamed(self.portable, self.renames), plan=plan, states=states)
 
 
 def planned(problem: Problem, plan: Iterable[Instruction]) -> Planned:

@@ -43,6 +43,13 @@ _TF = (
     + "".join(_HEADER[1:])
 )  # fmt: skip
 _STRING = "string data\n"
+# What rosbag2 writes of a latched topic: keep the last message, reliable, transient local.
+_QOS = "offered_qos_profiles"
+_FOREVER = "{sec: 9223372036, nsec: 854775807}"
+_LATCHED = (
+    f"- history: 1\n  depth: 1\n  reliability: 1\n  durability: 1\n  deadline: {_FOREVER}\n  lifespan: {_FOREVER}\n"
+    f"  liveliness: 1\n  liveliness_lease_duration: {_FOREVER}\n  avoid_ros_namespace_conventions: false\n"
+)
 
 
 def open_trajectory(path: Path) -> TrajectoryFile:
@@ -127,7 +134,7 @@ class TrajectoryFile:
 
 
 class _Mcap(TrajectoryFile):
-    """``/joint_states``, ``/object_joint_states``, ``/tf``, ``/tf_static`` and ``/instruction``, from time 0 on."""
+    """Joint states, transforms, instructions and the robot's description as ROS 2 topics, from time 0 on."""
 
     def __init__(self, path: Path) -> None:
         super().__init__(path)
@@ -147,8 +154,17 @@ class _Mcap(TrajectoryFile):
         self._joints = self._writer.register_msgdef("sensor_msgs/msg/JointState", _JOINT_STATE)
         self._tf = self._writer.register_msgdef("tf2_msgs/msg/TFMessage", _TF)
         self._string = self._writer.register_msgdef("std_msgs/msg/String", _STRING)
+        self._latch("/robot_description", self._string)
+        self._latch("/tf_static", self._tf)
+        self._send("/robot_description", self._string, {"data": what.robot.read_text(encoding="utf-8")}, 0.0)
         frames = [_transform(0.0, name, pose) for name, pose in what.fixtures.items()]
         self._send("/tf_static", self._tf, {"transforms": frames}, 0.0)
+
+    def _latch(self, topic: str, schema: Any) -> None:  # noqa: ANN401 - theirs
+        """Let players publish ``topic`` so that those who subscribe later get its message as well."""
+        # the writer of messages has no argument for what a channel is described with
+        channel = self._writer._writer.register_channel(topic, "cdr", schema.id, metadata={_QOS: _LATCHED})
+        self._writer._channel_ids[topic] = channel
 
     def _add(self, sample: Sample) -> None:
         time = sample.time

@@ -248,7 +248,10 @@ def read_weights(path: Path) -> Weights:
     Raises:
         TmdError: As :func:`parse_weights`, or the file cannot be read.
     """
-    return parse_weights(read_text(path), str(path))
+    found = parse_weights(read_text(path), str(path))
+    if not found:
+        raise TmdError(f"{path} has no weights", hint="write the name of a factor and a number on a line")
+    return found
 
 
 def named_weights(name: str) -> Weights:

@@ -1,89 +1,170 @@
-"""Plans as text: the plan files of the planning competitions, and the functional notation of instructions.
+"""Plans as text: what planners, services and people write, the plan files of the competitions, the functional notation.
 
-A plan file has one ``(name arg ...)`` a line; ``;`` begins a comment, and the last line tells the cost:
-``; cost = 3 (unit cost)``. Plans with times, as VAL, POPF and PlanSys2 have them, are read as well. The functional
-notation of an instruction is ``keep(mug1, counter1, on)``.
+A step of a plan is the name of an action before as many objects as the action has parameters. It is found wherever it
+stands: ``(grasp mug1)``, ``grasp(mug1)``, or the words of a line, ``2: GRASP MUG1``, with or without a number or a time
+in front and a cost or a duration behind. All other text is a remark.
 """
 
 from __future__ import annotations
 
+import json
 import re
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 from tmd.diagnostics import Location, TmdError
-from tmd.pddl.model import Instruction
+from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.reading.syntax import read_text, split_lines
 
 _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
-_COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
 _CALL = re.compile(r"([^(]*)\((.*)\)\s*", re.DOTALL)
-_TIME = r"([0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
-_DURATION = rf"\[\s*(?:D:)?\s*{_TIME}(?:[;\s][^\]]*)?\]"
-_STEP = re.compile(rf"(?:{_TIME}\s*:\s*)?\(([^()]*)\)(?:\s*{_DURATION})?", re.IGNORECASE)
+_TIME = r"([0-9]+(?:\.[0-9]+)?|\.[0-9]+)"
+# Marks of Markdown, quotes and the lines of tables, which stand around steps; each is read as a blank.
+_MARKS = {ord(mark): " " for mark in "`*\"'|•"}
+# The number or time of a step, as in ``Step 3:``, ``3.`` and ``3 ``; a time has a colon behind it.
+_HEAD = re.compile(
+    rf"\s*(?:[-+>]\s+)?(?:[A-Za-z]+\s*{_TIME}\s*([:.)])|{_TIME}(?:\s*([:.)])|(?=\s)))?\s*(?:[-–—>]+\s+)?"
+)
+# ``(name argument ...)`` or ``name(argument, ...)``, neither of them around another group.
+_GROUP = re.compile(r"([A-Za-z0-9_][\w-]*)?(\s*)\(([^()]*)\)")
+_BARE = re.compile(r"[A-Za-z0-9_][\w-]*(?:[\s,]+[A-Za-z0-9_][\w-]*)*")
+# A remark behind the words of a step does not begin with a word.
+_REMARK = re.compile(r"\s*(?:[^\w\s,].*)?", re.DOTALL)
+_DURATION = re.compile(rf"\s*\[\s*(?:D:)?\s*{_TIME}(?:[;\s][^\]]*)?\]", re.IGNORECASE)
+_BRACKETS = re.compile(r"\[[^\]]*\]")
+_OPEN = re.compile(r"\(\s*([A-Za-z0-9_][\w-]*)(?:[\s,]+[\w-]+)*\s*$")
+# Partially ordered plans list the order of their steps in pairs.
+_ORDER = re.compile(r"\)\s*<\s*\w")
 # What stands before a comment; LPG has a ``;`` within the brackets of a duration.
-_CODE = re.compile(r"[^;\[]*(?:\[[^\]]*\])?[^;]*")
+_CODE = re.compile(r"[^;\[]*(?:\[[^\]]*\]?)?[^;]*")
 # Times are printed with three decimals; what overlaps by less does not.
 _TOLERANCE = Decimal("0.001")
-_ANNOUNCED = re.compile(r"(?:;*\s*solution found.*|plan:)", re.IGNORECASE)
+_ANNOUNCED = re.compile(
+    r"\b(?:found|better|new|best|improved)\b.*\b(?:plan|solution)\b|\b(?:plan|solution)\b.*\bfound\b"
+    r"|plan[^:]*:\s*$|goal reached|^\s*==>\s*$",
+    re.IGNORECASE,
+)
+_COST = re.compile(r"\s*;\s*cost\s*=", re.IGNORECASE)
+_LENGTH = re.compile(r"plan[ -]?length\s*[:=]?\s*([0-9]{1,9})\b|\b([0-9]{1,9}) actions in the plan", re.IGNORECASE)
+_EMPTY = re.compile(r"\bempty plan\b", re.IGNORECASE)
+_FAILED = re.compile(
+    r"\b(?:unsolvable|not solvable|no (?:plan|solution)s?)\b|without finding|simplified to false"
+    r"|(?:time|memory) limit .*(?:reached|exceeded)|out of memory",
+    re.IGNORECASE,
+)
+# Steps that planners add to a plan: Metric-FF where it compiles the goal away.
+_ADDED = frozenset({"reach-goal"})
+_HINT = (
+    "write (name argument ...) or name(argument, ...), or name argument ... on a line; names are those of the domain"
+)
 
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A plan that was read: its instructions, the cost it claims, and where each instruction stands.
+    """A plan that was read: its instructions, where each of them stands, and warnings about the reading.
 
-    ``overlap`` is where the first instruction stands that was to start before another one ended. Such a plan is taken
-    as the sequence of its instructions by their starts; what else its times say is lost.
+    Of several plans one is taken, and instructions that overlap in time follow one another in the order of their
+    starts; a warning says so.
     """
 
     instructions: tuple[Instruction, ...] = ()
-    cost: int | None = None
     locations: tuple[Location, ...] = field(default=(), compare=False, repr=False)
-    overlap: Location | None = field(default=None, compare=False, repr=False)
+    warnings: tuple[str, ...] = field(default=(), compare=False, repr=False)
 
 
-def read_plan(path: str | Path) -> Plan:
-    """Return the plan in the file at ``path``.
+def read_plan(path: str | Path, problem: Problem | None = None) -> Plan:
+    """Return the plan in the file at ``path``; as :func:`parse_plan`."""
+    return parse_plan(read_text(path), str(path), problem)
+
+
+def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) -> Plan:
+    """Return the plan in a text or in JSON.
+
+    Of several plans in a text the last whole one is taken, because planners go on to better ones; of those in JSON the
+    first. Steps with times are put in the order of their times.
+
+    Args:
+        text: The text.
+        file: Its file, for messages.
+        problem: The problem that the plan is for. Without it, only steps with parentheses are found, on lines where
+            nothing else stands.
 
     Raises:
-        TmdError: The file cannot be read, or a line of it is not an instruction.
+        TmdError: There is no plan, it is cut off, something in the place of a step is none, or only some steps have a
+            time.
     """
-    return parse_plan(read_text(path), str(path))
+    reader = _Reader(file, _Vocabulary.of(problem))
+    value = _json(text)
+    plans = reader.plans_of_text(text) if value is None else list(_JsonReader(text, reader).plans(value))
+    whole = [plan for plan in plans if not plan.cut]
+    if not plans:
+        raise reader.no_plan(text)
+    if not whole:
+        raise plans[-1].cut_off()
+    chosen = whole[0 if value is not None else -1]
+    steps = _in_time([step for step in chosen.steps if not reader.vocabulary.added(step.instruction)])
+    return Plan(
+        tuple(step.instruction for step in steps),
+        tuple(step.place for step in steps),
+        (*_choice(chosen, plans, file), *_overlap(steps)),
+    )
 
 
-def parse_plan(text: str, file: str = "<text>") -> Plan:
-    """Return the plan that ``text`` lists; ``file`` names it in errors.
-
-    Besides plan files of the planning competitions this takes plans with times: those that VAL reads
-    (``0.000: (grasp mug1) [1.000]``), what the planner POPF prints (the last plan after ``Solution Found``), and what
-    PlanSys2's terminal prints (``plan:``, then ``0: (grasp mug1) [1]``). Their instructions are put in the order of
-    their times; where those overlap, :attr:`Plan.overlap` says so.
-
-    Raises:
-        TmdError: A line is not an instruction, or only some lines have a time.
-    """
-    lines = split_lines(text)
-    first = _after_preamble(lines)
-    steps: list[_Line] = []
-    cost: int | None = None
-    for number, line in enumerate(lines[first:], start=first + 1):
-        claimed = _COST.match(line.strip())
-        if claimed:
-            cost = int(claimed[1])
-        code = _CODE.match(line)[0]  # type: ignore[index]  # it matches the empty text
-        if code.strip():
-            place = Location(file, number, len(code) - len(code.lstrip()) + 1)
-            steps.append(_parse_line(code.strip(), place, line))
-    steps = _in_time(steps)
-    return Plan(tuple(s.instruction for s in steps), cost, tuple(s.place for s in steps), _overlap(steps))
+def _json(text: str) -> Any | None:  # noqa: ANN401 - any JSON
+    """Return the JSON value that ``text`` is, if it is an object or a list."""
+    if not text.lstrip("\ufeff \t\r\n").startswith(("{", "[")):
+        return None
+    try:
+        return json.loads(text.removeprefix("\ufeff"))
+    except (ValueError, RecursionError):
+        return None
 
 
 @dataclass(frozen=True, slots=True)
-class _Line:
-    """A line of a plan: its instruction, and when it starts and ends if that is said."""
+class _Vocabulary:
+    """The names that steps are made of; without actions, any name is one."""
+
+    arities: Mapping[str, int] = field(default_factory=dict)
+    predicates: frozenset[str] = frozenset()
+    objects: frozenset[str] = frozenset()
+
+    @classmethod
+    def of(cls, problem: Problem | None) -> _Vocabulary:
+        if problem is None:
+            return cls()
+        return cls(
+            {action.name: len(action.parameters) for action in problem.domain.actions},
+            frozenset(predicate.name for predicate in problem.domain.predicates),
+            frozenset(thing.name for thing in problem.all_objects()),
+        )
+
+    def has(self, words: Sequence[str]) -> bool:
+        """Return whether ``words`` are an action before as many objects as it has parameters."""
+        return self.arities.get(words[0]) == len(words) - 1 and self.objects.issuperset(words[1:])
+
+    def resembles(self, words: Sequence[str]) -> bool:
+        """Return whether ``words`` begin with an action, or are objects behind a name of nothing else."""
+        if words[0] in self.arities:
+            return True
+        known = self.predicates | self.objects
+        return len(words) > 1 and words[0] not in known and self.objects.issuperset(words[1:])
+
+    def may_begin(self, name: str) -> bool:
+        """Return whether ``name`` may be that of an action."""
+        return not self.arities or name in self.arities
+
+    def added(self, instruction: Instruction) -> bool:
+        """Return whether a planner added the instruction, which is of no action of the domain."""
+        return instruction.name in _ADDED and bool(self.arities) and instruction.name not in self.arities
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """A step: its place and line, and when it starts and ends if that is given."""
 
     instruction: Instruction
     place: Location
@@ -92,17 +173,310 @@ class _Line:
     end: Decimal | None = None
 
 
-def _after_preamble(lines: Sequence[str]) -> int:
-    """Return the start of the plan: behind the last line with which POPF or PlanSys2 announce one."""
-    found = 0
-    for number, line in enumerate(lines, start=1):
-        if _ANNOUNCED.fullmatch(line.strip()):
-            found = number
-    return found
+@dataclass(slots=True)
+class _Found:
+    """A plan in a text.
+
+    Attributes:
+        steps: Its steps.
+        length: How many steps it has according to the text.
+        closed: Whether all further steps belong to another plan.
+        cut: Whether steps are missing at its end.
+    """
+
+    steps: list[_Step] = field(default_factory=list)
+    length: int | None = None
+    closed: bool = False
+    cut: bool = False
+
+    def cut_off(self) -> TmdError:
+        """Return the error that steps are missing."""
+        last = self.steps[-1]
+        counted = f": it has {self.length} steps, and {len(self.steps)} stand here" if self.length else ""
+        hint = "give all that the planner printed"
+        return TmdError(f"the plan is cut off{counted}", location=last.place, source=last.source, hint=hint)
 
 
-def _in_time(steps: list[_Line]) -> list[_Line]:
-    """Return the lines in the order of their times; as they are where there are none."""
+@dataclass(frozen=True, slots=True)
+class _Group:
+    """The words of a group in parentheses, none if it cannot be a step, and its columns from 0."""
+
+    words: list[str]
+    start: int
+    end: int
+
+
+@dataclass(slots=True)
+class _Line:
+    """A line of a text: its steps; or words that are a step if the lines around it, written alike, are steps."""
+
+    text: str
+    form: tuple[object, ...] = ()
+    steps: list[_Step] = field(default_factory=list)
+    likely: _Step | None = None
+
+
+class _Reader:
+    """Finds plans in text.
+
+    Args:
+        file: The file, for messages.
+        vocabulary: The names of actions and objects.
+    """
+
+    def __init__(self, file: str, vocabulary: _Vocabulary) -> None:
+        self.file = file
+        self.vocabulary = vocabulary
+
+    def plans_of_text(self, text: str) -> list[_Found]:
+        """Return the plans in the order in which they stand; one without steps if the text is one.
+
+        Raises:
+            TmdError: Something in the place of a step is none.
+        """
+        lines = [self._line(line, number) for number, line in enumerate(split_lines(text), start=1)]
+        _confirm(lines)
+        split = _split(lines)
+        plans = [plan for plan in split if plan.steps]
+        if not plans:
+            return split[:1] if self._is_empty_plan(lines, split) else []
+        for plan in plans:
+            plan.cut = len(plan.steps) < (plan.length or 0)
+        # a planner that gives the length of each plan was stopped while it printed the last one
+        plans[-1].cut |= plans[-1].length is None and any(plan.length for plan in plans)
+        return plans
+
+    @staticmethod
+    def _is_empty_plan(lines: Sequence[_Line], plans: Sequence[_Found]) -> bool:
+        """Return whether lines without steps are a plan without steps: they say so, or there are comments only."""
+        if any(_EMPTY.search(line.text) for line in lines):
+            return True
+        if any(_FAILED.search(line.text) for line in lines):
+            return False
+        remarks = (line.text for line in lines if re.search(r"\w", _code(line.text)))
+        return any(plan.length == 0 for plan in plans) or all(_ANNOUNCED.search(text) for text in remarks)
+
+    def no_plan(self, text: str) -> TmdError:
+        """Return the error that there is no plan in ``text``, with the line in which the planner says so."""
+        for number, line in enumerate(split_lines(text), start=1):
+            if found := _FAILED.search(line):
+                place = Location(self.file, number, found.start() + 1)
+                hint = f'the planner says "{_shown(line.strip())}"'
+                return TmdError("there is no plan here: none was found", location=place, source=line, hint=hint)
+        return TmdError("there is no plan in this text", location=Location(self.file, 1, 1), hint=_HINT)
+
+    def _line(self, source: str, number: int) -> _Line:
+        """Read a line by itself."""
+        code = _code(source).translate(_MARKS)
+        head = _HEAD.match(code)
+        assert head is not None  # it matches the empty text
+        line = _Line(source)
+        place = Location(self.file, number, 1)
+        start = Decimal(head[1] or head[3]) if ":" in (head[2], head[4]) else None
+        line.steps = [] if _ORDER.search(code) else self._groups(source, code, place, head, start)
+        bare = self._bare(code, head.end())
+        if bare and not any(
+            self.vocabulary.has((step.instruction.name, *step.instruction.args)) for step in line.steps
+        ):
+            line.form = (head[2] or head[4], head[1] is head[3])
+            step = _Step(_instruction(bare), _at(place, head.end()), source, start)
+            line.steps = [step] if self.vocabulary.has(bare) else line.steps
+            line.likely = step if self.vocabulary.resembles(bare) else None
+        return line
+
+    def _bare(self, code: str, position: int) -> list[str]:
+        """Return the words of a line, if it is words and perhaps a remark behind them."""
+        found = _BARE.match(code, position)
+        if found is None or not _REMARK.fullmatch(code, found.end()):
+            return []
+        return re.split(r"[\s,]+", found[0].lower())
+
+    def _groups(
+        self, source: str, code: str, place: Location, head: re.Match[str], start: Decimal | None
+    ) -> list[_Step]:
+        """Return the steps of a line that have parentheses.
+
+        Raises:
+            TmdError: A step is not closed, or has something else than names.
+        """
+        unclosed = _OPEN.search(code, head.end())
+        if unclosed and self.vocabulary.may_begin(unclosed[1].lower()):
+            hint = "add the missing ); if the text ends here, give all of it"
+            raise TmdError("this step is not closed", location=_at(place, unclosed.start()), source=source, hint=hint)
+        found = [self._group(group) for group in _GROUP.finditer(code)]
+        known = any(group.words and self.vocabulary.has(group.words) for group in found)
+        rest = code[head.end() :]
+        for group in reversed(found):
+            rest = rest[: max(0, group.start - head.end())] + rest[max(0, group.end - head.end()) :]
+        pure = not re.search(r"\w", _BRACKETS.sub("", rest))
+        steps = []
+        for group in found:
+            words = group.words
+            if words and (pure or self.vocabulary.has(words) or (not known and self.vocabulary.resembles(words))):
+                if not self.vocabulary.has(words):  # names of the domain may be odd
+                    _check_names(words, _at(place, group.start), source)
+                length = _DURATION.match(code, group.end)
+                stop = start + Decimal(length[1]) if start is not None and length else None
+                steps.append(_Step(_instruction(words), _at(place, group.start), source, start, stop))
+        return steps
+
+    def _group(self, group: re.Match[str]) -> _Group:
+        """Return the words in parentheses, with the name in front if they are a call."""
+        inside = [word for word in re.split(r"[\s,]+", group[3].lower()) if word]
+        if group[1]:
+            call = [group[1].lower(), *inside]
+            known = bool(inside) and self.vocabulary.has(inside)
+            if self.vocabulary.has(call) or (not group[2] and not known):
+                return _Group(call, group.start(), group.end())
+        # numbers, keywords and variables are no actions
+        step = bool(inside) and not re.match(r"[:?]|[0-9.]*$", inside[0])
+        return _Group(inside if step else [], group.start(3) - 1, group.end())
+
+
+def _confirm(lines: Sequence[_Line]) -> None:
+    """Take the words of a line for a step where the line before or behind it is one and is written alike."""
+    for order in (lines, lines[::-1]):
+        form: tuple[object, ...] | None = None
+        for line in order:
+            if line.likely and not line.steps and line.form == form:
+                line.steps = [line.likely]
+            if line.text.strip():
+                form = line.form if line.steps else None
+
+
+def _split(lines: Iterable[_Line]) -> list[_Found]:
+    """Return the plans of a text: each goes up to its cost, to where another one is announced, or times begin again."""
+    plans = [_Found()]
+    apart = False
+    for line in lines:
+        plan = plans[-1]
+        if line.steps:
+            first = plan.steps[0].start if len(plan.steps) > 1 else None
+            if plan.closed or (apart and first is not None and line.steps[0].start == first):
+                plans.append(plan := _Found())
+            plan.steps += line.steps
+        elif length := _LENGTH.search(line.text):
+            plan.length = int(length[1] or length[2])
+        elif _COST.match(line.text):
+            plan.closed = bool(plan.steps)
+        elif _ANNOUNCED.search(line.text) and not _FAILED.search(line.text):
+            plans.append(_Found())
+        apart = not line.steps
+    return plans
+
+
+def _code(line: str) -> str:
+    """Return ``line`` without its comment."""
+    found = _CODE.match(line)
+    return found[0] if found else ""
+
+
+def _at(place: Location, column: int) -> Location:
+    return replace(place, column=column + 1)
+
+
+def _instruction(words: Sequence[str]) -> Instruction:
+    return Instruction(words[0], tuple(words[1:]))
+
+
+def _check_names(words: Sequence[str], place: Location, source: str) -> None:
+    for word in words:
+        if not _NAME.fullmatch(word):
+            found = source.lower().find(word, (place.column or 1) - 1)
+            where = _at(place, found) if found >= 0 else place
+            hint = "a name has letters, digits, _ and -, a letter first"
+            raise TmdError(f'"{_shown(word)}" is not a name', location=where, source=source, hint=hint)
+
+
+class _JsonReader:
+    """Finds plans in a JSON value: lists of steps, and texts that hold steps.
+
+    A step is a text, a list of its words, or an object with the one or the other.
+
+    Args:
+        text: The text of the value, for places.
+        reader: The reader of texts.
+    """
+
+    def __init__(self, text: str, reader: _Reader) -> None:
+        self._text = text
+        self._reader = reader
+        self._position = 0
+
+    def plans(self, value: Any) -> Iterator[_Found]:  # noqa: ANN401 - any JSON
+        """Yield the plans in ``value``, in the order in which they stand.
+
+        Raises:
+            TmdError: Something in the place of a step is none.
+        """
+        before = self._position
+        found = self._of_list(value) if isinstance(value, list) else []
+        if isinstance(value, str):
+            place = self._place(value)
+            found = [plan for plan in self._reader.plans_of_text(value) if plan.steps]
+            for plan in found:
+                plan.steps = [replace(step, place=place) for step in plan.steps]
+        yield from found
+        if not found and isinstance(value, dict | list):
+            self._position = before
+            for inner in value.values() if isinstance(value, dict) else value:
+                yield from self.plans(inner)
+
+    def _of_list(self, value: Sequence[Any]) -> list[_Found]:
+        """Return the plan that a list is, if each of its items is a text or a step."""
+        places = [self._place(item) for item in value]
+        lines = [self._as_line(item) for item in value]
+        if not all(line or isinstance(item, str) for line, item in zip(lines, value, strict=True)):
+            return []
+        found = [plan for plan in self._reader.plans_of_text("\n".join(lines)) if plan.steps]
+        for plan in found:
+            plan.steps = [replace(step, place=places[(step.place.line or 1) - 1]) for step in plan.steps]
+        return found
+
+    def _place(self, value: Any) -> Location:  # noqa: ANN401 - any JSON
+        """Return where ``value`` stands, which is behind all that was looked for before."""
+        for text in _texts(value):
+            found = self._text.find(json.dumps(text)[1:-1], self._position)
+            self._position = found if found >= 0 else self._position
+            break
+        line = self._text.count("\n", 0, self._position) + 1
+        return Location(self._reader.file, line, self._position - self._text.rfind("\n", 0, self._position))
+
+    def _as_line(self, value: Any) -> str:  # noqa: ANN401 - any JSON
+        """Return a step as a line of text; the empty line for anything else."""
+        if isinstance(value, str):
+            return " ".join(value.split())
+        texts = [" ".join(text.split()) for text in _texts(value, 1)]
+        steps = [text for text in texts if any(plan.steps for plan in self._reader.plans_of_text(text))]
+        if isinstance(value, dict) and len(steps) == 1:
+            return steps[0]
+        names = self._reader.vocabulary
+        words = [text.lower() for text in _texts(value, 2) if _NAME.fullmatch(text.lower())]
+        arguments = [word for word in words if word in names.objects]
+        known = [word for word in words if word in names.arities]
+        action = known or [word for word in words if arguments and word not in names.objects][:1]
+        return f"({' '.join([*action, *arguments])})" if len(action) == 1 else ""
+
+
+def _texts(value: Any, depth: int = 99) -> list[str]:  # noqa: ANN401 - any JSON
+    """Return the texts in ``value`` that are within so many others."""
+    if isinstance(value, str):
+        return [value]
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return [text for item in inner for text in _texts(item, depth - 1)] if depth else []
+
+
+def _choice(chosen: _Found, plans: Sequence[_Found], file: str) -> list[str]:
+    """Return the warning that there are several plans, or that the last one is not whole."""
+    different = {tuple(step.instruction for step in plan.steps) for plan in plans}
+    if len(different) < 2:
+        return []
+    which = "last whole" if plans[-1].cut else "last" if chosen is plans[-1] else "first"
+    return [f"{chosen.steps[0].place}: {len(plans)} plans are in {file}; the {which} one is taken"]
+
+
+def _in_time(steps: list[_Step]) -> list[_Step]:
+    """Return the steps in the order of their times; as they are where there are none."""
     timed = [step for step in steps if step.start is not None]
     if not timed:
         return steps
@@ -114,31 +488,12 @@ def _in_time(steps: list[_Line]) -> list[_Line]:
     return sorted(timed, key=lambda step: step.start or Decimal(0))
 
 
-def _overlap(steps: Sequence[_Line]) -> Location | None:
-    """Return the place of the first instruction that starts before its predecessor ends."""
+def _overlap(steps: Sequence[_Step]) -> list[str]:
+    """Return the warning for the first step that starts before its predecessor ends."""
     for before, after in pairwise(steps):
         if before.end is not None and after.start is not None and after.start < before.end - _TOLERANCE:
-            return after.place
-    return None
-
-
-def _parse_line(code: str, place: Location, source: str) -> _Line:
-    """Read ``(name argument ...)``, or with times ``START: (name argument ...) [DURATION]``."""
-    found = _STEP.fullmatch(code)
-    if found is None:
-        hint = f'found "{_shown(code)}"; with times, START: (name argument ...) [DURATION]'
-        raise TmdError("a plan has one (name argument ...) a line", location=place, source=source, hint=hint)
-    words = found[2].lower().split()
-    if not words:
-        raise TmdError("() is not an instruction", location=place, source=source, hint="write (name argument ...)")
-    for word in words:
-        if not _NAME.fullmatch(word):
-            place = Location(place.file, place.line, place.column + code.lower().find(word))
-            hint = "a name has letters, digits, _ and -, a letter first"
-            raise TmdError(f'"{_shown(word)}" is not a name', location=place, source=source, hint=hint)
-    start = Decimal(found[1]) if found[1] else None
-    end = start + Decimal(found[3]) if start is not None and found[3] else None
-    return _Line(Instruction(words[0], tuple(words[1:])), place, source, start, end)
+            return [f"{after.place}: instructions overlap in time; they are taken one after the other"]
+    return []
 
 
 def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:

@@ -8,14 +8,14 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from importlib.util import find_spec
-from threading import TIMEOUT_MAX, Thread
+from threading import Thread
 from typing import TYPE_CHECKING
 
-from tmd.diagnostics import MissingToolError, PlannerError, TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.planning.fast_downward import binaries, fast_downward, first_plan_of_gap
-from tmd.planning.kairos import kairos
+from tmd.planning.kairos import kairos, kairos_beside
 from tmd.planning.processes import Deadline, TimeIsUpError, limited, memory_limit
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved, Unreachable, filled
 from tmd.planning.up_planners import EngineSpec, fast_downward_engine, require_unified_planning, solve_with_engine
@@ -43,9 +43,9 @@ UP_PREFIX = "up:"
 
 # Generated states up to which the greedy search's plans are about as cheap as Fast Downward's first ones.
 SOON = 2_000
-# Share of the time, and seconds, that kairos gets before Fast Downward: nearly all that it solves, it solves sooner.
-FIRST_SHARE = 0.5
-FIRST_SECONDS = 30.0
+
+# Seconds between two looks at whether the search in this process is still wanted.
+_LOOK = 0.05
 
 TIME_LIMIT = 300.0
 """Seconds for a whole problem: an impossible goal can keep a planner busy for ever."""
@@ -288,13 +288,9 @@ def solve(
 def _solution(problem: Problem, planner: str, optimal: bool, deadline: Deadline) -> Solution:
     name = planner
     if planner == AUTO:
-        if not optimal and find_spec("kairos"):
-            first = deadline.at_most(min(FIRST_SECONDS, FIRST_SHARE * deadline.seconds))
-            with suppress(PlannerError, MissingToolError):
-                found = _solution(problem, KAIROS, optimal, first)
-                if isinstance(found, Solved):  # it was replayed; that there is no plan is for others to confirm
-                    return found
         name = FAST_DOWNWARD if find_spec("up_fast_downward") else IN_PROCESS
+        if not optimal and find_spec("kairos"):
+            return kairos_beside(problem, partial(_solution, problem, name, optimal), deadline)
     if name == FAST_DOWNWARD:
         return fast_downward(problem, optimal=optimal, deadline=deadline)
     if name == KAIROS:
@@ -321,10 +317,10 @@ def _in_time(search: Callable[[], Solution], deadline: Deadline) -> Solution:
             answer.set_exception(error)
 
     Thread(target=run, daemon=True).start()
-    try:
-        return answer.result(min(deadline.left(), TIMEOUT_MAX))
-    except TimeoutError:
-        return GaveUp(f"{deadline.seconds:g} s of {IN_PROCESS}")
+    while deadline.left():
+        with suppress(TimeoutError):
+            return answer.result(min(deadline.left(), _LOOK))
+    return GaveUp(f"{deadline.seconds:g} s of {IN_PROCESS}")
 
 
 def _in_process(problem: Problem, deadline: Deadline) -> Solution:

@@ -229,7 +229,7 @@ def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool,
     from tmd.pddl.validator import validate
 
     try:
-        plan = parse_plan(text).instructions
+        plan = parse_plan(text, problem=problem).instructions
     except TmdError as error:
         raise process.failed(f"wrote what is no plan ({error.message})") from error
     try:

@@ -7,6 +7,7 @@ dies, even by SIGKILL. Texts pass through files without names, so nothing is lef
 from __future__ import annotations
 
 import json
+import math
 import os
 import pickle
 import resource
@@ -52,17 +53,29 @@ class Deadline:
         seconds: Time limit, from now.
         memory: Bytes for each process; ``None`` for most of the machine's memory.
         processor: Seconds of processor time for each process; ``None`` for no limit.
+        over: Whether it ends already, for another reason.
     """
 
-    def __init__(self, seconds: float, memory: int | None = None, processor: int | None = None) -> None:
+    def __init__(
+        self,
+        seconds: float,
+        memory: int | None = None,
+        processor: int | None = None,
+        over: Callable[[], bool] = lambda: False,
+    ) -> None:
         self.seconds = seconds
         self.memory = memory
         self.processor = processor
         self._end = time.monotonic() + seconds
+        self._over = over
 
     def left(self) -> float:
         """Return the seconds that are left, at least 0."""
-        return max(0.0, self._end - time.monotonic())
+        return 0.0 if self._over() else max(0.0, self._end - time.monotonic())
+
+    def until(self, over: Callable[[], bool]) -> Deadline:
+        """Return this deadline, which ends as soon as ``over`` holds."""
+        return Deadline(self.left(), self.memory, self.processor, lambda: self._over() or over())
 
     def memory_limit(self) -> str:
         """Describe the memory limit."""
@@ -70,7 +83,7 @@ class Deadline:
 
     def at_most(self, seconds: float) -> Deadline:
         """Return this deadline, or one in ``seconds`` if that is earlier."""
-        return Deadline(min(seconds, self.left()), self.memory, self.processor)
+        return Deadline(min(seconds, self.left()), self.memory, self.processor, self._over)
 
 
 class PlannerProcess:
@@ -136,6 +149,19 @@ class PlannerProcess:
                 break
             time.sleep(min(_PAUSE, deadline.left()))
         return code
+
+    def code(self) -> int | None:
+        """Return the exit code; ``None`` while it runs."""
+        code: int | None = self._process.poll()
+        return code
+
+    def processor_time(self) -> float:
+        """Return the seconds of processor time that it took; of one that ended, infinity."""
+        try:
+            times = self._process.cpu_times()
+        except psutil.Error:
+            return math.inf
+        return float(times.user + times.system)
 
     def kill(self) -> None:
         """Kill the process and its group, and forget its output."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol
 
 from tmd.pddl.model import GroundAtom
@@ -43,11 +44,19 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """The subject of a recording: the environment's name, the poses of the furniture, samples a second."""
+    """The subject of a recording.
+
+    Attributes:
+        environment: The environment's name.
+        fixtures: The poses of the furniture.
+        rate: Samples a second.
+        robot: The robot's URDF, which has the joints of the samples.
+    """
 
     environment: str
     fixtures: Mapping[str, Pose]
     rate: float
+    robot: Path
 
 
 class SampleWriter(Protocol):
@@ -85,7 +94,7 @@ class StateRecorder:
         self._due, self._last = 0.0, -1.0
         self._title: Title | None = None
         fixtures = {name: scene.pose_of(name) for name in scene.blueprints if not scene.is_item(name)}
-        writer.open(Recorded(scene.environment.name, fixtures, rate))
+        writer.open(Recorded(scene.environment.name, fixtures, rate, robot.model.source))
         sim.add_watcher(self._watch)
         self._sample()
 

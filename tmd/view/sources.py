@@ -114,7 +114,7 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
     if not lines:
         raise TmdError(f"{asked.name} is empty", hint=_KINDS)
-    of_json = lines[0][1].lstrip().startswith(("{", "["))
+    of_json = lines[0][1].lstrip().startswith("{")
     return _of_json(roots, asked, text, lines) if of_json else _plan_found(roots, asked, text)
 
 
@@ -143,7 +143,7 @@ def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> Found
         asked.only("environment", "domain")
         run, done = _run(asked, first, lines)
         return _record_found(asked, run, _scene(roots, asked, run.domain, run.environment, run.environment_file), done)
-    if "plans" in first:
+    if "plans" in first and "environment" in first:
         asked.only("environment", "domain")
         told = GroundingRecord.from_value(first, asked.name)
         return _record_found(asked, told, _scene(roots, asked, told.domain, told.environment, told.environment_file))
@@ -151,14 +151,14 @@ def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> Found
         raise TmdError(
             f"{asked.name} is an error that tmd printed, no plan: {first['error'].get('message')}", hint=_KINDS
         )
+    if asked.environment is not None or asked.problem is not None:
+        return _plan_found(roots, asked, text)
     raise TmdError(f"{asked.name} is JSON of no kind that can be shown", hint=_KINDS)
 
 
 def _object(asked: ViewRequest, text: str) -> dict[str, Any]:
     """Return the JSON object in a text."""
-    value = json_value(text, asked.name, hint=_KINDS)
-    if not isinstance(value, dict):
-        raise TmdError(f"{asked.name} is JSON, but no object", hint=_KINDS)
+    value: dict[str, Any] = json_value(text, asked.name, hint=_KINDS)
     return value
 
 
@@ -248,15 +248,14 @@ def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     asked.only("problem", "environment", "domain")
     if (asked.problem is None) == (asked.environment is None):
         raise OptionError(f"for the plan {asked.name} give one of --problem and --environment", hint=_WHERE)
-    plan = parse_plan(text, asked.name)
-    if not plan.instructions:
-        raise TmdError(f"{asked.name}: the plan has no instructions", hint="write one (name argument ...) a line")
     if asked.problem is not None:
         problem = roots.problem(asked.problem, asked.domain)
     else:
         problem = roots.world(asked.environment or "", asked.domain)[1].task.problem
+    plan = parse_plan(text, asked.name, problem)
+    if not plan.instructions:
+        raise TmdError(f"{asked.name}: the plan has no instructions", hint="write one (name argument ...) a line")
     where = {"problem": asked.problem, "environment": asked.environment or problem.name, "domain": problem.domain.name}
     steps = tuple(PlannedStep(instruction) for instruction in plan.instructions)
     subject = Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where))
-    told = f"warning: {plan.overlap}: instructions overlap in time; they are taken one after the other\n"
-    return FoundSubject(subject, (told,) if plan.overlap else (), plan.locations)
+    return FoundSubject(subject, tuple(f"warning: {warning}\n" for warning in plan.warnings), plan.locations)

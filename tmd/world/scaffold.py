@@ -1,7 +1,7 @@
-"""Start a new domain as a copy of a bundled one under a new name: folder, environments, problem, demonstrations.
+"""Start a new domain: a copy of a bundled one under a new name, an empty one, or one around a PDDL file.
 
 The copy works at once, so that its author can change it line by line. Its environments are named after the new domain
-(``yard1`` becomes ``mine1``). It has a few sentence tests, which it passes.
+(``yard1`` becomes ``mine1``). It has a problem, demonstrations, and a few sentence tests, which it passes.
 """
 
 from __future__ import annotations
@@ -20,6 +20,34 @@ from tmd.world.shape import NAME
 
 # What a new domain can be begun from: plain PDDL, or classes with parts.
 STARTS: Mapping[str, str] = {"plain": "01_blocks", "graph": "03_drawer"}
+# The start without anything that has to be deleted.
+EMPTY = "empty"
+_DOMAIN = """\
+(define (domain {name})
+  (:requirements :strips :typing)
+
+  ; Kinds of things.
+  (:types
+    item place - object)
+
+  ; States of things.
+  (:predicates
+    (at ?x - item ?y - place))
+
+  ; Name all that an action needs as its parameters: planners join conditions over parameters, and enumerate those of
+  ; exists and forall.
+  (:action carry
+    :parameters (?x - item ?from ?to - place)
+    :precondition (at ?x ?from)
+    :effect (and (at ?x ?to) (not (at ?x ?from)))))
+"""
+_LEXICON = """\
+# What verbs mean in every household: put, take, bring, ... `tmd check --explain put DOMAIN` shows the rows of a verb.
+include: [household]
+
+# What verbs mean here, such as: put X in Y: (at ?x ?y)
+goals: []
+"""
 _SENTENCES = "requests.sentences.jsonl"
 # Sentence tests in the last environment of the copy, with their goals; ``None``: nothing here is called that.
 _ASKED: Mapping[str, tuple[tuple[str, str | None], ...]] = {
@@ -46,7 +74,7 @@ class Scaffold:
         problems: The folder of its environments, problems and demonstrations.
         files: Every file, in the order of their names.
         environments: The names of its environments.
-        task: The name of the folder of its demonstrations.
+        task: The name of the folder of its demonstrations; empty where there are none.
     """
 
     folder: Path
@@ -56,17 +84,18 @@ class Scaffold:
     task: str
 
 
-def scaffold(name: str, start: str, domains: Path, problems: Path) -> Scaffold:
+def scaffold(name: str, start: str, domains: Path, problems: Path, given: tuple[str, str] | None = None) -> Scaffold:
     """Begin the domain ``name`` in ``domains/name`` and ``problems/name``.
 
     Args:
         name: Lower-case letters, digits and ``_``.
-        start: One of :data:`STARTS`.
+        start: One of :data:`STARTS`, or ``empty``.
         domains: The directory of all domains; made if it is not there.
         problems: The directory of all problems; likewise.
+        given: The texts of its ``domain.pddl`` and ``lexicon.yaml``, in place of a start.
 
     Raises:
-        TmdError: The name or the start is none, or a domain of that name is there already.
+        TmdError: The name or the start is none, or another domain has that name.
         OutputError: It cannot be written; what was there is as it was.
     """
     _check(name, start)
@@ -74,12 +103,17 @@ def scaffold(name: str, start: str, domains: Path, problems: Path) -> Scaffold:
     for path in (folder, place):
         if path.exists() or path.is_symlink():
             raise OutputError(f"{path} is there already; nothing was changed", hint="choose another name, or remove it")
-    texts = _texts(name, start, folder, place)
+    _refuse_hiding(name)
+    if given is None and start != EMPTY:
+        texts = _texts(name, start, folder, place)
+    else:
+        domain, lexicon = given or (_DOMAIN.format(name=name), _LEXICON)
+        texts = {folder / "domain.pddl": domain, folder / "lexicon.yaml": lexicon, folder / "README.md": _readme(name)}
     for path in sorted(texts):
         make_directory(path.parent)
         write_text(path, texts[path])
     environments = sorted(path.stem for path in texts if path.parent == place / "environments")
-    task = next(path.parent.name for path in texts if path.name == "demonstrations.jsonl")
+    task = next((path.parent.name for path in texts if path.name == "demonstrations.jsonl"), "")
     return Scaffold(folder, place, tuple(sorted(texts)), tuple(environments), task)
 
 
@@ -88,8 +122,18 @@ def _check(name: str, start: str) -> None:
         raise TmdError(
             f"'{name}' cannot name a domain", hint="use lower-case letters, digits and _; begin with a letter"
         )
-    if start not in STARTS:
-        raise TmdError(f"a domain cannot be begun from '{start}'", hint=nearest(start, list(STARTS), what="starts"))
+    if start not in (*STARTS, EMPTY):
+        hint = nearest(start, [*STARTS, EMPTY], what="starts")
+        raise TmdError(f"a domain cannot be begun from '{start}'", hint=f"{hint}; or give a file that ends in .pddl")
+
+
+def _refuse_hiding(name: str) -> None:
+    """Refuse the name of another domain, which the new one would hide."""
+    try:
+        found = find_domain(name)
+    except TmdError:
+        return
+    raise TmdError(f"there is a domain '{name}' already: {found.path}", hint="choose another name: yours would hide it")
 
 
 def _texts(name: str, start: str, folder: Path, place: Path) -> dict[Path, str]:
@@ -111,8 +155,12 @@ def _texts(name: str, start: str, folder: Path, place: Path) -> dict[Path, str]:
         if path.suffix in _SUFFIXES and "learned" not in relative.parts and path.name != _SENTENCES:
             found[place / renamed(str(relative))] = renamed(read_text(path))
     found[place / _SENTENCES] = _sentences(name, start, words[environments[-1]])
-    found[folder / "README.md"] = f"# {name}\n\nSay here what this domain is about, and what it leaves out.\n"
+    found[folder / "README.md"] = _readme(name)
     return found
+
+
+def _readme(name: str) -> str:
+    return f"# {name}\n\nSay here what this domain is about, and what it leaves out.\n"
 
 
 def _sentences(name: str, start: str, environment: str) -> str:

@@ -42,20 +42,39 @@ def list_domains(roots: Roots) -> None:
     "start",
     default="graph",
     show_default=True,
-    metavar="plain|graph",
-    help="Begin with plain PDDL, or with classes of things that have parts.",
+    metavar="plain|graph|FILE.pddl",
+    help="Begin with plain PDDL, with classes of things that have parts, or with your domain.",
 )
+@click.option("--empty", is_flag=True, help="Begin with a frame: one predicate, one action, no environment.")
 @click.pass_obj
-def new(roots: Roots, domain: str, start: str) -> None:
+def new(roots: Roots, domain: str, start: str, empty: bool) -> None:
     """Begin the domain DOMAIN.
 
     Writes domains/DOMAIN and problems/DOMAIN here (--domains and --problems say where else): a domain with a lexicon,
-    two environments, a problem, three demonstrations and three sentence tests. Nothing is overwritten.
+    two environments, a problem, three demonstrations and three sentence tests. Of a FILE.pddl, it writes the domain
+    and the lexicon that its actions give. Nothing is overwritten.
     """
-    from tmd.world.scaffold import scaffold
+    from tmd.api import new_domain
 
-    made = scaffold(domain, start, roots.domains or Path("domains"), roots.problems or Path("problems"))
-    emit(_next_steps(domain, start, made))
+    if empty and start != "graph":
+        raise click.UsageError("give one of --from and --empty")
+    start = "empty" if empty else start
+    made = new_domain(domain, start, domains=roots.domains or "domains", problems=roots.problems or "problems")
+    emit(_next_steps(domain, start, made) if made.task else _first_steps(domain, made))
+
+
+def _first_steps(domain: str, made: Scaffold) -> str:
+    """Return what to do with a domain that has no environment."""
+    lines = [
+        *(path.as_posix() for path in made.files),
+        "",
+        "try next:",
+        f"  tmd check {made.folder.as_posix()}",
+        f"  tmd check --explain put {domain}",
+        f"then write an environment, {made.problems.as_posix()}/environments/{domain}1.pddl, a PDDL problem, and",
+        f'  tmd ground --domain {domain} --environment {domain}1 --text "..."',
+    ]
+    return "\n".join(lines) + "\n"
 
 
 def _next_steps(domain: str, start: str, made: Scaffold) -> str:
@@ -161,6 +180,11 @@ def check(
     from tmd.check.report import check_paths
 
     report = check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
+    if not report.files:
+        where = ", ".join(map(str, paths))
+        raise TmdError(
+            f"there is nothing to check in {where}", hint="name files of a domain or a problem, or their folder"
+        )
     return _print_report(report, strict=strict, as_json=as_json)
 
 

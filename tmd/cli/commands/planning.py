@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from tmd.pddl.model import Problem
 
 
+# Number of renamed names that a warning lists.
+_SHOWN = 10
 FORMATS = ("adl", "ipc", "strips", "durative", "plansys2", "bt", "sas")
 """The forms of an export, the default first."""
 
@@ -94,17 +96,16 @@ def validate(roots: Roots, domain: str, problem: str, plan: Path, as_json: bool)
     """Execute PLAN in PROBLEM and name the first precondition that does not hold.
 
     DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. An environment is a YAML file or the name of
-    a bundled one, and of its plans only that they can be executed is asked. PLAN has one (action argument ...) a line;
-    plans with times are read as well, as VAL, POPF and PlanSys2 have them. Ends with 0 for a plan that works and 11
-    for one that does not.
+    a bundled one, and of its plans only that they can be executed is asked. PLAN is a plan file, or
+    what a planner, a planning service or a language model printed (docs/export.md). Ends with 0 for a plan that works
+    and 11 for one that does not.
     """
     from tmd.pddl.plan_file import read_plan
     from tmd.pddl.validator import validate
 
     world = _read(roots, domain, problem)
-    told = read_plan(plan)
-    if told.overlap:
-        emit(f"warning: {told.overlap}: instructions overlap in time; they are taken one after the other\n", error=True)
+    told = read_plan(plan, world)
+    emit("".join(f"warning: {warning}\n" for warning in told.warnings), error=True)
     verdict = validate(world, told.instructions)
     place = told.locations[verdict.step - 1] if verdict.step else None
     if as_json:
@@ -209,6 +210,10 @@ def export(
     flat = {path: data for files in written.files.values() for path, data in files.items()}
     write_directory(directory, flat, overwrite=overwrite)
     emit("".join(f"{directory / path}\n" for path in flat))
+    if changed := written.renames:
+        told = ", ".join(f"{kind} {name} is {new}" for (kind, name), new in list(changed.items())[:_SHOWN])
+        more = f" and {len(changed) - _SHOWN} more" if len(changed) > _SHOWN else ""
+        emit(f"warning: other tools refuse names, which are written differently: {told}{more}\n", error=True)
     for name, error in failures.items():
         emit(f"not written: {name}: {one_line(str(error))}\n", error=True)
     return next((error.exit_code for error in failures.values()), ExitCode.OK)

@@ -42,6 +42,8 @@ _ROWS = table("rows")
 """Verbs and prepositions of the rows that are read off a domain, in order."""
 _ANYWHERE = _ROWS["anywhere"]
 _MOST_SLOTS = 3
+OF_ACTION = "the action "
+"""Evidence for the rows of an action, before its name."""
 
 
 def rows_of_actions(domain: Domain) -> GoalTable:
@@ -410,7 +412,7 @@ class _Words:
         for place in (p for p in action.parameters if p.name in mentioned and not self.actor(p)):
             formula = conjunction([self._said(effect, {place.name: "?y"}, action) for effect in wanted])
             slot = Slot("?y", (*_ANYWHERE, *_ROWS["whither"]))
-            row = self._row((verb,), (slot,), formula, f"{verb} {noun} … Y", f"the action {action.name}")
+            row = self._row((verb,), (slot,), formula, f"{verb} {noun} … Y", f"{OF_ACTION}{action.name}")
             yield replace(row, noun=noun)
 
     def _brought_about(self, action: ActionSchema) -> list[Effect]:
@@ -448,7 +450,7 @@ class _Words:
             return
         condition = conjunction([self._said(effect, {}, action) for effect in own])
         noun = "_".join(words[1:])
-        why = f"the action {action.name}"
+        why = f"{OF_ACTION}{action.name}"
         yield self._row(("_".join(words),), (), condition, "_".join(words), why)
         nouns = [noun] if noun else table("nouns")["self"]
         for name in nouns:
@@ -471,7 +473,7 @@ class _Words:
                 slots = (Slot("?x"), *(Slot(names[p.name], anywhere) for p in said[1:]))
                 pattern = " … ".join([verbs[0], *(p.name.removeprefix("?").upper() for p in said)])
                 formula = conjunction([self._said(effect, names, action) for effect in wanted])
-                yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")
+                yield self._row(verbs, slots, formula, pattern, f"{OF_ACTION}{action.name}")
 
     def _anywhere(self, action: ActionSchema) -> tuple[str, ...]:
         """Return the prepositions of an action's places.

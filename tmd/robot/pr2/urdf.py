@@ -65,6 +65,7 @@ class RobotDescription:
     Attributes:
         urdf: The repaired file.
         root: Its parsed ``<robot>``.
+        source: The file as it was, with the robot's own names.
         disabled: Pairs of links, in both orders, that never collide or always do (the SRDF's list, and neighbours).
         tucked: The postures of the arms for driving with empty hands.
         fingers: The joints of a hand, without its side: the four of the PR2 first.
@@ -77,6 +78,7 @@ class RobotDescription:
 
     urdf: Path
     root: ET.Element
+    source: Path
     disabled: frozenset[tuple[str, str]]
     tucked: Mapping[str, tuple[float, ...]]
     fingers: tuple[str, ...] = FINGERS
@@ -127,11 +129,11 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
         write_bytes(target, ET.tostring(root, encoding="utf-8"))  # last: where it is, everything is
     if other:
         return RobotDescription(
-            target, root, _both_ways(tiago_pro.never_checked(root)), tiago_pro.TUCKED,
+            target, root, source, _both_ways(tiago_pro.never_checked(root)), tiago_pro.TUCKED,
             (*FINGERS, *tiago_pro.COUPLED), (0.0, tiago_pro.CLOSED), tiago_pro.TIP_OFFSET, tiago_pro.EYE,
             tiago_pro.OWN_JOINTS, is_pr2=False,
         )  # fmt: skip
-    return RobotDescription(target, root, _disabled(root), TUCKED)
+    return RobotDescription(target, root, source, _disabled(root), TUCKED)
 
 
 def packaged_robot(name: str) -> Path | None:
