@@ -294,15 +294,19 @@ def subformulas(formula: Formula) -> Iterator[Formula]:
 
 def walk(node: object) -> Iterator[object]:
     """Yield a part of a domain (an action, a formula, a tuple of parts) and everything in it, outer parts first."""
-    yield node
-    if isinstance(node, tuple):
-        inner = iter(node)
-    elif isinstance(node, TypedName | Location) or not is_dataclass(node):
-        return
-    else:
-        inner = (getattr(node, one.name) for one in fields(node))
-    for part in inner:
-        yield from walk(part)
+    waiting = [node]
+    while waiting:
+        node = waiting.pop()
+        yield node
+        if isinstance(node, tuple):
+            waiting.extend(reversed(node))
+        elif is_dataclass(node) and not isinstance(node, TypedName | Location):
+            waiting.extend(getattr(node, name) for name in reversed(_names_of(type(node))))
+
+
+@lru_cache(maxsize=64)
+def _names_of(kind: type) -> tuple[str, ...]:
+    return tuple(one.name for one in fields(kind))
 
 
 def predicates_of(formula: Formula) -> frozenset[str]:

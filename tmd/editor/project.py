@@ -1,0 +1,243 @@
+"""The names in a domain and all that belongs to it: where they are declared and used, and how they are renamed."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import lru_cache
+from pathlib import Path
+
+from tmd.check.checker import DATA_FILES
+from tmd.diagnostics import Location, TmdError
+from tmd.editor.names import Kind, Occurrence, Role, names_in_pddl
+from tmd.editor.yaml_names import names_in_yaml
+from tmd.files import real
+from tmd.pddl.model import OBJECT, TOTAL_COST
+from tmd.pddl.reading.formulas import RESERVED
+from tmd.pddl.reading.syntax import read_text, split_lines
+from tmd.world.folder import find_domain, find_problems
+from tmd.world.problem_domain import domain_named_in, find_domain_file, folder_near, kind_and_name
+from tmd.world.roots import Roots
+
+_YAML = (".yaml", ".yml")
+_NAME = re.compile(r"[a-z][a-z0-9_-]*")
+_DOMAIN = re.compile(r"^domain:[ \t]*['\"]?([\w-]+)", re.MULTILINE)
+_ENVIRONMENT = re.compile(r"^objects:", re.MULTILINE)
+# A folder with more files of a kind than that is no domain.
+_MOST_FILES = 500
+
+
+@lru_cache(maxsize=_MOST_FILES)
+def _names(text: str, file: str) -> tuple[Occurrence, ...]:
+    return tuple((names_in_yaml if Path(file).suffix in _YAML else names_in_pddl)(text, file))
+
+
+@dataclass(slots=True)
+class Project:
+    """The files that are open, and those on the disk that belong to them.
+
+    Attributes:
+        roots: The directories of domains and problems.
+        files: The files that are open, without links.
+    """
+
+    roots: Roots = field(default_factory=Roots)
+    files: dict[Path, None] = field(default_factory=dict)
+
+    def text(self, file: Path) -> str:
+        """Return the text of a file; empty where it cannot be read."""
+        try:
+            return read_text(file)
+        except TmdError:
+            return ""
+
+    def is_ours(self, file: Path, text: str) -> bool:
+        """Return whether a file is of a domain: PDDL, YAML of a known name, or an environment."""
+        known = file.name in DATA_FILES or file.suffix == ".pddl" or file.parent.name in ("environments", "base")
+        return known or (file.suffix in _YAML and bool(_DOMAIN.search(text) and _ENVIRONMENT.search(text)))
+
+    def names(self, file: Path) -> tuple[Occurrence, ...]:
+        """Return the names in a file."""
+        return _names(self.text(file), str(file))
+
+    def at(self, file: Path, line: int, column: int) -> list[Occurrence]:
+        """Return the names at a place; several where a word may be of several kinds."""
+        return [name for name in self.names(file) if name.covers(line, column)]
+
+    def domain_of(self, file: Path) -> Path | None:
+        """Return the file of the domain that a file belongs to."""
+        text, beside = self.text(file), file.parent / "domain.pddl"
+        if file.suffix in _YAML and file.name not in DATA_FILES:
+            named = _DOMAIN.search(text)
+            with suppress(TmdError):
+                near = named and (folder_near(file, named[1]) or find_domain(named[1], self.roots.domains).path)
+                return real(near / "domain.pddl") if near else None
+            return None
+        if file.suffix != ".pddl" or file.name == "instructions.pddl":
+            return real(beside)
+        if kind_and_name(text)[0] == "domain":
+            return file
+        found = find_domain_file(file, domain_named_in(text), self.roots.domains).file
+        return real(found) if found else None
+
+    def environments(self, domain: Path) -> list[Path]:
+        """Return the environments and problems of a domain: those that are open, bundled, or near it."""
+        folder = domain.parent
+        beside = folder.parent.parent / "problems" / folder.name
+        with suppress(TmdError):
+            beside = beside if beside.is_dir() else find_problems(folder.name, self.roots.problems)
+        patterns = ((beside / "environments", "*"), (beside, "*.pddl"), (folder, "*.pddl"), (folder, "*/*.pddl"))
+        found = dict.fromkeys(self.files)
+        for directory, pattern in patterns:
+            found |= dict.fromkeys(real(path) for path in sorted(directory.glob(pattern))[:_MOST_FILES])
+        return [file for file in found if self._is_environment(file) and self.domain_of(file) == domain]
+
+    def _is_environment(self, file: Path) -> bool:
+        if file.suffix in _YAML:
+            return file.name not in DATA_FILES
+        return file.suffix == ".pddl" and kind_and_name(self.text(file))[0] == "problem"
+
+    def related(self, file: Path) -> list[Path]:
+        """Return the files in which the names of a file may stand, itself first."""
+        domain = self.domain_of(file)
+        if domain is None:
+            return [file]
+        own = [domain, domain.parent / "instructions.pddl"] if domain.name == "domain.pddl" else [domain]
+        data = [domain.parent / name for name in sorted(DATA_FILES) if name.endswith(".yaml")]
+        found = [file, *own, *(data if len(own) > 1 else ()), *self.environments(domain)]
+        return [path for path in dict.fromkeys(found) if path.is_file() or path in self.files]
+
+    def declarations(self, file: Path, *kinds: Kind) -> list[Occurrence]:
+        """Return what a file may name: objects of other problems are not among it."""
+        domain = self.domain_of(file)
+        folder = domain.parent if domain else file.parent
+        near = [path for path in self.related(file) if path in (file, domain) or path.parent == folder]
+        near = [path for path in near if path == file or not self._is_environment(path)]
+        return [n for path in near for n in self.names(path) if n.role is Role.DECLARED and n.kind in kinds]
+
+    def definitions(self, file: Path, name: Occurrence) -> list[Occurrence]:
+        """Return where a name is declared."""
+        if name.kind is Kind.VARIABLE:
+            return [other for other in self._same(file, name) if other.role is Role.DECLARED]
+        return [other for other in self.declarations(file, name.kind) if other.name == name.name]
+
+    def references(self, file: Path, name: Occurrence) -> list[Occurrence]:
+        """Return every place of a name, its declarations included."""
+        if name.kind is Kind.VARIABLE or (name.kind is Kind.OBJECT and self._local(file, name)):
+            return self._same(file, name)
+        return [other for path in self.related(file) for other in self._same(path, name) if not self._local(path, other)]
+
+    def _same(self, file: Path, name: Occurrence) -> list[Occurrence]:
+        key = name.kind, name.name, name.scope
+        return [other for other in self.names(file) if (other.kind, other.name, other.scope) == key]
+
+    def _local(self, file: Path, name: Occurrence) -> bool:
+        """Return whether a name is an object of one problem or environment."""
+        if name.kind is not Kind.OBJECT or not self._is_environment(file):
+            return False
+        return any(other.role is Role.DECLARED for other in self._same(file, name))
+
+    def rename(self, file: Path, name: Occurrence, new: str) -> list[Occurrence]:
+        """Return the places in which ``new`` is to be written.
+
+        Raises:
+            TmdError: The name is not declared, or ``new`` is not a name or is taken.
+        """
+        plain = new.removeprefix("?") if name.kind is Kind.VARIABLE else new
+        declared = self.definitions(file, name)
+        if not declared or name.name in (OBJECT, TOTAL_COST):
+            raise TmdError(f"'{name.name}' is not declared in a file that can be changed")
+        if not _NAME.fullmatch(plain) or plain in RESERVED | {OBJECT, TOTAL_COST}:
+            raise TmdError(f"'{new}' is not a name: a small letter first, then letters, digits, - and _")
+        places = self.references(file, name)
+        if "-" in plain and any(Path(place.place.file).suffix in _YAML for place in places):
+            raise TmdError(f"'{new}' is not a name for YAML files: letters, digits and _")
+        taken = self._taken(file, name, f"?{plain}" if name.kind is Kind.VARIABLE else plain)
+        if taken is not None:
+            raise TmdError(f"there is a {name.kind} '{taken.name}' already: {taken.place}")
+        for place in places:
+            if not _stands_at(split_lines(self.text(Path(place.place.file))), place):
+                raise TmdError(f"{place.place}: '{place.name}' is not found there; save the file and try again")
+        return places
+
+    def _taken(self, file: Path, name: Occurrence, new: str) -> Occurrence | None:
+        """Return what has the name ``new`` where ``name`` is known."""
+        if name.kind is Kind.VARIABLE:
+            others = [other for other in self.names(file) if other.within == name.within]
+        else:
+            others = [other for path in self.related(file) for other in self.names(path) if other.role is Role.DECLARED]
+        return next((other for other in others if (other.kind, other.name) == (name.kind, new)), None)
+
+    def unchanged(self, file: Path, name: Occurrence) -> list[Path]:
+        """Return the other files of a domain in which a name stands as a word, and in which it is not renamed."""
+        domain = self.domain_of(file)
+        if domain is None or name.kind is Kind.VARIABLE or domain.name != "domain.pddl":
+            return []
+        places = {environment.parent.parent for environment in self.environments(domain)} - {domain.parent}
+        found = [domain.parent / "skills.yaml", domain.parent / "templates.yaml"]
+        found += [path for place in sorted(places) for path in sorted(place.glob("**/*.jsonl"))[:_MOST_FILES]]
+        word = re.compile(rf"(?<![\w-]){re.escape(name.name)}(?![\w-])")
+        return [path for path in found if path.is_file() and word.search(self.text(path))]
+
+    def hover(self, file: Path, name: Occurrence) -> str:
+        """Return what is known of a name, as Markdown."""
+        declared = self.definitions(file, name)
+        used = self.references(file, name)
+        lines = [f"**{name.kind}** `{name.name}`"]
+        for one in declared[:1]:
+            if one.types and name.kind is not Kind.PREDICATE:
+                lines[0] += f" - `{' | '.join(one.types)}`"
+            lines += [f"```pddl\n{self._source(one)}\n```"] if one.group else []
+        if name.kind is Kind.TYPE:
+            everything = self.declarations(file, Kind.TYPE, Kind.OBJECT)
+            for title, kind in (("subtypes", Kind.TYPE), ("objects", Kind.OBJECT)):
+                lines += _listed(title, (o.name for o in everything if o.kind is kind and name.name in o.types))
+        if name.kind in (Kind.PREDICATE, Kind.FUNCTION):
+            lines += list(_by_role(used))
+        return "\n\n".join(lines if declared else [*lines, "not declared"])
+
+    def _source(self, declared: Occurrence) -> str:
+        """Return the text of a declaration, with the comment behind it."""
+        assert declared.group is not None
+        begin, end = declared.group.location, declared.group.end
+        lines = split_lines(self.text(Path(begin.file)))[begin.line - 1 : end.line]
+        if declared.kind is Kind.ACTION:
+            return "\n".join(lines)
+        behind = lines[-1][end.column :]
+        comment = f"  {behind[behind.index(';') :]}" if ";" in behind else ""
+        lines = (*lines[:-1], lines[-1][: end.column])
+        return "\n".join((lines[0][begin.column - 1 :], *lines[1:])) + comment
+
+
+_TITLES: Mapping[Role, str] = {
+    Role.READ: "read by",
+    Role.ADDED: "made true by",
+    Role.DELETED: "made false by",
+    Role.HOLDS: "holds at the start in",
+}
+_MOST_LISTED = 20
+
+
+def _by_role(used: Iterable[Occurrence]) -> Iterator[str]:
+    """Yield who reads and who writes a predicate, a line for each role."""
+    found: dict[Role, dict[str, None]] = {}
+    for one in used:
+        file = Path(one.place.file)
+        where = one.within if one.within.startswith(("action", "derived")) else file.name
+        found.setdefault(one.role, {})[where] = None
+    for role, title in _TITLES.items():
+        yield from _listed(title, found.get(role, ()))
+
+
+def _listed(title: str, names: Iterable[str]) -> list[str]:
+    listed = list(dict.fromkeys(names))
+    more = f", and {len(listed) - _MOST_LISTED} more" if len(listed) > _MOST_LISTED else ""
+    return [f"{title}: {', '.join(listed[:_MOST_LISTED])}{more}"] if listed else []
+
+
+def _stands_at(lines: tuple[str, ...], name: Occurrence) -> bool:
+    place: Location = name.place
+    line = lines[place.line - 1] if place.line <= len(lines) else ""
+    return line[place.column - 1 : place.column - 1 + len(name.name)].lower() == name.name
