@@ -10,7 +10,7 @@ from pathlib import Path
 from tmd.diagnostics import Location
 from tmd.editor.names import Kind
 from tmd.editor.project import Project
-from tmd.editor.yaml_names import kind_of_keys, kinds_of_value, keys_at, path_at
+from tmd.editor.yaml_names import keys_at, kind_of_keys, kinds_of_value, path_at
 from tmd.language.lexicon.file import KEYS, bases_near
 from tmd.pddl.reading.reader import REQUIREMENTS
 from tmd.pddl.reading.syntax import Source, split_lines

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import OBJECT
-from tmd.pddl.reading.formulas import is_variable
+from tmd.pddl.reading.formulas import RESERVED, is_variable
 from tmd.pddl.reading.syntax import Document, Group, Node, Word, parse
 
 
@@ -210,8 +210,8 @@ class _Names:
             self.note(word, Kind.OBJECT, Role.USED)
 
 
-_NUMERIC = frozenset("= < > <= >= + - * / increase decrease assign scale-up scale-down minimize maximize".split())
-_NO_NAMES = _NUMERIC | {"and", "or", "not", "imply", "when", "minimize", "maximize"}
+_NUMERIC = frozenset({"=", "<", ">", "<=", ">=", "+", "-", "*", "/", "increase", "decrease", "assign"})
+_NO_NAMES = _NUMERIC | RESERVED | {"minimize", "maximize"}
 
 
 def _words(node: Node | None) -> Iterator[Word]:

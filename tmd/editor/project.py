@@ -29,6 +29,10 @@ _ENVIRONMENT = re.compile(r"^objects:", re.MULTILINE)
 _MOST_FILES = 500
 
 
+lines_of = lru_cache(maxsize=_MOST_FILES)(split_lines)
+"""The lines of a text; many places of one text are asked for."""
+
+
 @lru_cache(maxsize=_MOST_FILES)
 def _names(text: str, file: str) -> tuple[Occurrence, ...]:
     return tuple((names_in_yaml if Path(file).suffix in _YAML else names_in_pddl)(text, file))
@@ -127,7 +131,8 @@ class Project:
         """Return every place of a name, its declarations included."""
         if name.kind is Kind.VARIABLE or (name.kind is Kind.OBJECT and self._local(file, name)):
             return self._same(file, name)
-        return [other for path in self.related(file) for other in self._same(path, name) if not self._local(path, other)]
+        same = (other for path in self.related(file) for other in self._same(path, name))
+        return [other for other in same if not self._local(Path(other.place.file), other)]
 
     def _same(self, file: Path, name: Occurrence) -> list[Occurrence]:
         key = name.kind, name.name, name.scope
@@ -158,7 +163,7 @@ class Project:
         if taken is not None:
             raise TmdError(f"there is a {name.kind} '{taken.name}' already: {taken.place}")
         for place in places:
-            if not _stands_at(split_lines(self.text(Path(place.place.file))), place):
+            if not _stands_at(lines_of(self.text(Path(place.place.file))), place):
                 raise TmdError(f"{place.place}: '{place.name}' is not found there; save the file and try again")
         return places
 
@@ -202,7 +207,7 @@ class Project:
         """Return the text of a declaration, with the comment behind it."""
         assert declared.group is not None
         begin, end = declared.group.location, declared.group.end
-        lines = split_lines(self.text(Path(begin.file)))[begin.line - 1 : end.line]
+        lines = lines_of(self.text(Path(begin.file)))[begin.line - 1 : end.line]
         if declared.kind is Kind.ACTION:
             return "\n".join(lines)
         behind = lines[-1][end.column :]

@@ -67,9 +67,7 @@ def names_in_yaml(text: str, file: str) -> list[Occurrence]:
     return found + names_in_conditions(_only(text, conditions), file)
 
 
-def _scalars(
-    node: yaml.Node | None, path: KeyPath
-) -> Iterator[tuple[KeyPath, yaml.ScalarNode, yaml.Node | None]]:
+def _scalars(node: yaml.Node | None, path: KeyPath) -> Iterator[tuple[KeyPath, yaml.ScalarNode, yaml.Node | None]]:
     """Yield each key with the path of its mapping and its value, and each other scalar with its path."""
     if isinstance(node, yaml.ScalarNode):
         yield path, node, None

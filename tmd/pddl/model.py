@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from heapq import heappop, heappush
 from typing import NamedTuple, TypeAlias
@@ -300,13 +300,8 @@ def walk(node: object) -> Iterator[object]:
         yield node
         if isinstance(node, tuple):
             waiting.extend(reversed(node))
-        elif is_dataclass(node) and not isinstance(node, TypedName | Location):
-            waiting.extend(getattr(node, name) for name in reversed(_names_of(type(node))))
-
-
-@lru_cache(maxsize=64)
-def _names_of(kind: type) -> tuple[str, ...]:
-    return tuple(one.name for one in fields(kind))
+        elif not isinstance(node, TypedName | Location):
+            waiting.extend(getattr(node, name) for name in reversed(getattr(node, "__dataclass_fields__", {})))
 
 
 def predicates_of(formula: Formula) -> frozenset[str]:
