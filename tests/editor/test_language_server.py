@@ -5,14 +5,15 @@ from __future__ import annotations
 import asyncio
 import os
 import random
+import re
 import subprocess
 import sys
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 
 import pytest
-from tests.conftest import ROOT
 
+from tests.conftest import ROOT
 from tmd.check.report import check_paths
 from tmd.format.pddl_layout import format_pddl
 
@@ -29,7 +30,7 @@ SERVER = ClientServerConfig([sys.executable, "-m", "tmd", "lsp"], server_env={**
 DOMAIN = """(define (domain ferry)
   (:requirements :strips :typing :negative-preconditions)
   (:types car boat port)
-  (:constants main - port) ; the home port
+  (:constants harbour - port) ; the home port
   (:predicates
     (parked ?c - car ?p - port)
     (aboard ?c - car ?b - boat) ; the car is on the boat
@@ -50,7 +51,7 @@ DOMAIN = """(define (domain ferry)
 PROBLEM = """(define (problem one) (:domain ferry)
   (:objects red_car - car tug - boat island - port)
   (:init (parked red_car island) (moored tug island))
-  (:goal (parked red_car main)))
+  (:goal (parked red_car harbour)))
 """
 LEXICON = """goals:
   # moor is a word of this domain
@@ -108,7 +109,7 @@ class Editor:
         return lsp.Position(before.count("\n"), len(line.encode("utf-16-le")) // 2)
 
 
-@pytest_lsp.fixture(config=SERVER, scope="module")
+@pytest_lsp.fixture(config=SERVER, scope="module")  # type: ignore[untyped-decorator]
 async def client(lsp_client: LanguageClient) -> AsyncIterator[None]:
     capabilities = client_capabilities("visual-studio-code")
     await lsp_client.initialize_session(lsp.InitializeParams(capabilities))
@@ -140,7 +141,12 @@ async def test_diagnostics_are_those_of_the_checker_while_typing(editor: Editor)
         told = check_paths([editor.folder / "domain.pddl"]).diagnostics
         assert told
         assert [(d.code, d.message, d.range.start.line, d.range.start.character) for d in found] == [
-            (t.code, f"{t.message}\nhint: {t.hint}" if t.hint else t.message, t.location.line - 1, t.location.column - 1)
+            (
+                t.code,
+                f"{t.message}\nhint: {t.hint}" if t.hint else t.message,
+                t.location.line - 1,
+                t.location.column - 1,
+            )
             for t in told
         ]
 
@@ -149,7 +155,7 @@ async def test_a_problem_is_checked_against_the_unsaved_domain(editor: Editor) -
     editor.open("domain.pddl")
     editor.open("one.pddl")
     assert await editor.diagnostics("one.pddl") == []
-    editor.change("domain.pddl", DOMAIN.replace("main - port", "home - port"))
+    editor.change("domain.pddl", DOMAIN.replace("harbour - port", "home - port"))
     assert [d.code for d in await editor.diagnostics("one.pddl")] == ["unknown-object"]
     editor.close("domain.pddl")
     assert await editor.diagnostics("one.pddl") == []
@@ -176,7 +182,9 @@ async def test_names_lead_from_a_problem_to_the_domain_and_back(editor: Editor) 
     context = lsp.ReferenceContext(include_declaration=False)
     used = await editor.client.text_document_references_async(lsp.ReferenceParams(context, document, place))
     assert used is not None
-    counts = {name: sum(u.uri == editor.uri(name) for u in used) for name in ("domain.pddl", "one.pddl", "lexicon.yaml")}
+    counts = {
+        name: sum(u.uri == editor.uri(name) for u in used) for name in ("domain.pddl", "one.pddl", "lexicon.yaml")
+    }
     assert counts == {"domain.pddl": 6, "one.pddl": 1, "lexicon.yaml": 1}
 
 
@@ -188,10 +196,9 @@ async def renamed(editor: Editor, name: str, text: str, mark: str, new: str) -> 
     return {Path(uri).name: applied(edits, Path(uri[7:]).read_text()) for uri, edits in edit.changes.items()}
 
 
-def applied(edits: object, text: str) -> str:
+def applied(edits: Sequence[lsp.TextEdit], text: str) -> str:
     """A text after edits, as an editor makes them."""
     lines = text.split("\n")
-    assert isinstance(edits, list)
     for edit in sorted(edits, key=lambda e: (e.range.start.line, e.range.start.character), reverse=True):
         start, end = edit.range.start, edit.range.end
         first, last = lines[start.line].encode("utf-16-le"), lines[end.line].encode("utf-16-le")
@@ -225,7 +232,7 @@ async def test_a_rename_changes_every_file_of_the_domain_and_nothing_else(editor
 )
 async def test_a_rename_that_would_break_something_is_refused(editor: Editor, mark: str, new: str, reason: str) -> None:
     editor.open("domain.pddl")
-    with pytest.raises(JsonRpcException, match=reason):
+    with pytest.raises(JsonRpcException, match=re.escape(reason)):
         await renamed(editor, "domain.pddl", DOMAIN, mark, new)
 
 
@@ -234,10 +241,10 @@ async def test_a_rename_that_would_break_something_is_refused(editor: Editor, ma
     [
         ("(aboard ?c - ", {"car", "boat", "port", "object"}, {"parked"}),
         (":precondition (and (", {"parked", "moored", "not", "exists"}, {"car", "increase"}),
-        (":precondition (and (parked ", {"?c", "?b", "?p", "main"}, {"?from"}),
+        (":precondition (and (parked ", {"?c", "?b", "?p", "harbour"}, {"?from"}),
         ("(:requirements ", {":typing", ":adl"}, {":goal"}),
         ("(:action embark\n    ", {":parameters", ":effect"}, {":types"}),
-        ("(:constants main - port) ; ", set(), {"car", "parked"}),
+        ("(:constants harbour - port) ; ", set(), {"car", "parked"}),
     ],
 )
 async def test_completion_fits_the_place(editor: Editor, before: str, wanted: set[str], unwanted: set[str]) -> None:
@@ -257,7 +264,7 @@ async def labels(editor: Editor, name: str, text: str, before: str) -> set[str]:
 async def test_completion_knows_the_keys_of_yaml_files(editor: Editor) -> None:
     editor.open("lexicon.yaml", "nouns:\n  boat: [tug\n\n", "yaml")
     assert {"nouns", "goals"} <= await labels(editor, "lexicon.yaml", "nouns:\n\n", "nouns:\n")
-    assert "main" in await labels(editor, "lexicon.yaml", "nouns:\n  boat: [tug\n", "boat: [")
+    assert "harbour" in await labels(editor, "lexicon.yaml", "nouns:\n  boat: [tug\n", "boat: [")
     editor.open("objects.yaml", "classes:\n  lorry:\n    \n", "yaml")
     assert {"parent", "parts", "facts"} <= await labels(editor, "objects.yaml", "classes:\n  lorry:\n    \n", "    ")
 
@@ -269,14 +276,15 @@ async def test_a_document_is_formatted_as_by_fmt(editor: Editor) -> None:
     options = lsp.FormattingOptions(tab_size=2, insert_spaces=True)
     params = lsp.DocumentFormattingParams(editor.document("domain.pddl"), options)
     edits = await editor.client.text_document_formatting_async(params)
+    assert edits is not None
     assert applied(edits, untidy.replace("\r\n", "\n")) == format_pddl(untidy)
     editor.change("domain.pddl", "(define (domain ferry")
-    with pytest.raises(JsonRpcException, match="domain.pddl:1:"):
+    with pytest.raises(JsonRpcException, match=r"domain\.pddl:1:"):
         await editor.client.text_document_formatting_async(params)
 
 
 async def test_quick_fixes_are_those_of_check(editor: Editor) -> None:
-    text = DOMAIN.replace(" :negative-preconditions", "").replace("(?c - car ?b - boat ?p - port)", "(?c - car ?b -boat ?p - port)", 1)
+    text = DOMAIN.replace(" :negative-preconditions", "").replace("(?c - car ?b - boat", "(?c - car ?b -boat", 1)
     editor.put("domain.pddl", text)
     editor.open("domain.pddl")
     found = await editor.diagnostics("domain.pddl")
@@ -294,27 +302,24 @@ async def test_quick_fixes_are_those_of_check(editor: Editor) -> None:
 
 
 async def test_a_request_is_tried_from_the_file(editor: Editor) -> None:
-    text = f"; try: Take the red car to the main port.\n{PROBLEM}"
+    text = f"; try: Take the red car to the harbour.\n{PROBLEM}"
     editor.put("one.pddl", text)
     editor.open("one.pddl")
     lenses = await editor.client.text_document_code_lens_async(lsp.CodeLensParams(editor.document("one.pddl")))
     assert lenses is not None
     commands = {lens.range.start.line: lens.command for lens in lenses}
-    assert commands[1] is not None and commands[1].title == "try a request here"
-    command = commands[0]
-    assert command is not None
+    command, empty = commands[0], commands[1]
+    assert command is not None and empty is not None
+    assert empty.title == "try a request here"
     params = lsp.ExecuteCommandParams(command.command, arguments=command.arguments)
     answer = await editor.client.workspace_execute_command_async(params)
-    assert "embark(red_car, tug, island)" in answer
-    empty = await editor.client.workspace_execute_command_async(
-        lsp.ExecuteCommandParams(commands[1].command, arguments=commands[1].arguments)
-    )
-    assert "; try:" in empty
+    assert "embark(red_car, tug, island)" in str(answer)
+    params = lsp.ExecuteCommandParams(empty.command, arguments=empty.arguments)
+    assert "; try:" in str(await editor.client.workspace_execute_command_async(params))
 
 
 async def test_columns_are_those_of_the_editor(editor: Editor) -> None:
-    text = DOMAIN.replace("(:constants main - port) ; the home port", "(:constants main - port) ; \U0001f6a2 \U0001f3e0")
-    text = text.replace("(:types car", "(:types \U0001f6a2 car")  # a ship before what is asked for
+    text = DOMAIN.replace("(:types car", "(:types \U0001f6a2 car")  # a ship before what is asked for
     editor.put("domain.pddl", text)
     editor.open("domain.pddl")
     document = editor.document("domain.pddl")

@@ -86,6 +86,7 @@ class DomainServer(LanguageServer):
         self.found: dict[Path, Sequence[Diagnostic]] = {}
         self.worker = ThreadPoolExecutor(1)
         self._uris: dict[Path, str] = {}
+        self._checked_texts: dict[Path, str] = {}
         self._checking: asyncio.Task[None] | None = None
         self._request: asyncio.subprocess.Process | None = None
 
@@ -109,10 +110,11 @@ class DomainServer(LanguageServer):
         """Return the file of a position, its lines up to it, and the column, counted from 1 in characters."""
         file = self.file(uri)
         lines = lines_of(self.project.text(file))
-        row, column = min(at.line, len(lines) - 1), 0
-        units = self.workspace.position_codec.client_num_units
-        while column < len(lines[row]) and units(lines[row][: column + 1]) <= at.character:
-            column += 1
+        row, column, units = min(at.line, len(lines) - 1), 0, 0
+        for column, character in enumerate((*lines[row], "")):  # noqa: B007 - the last one is meant
+            units += self.workspace.position_codec.client_num_units(character)
+            if units > at.character:
+                break
         return file, (*lines[:row], lines[row][:column]), column + 1
 
     def range(self, place: Location, length: int | None = None) -> lsp.Range:
@@ -190,7 +192,7 @@ class DomainServer(LanguageServer):
 
     def _publish(self, found: Mapping[Path, Sequence[Diagnostic]]) -> None:
         for file, diagnostics in found.items():
-            self.found[file] = diagnostics
+            self.found[file], self._checked_texts[file] = diagnostics, self.project.text(file)
             shown = [self._diagnostic(diagnostic) for diagnostic in diagnostics]
             self.text_document_publish_diagnostics(lsp.PublishDiagnosticsParams(self.uri(file), shown))
 
@@ -314,7 +316,9 @@ class DomainServer(LanguageServer):
     def code_action(self, params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
         """Return the fixes of ``tmd check --fix`` for a range, one by one, and for the whole file."""
         file = self.file(params.text_document.uri)
-        fixable = [found for found in self.found.get(file, []) if found.code in FIXABLE]
+        text = self.project.text(file)
+        known = self.found.get(file, []) if self._checked_texts.get(file) == text else []  # else their places are wrong
+        fixable = [found for found in known if found.code in FIXABLE]
         texts = {}
         for found in fixable:
             inside = self.range(found.location)
@@ -322,8 +326,8 @@ class DomainServer(LanguageServer):
                 texts[f"Fix: {found.hint or found.message}"] = fix_file(file, [found])
         if len(fixable) > 1:
             texts["Fix all that is mechanical in this file"] = fix_file(file, fixable)
-        whole, uri = self.whole(self.project.text(file)), self.uri(file)
-        edits = {title: lsp.WorkspaceEdit({uri: [lsp.TextEdit(whole, text)]}) for title, text in texts.items() if text}
+        whole, uri = self.whole(text), self.uri(file)
+        edits = {title: lsp.WorkspaceEdit({uri: [lsp.TextEdit(whole, new)]}) for title, new in texts.items() if new}
         return [lsp.CodeAction(title, lsp.CodeActionKind.QuickFix, edit=edit) for title, edit in edits.items()]
 
     def code_lens(self, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
@@ -341,10 +345,10 @@ class DomainServer(LanguageServer):
         commands = (lsp.Command(title, REQUEST, arguments=arguments) for _, title, arguments in lenses)
         return list(map(lsp.CodeLens, ranges, commands))
 
-    async def request(self, uri: str, text: str = "", environment: str | None = None) -> str:
+    async def request(self, uri: str = "", text: str = "", environment: str = "") -> str:
         """Show what ``tmd ground`` answers to a request in the domain of a file."""
         try:
-            answer = await self._grounded(self.file(uri), text, environment)
+            answer = await self._grounded(self.file(str(uri)), str(text), str(environment))
         except (TmdError, OSError) as error:
             self.tell(str(error))
             return str(error)
@@ -357,7 +361,7 @@ class DomainServer(LanguageServer):
             self.tell(answer)
         return answer
 
-    async def _grounded(self, file: Path, text: str, environment: str | None) -> str:
+    async def _grounded(self, file: Path, text: str, environment: str) -> str:
         """Run ``tmd ground`` in a process of its own, which may take long; one that still runs is stopped."""
         if not text.strip():
             raise TmdError("write the request as a comment, `; try: Take the cup.` (in YAML after #), and try that")
@@ -379,7 +383,8 @@ class DomainServer(LanguageServer):
             stderr=asyncio.subprocess.STDOUT,
         )
         output, _ = await self._request.communicate()
-        notes = [f"note: {path} is not saved; the file on the disk was used\n" for path in UNSAVED]
+        unsaved = [path for path in self.project.related(file) if path in UNSAVED]
+        notes = [f"note: {path} is not saved; the file on the disk was used\n" for path in unsaved]
         return f"{text}\n{chosen}\n\n{''.join(notes)}{output.decode('utf-8', errors='replace')}"
 
     def stop_request(self) -> None:
@@ -418,8 +423,8 @@ def make_server(roots: Roots) -> DomainServer:
         server.feature(name, _OPTIONS.get(name))(_answering(method(server)))
 
     @server.command(REQUEST)
-    async def request(uri: str, text: str = "", environment: str | None = None) -> str:
-        return await server.request(uri, text, environment)
+    async def request(*arguments: str) -> str:
+        return await server.request(*arguments[:3])
 
     return server
 
