@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 import os
 import random
 import re
@@ -418,6 +419,18 @@ async def test_random_edits_never_end_the_server(editor: Editor) -> None:
         await everything_asked(editor, name, lsp.Position(row, chance.randrange(30)))
     editor.change("domain.pddl", DOMAIN)
     await editor.diagnostics("domain.pddl")
+
+
+@pytest.mark.parametrize("goodbye", [["shutdown", "exit"], ["exit"], []])
+async def test_the_server_ends_in_silence_when_the_editor_goes(goodbye: list[str]) -> None:
+    sent = [{"id": 1, "method": "initialize", "params": {"capabilities": {}, "processId": None, "rootUri": None}}]
+    sent += [{"method": "shutdown", "id": 2} if name == "shutdown" else {"method": name} for name in goodbye]
+    bodies = [json.dumps({"jsonrpc": "2.0", **message}).encode() for message in sent]
+    spoken = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in bodies)
+    command = [sys.executable, "-m", "tmd", "lsp"]
+    ended = subprocess.run(command, input=spoken, env=SERVER.server_env, capture_output=True, check=False)
+    assert (ended.returncode, ended.stderr) == (0, b"")
+    assert b'"hoverProvider"' in ended.stdout
 
 
 async def test_without_its_package_the_command_says_what_to_install(tmp_path: Path) -> None:

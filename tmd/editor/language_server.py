@@ -433,8 +433,10 @@ def serve(roots: Roots) -> None:
     """Answer the editor until it ends the server or goes away."""
     logging.getLogger("pygls").setLevel(logging.CRITICAL + 1)
     server = make_server(roots)
+    answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # no print of a library may get between the answers
     try:
-        server.start_io()
+        server.start_io(sys.stdin.buffer, answers)
     finally:
         server.stop_request()
         server.worker.shutdown(wait=False, cancel_futures=True)
