@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tmd.diagnostics import Location
-from tmd.editor.names import Kind
+from tmd.editor.names import NameKind
 from tmd.editor.project import Project
 from tmd.editor.yaml_names import keys_at, kind_of_keys, kinds_of_value, path_at
 from tmd.language.lexicon.file import KEYS, bases_near
+from tmd.pddl.model import OBJECT
 from tmd.pddl.reading.reader import REQUIREMENTS
 from tmd.pddl.reading.syntax import Source, split_lines
 from tmd.world.problem_domain import domains_in, kind_and_name
@@ -60,37 +60,45 @@ def complete(project: Project, file: Path, text: str) -> dict[str, str]:
 
 
 def _in_pddl(project: Project, file: Path, lines: tuple[str, ...]) -> dict[str, str]:
-    word = re.search(r"[^\s()]*$", lines[-1])
-    typed = word[0] if word else ""
-    opened = _opened((*lines[:-1], lines[-1][: len(lines[-1]) - len(typed)]))
+    typed = re.split(r"[\s()]", lines[-1])[-1]
+    opened = _opened((*lines[:-1], lines[-1].removesuffix(typed)))
     if not opened:
         return {}
-    top, section = opened[-1], opened[1].head if len(opened) > 1 else ""
+    top = opened[-1]
     if typed.startswith("?"):
-        return {name: "variable" for group in opened for name in group.variables}
+        return _variables(opened)
     if top.last == "-" or top.head == "either":
-        return {**_declared(project, file, Kind.TYPE), "object": "type"}
+        return {**_declared(project, file, NameKind.TYPE), OBJECT: "type"}
+    return _in_formula(project, file, opened) if len(opened) > 2 else _in_section(project, file, opened)
+
+
+def _variables(opened: list[_Open]) -> dict[str, str]:
+    return {name: "variable" for group in opened for name in group.variables}
+
+
+def _in_section(project: Project, file: Path, opened: list[_Open]) -> dict[str, str]:
+    """Return what fits directly in ``(define ...)`` or in a section of it."""
+    top = opened[-1]
     if top.head == ":requirements":
         return dict.fromkeys(REQUIREMENTS, "requirement")
     if top.head == ":domain":
         return {name: "domain" for place in (file.parent, file.parent.parent) for name in domains_in(place)}
     if top.head == ":action" and len(top.parts) > 1:
         return {part: "keyword" for part in _PARTS if part not in top.parts}
-    if len(opened) == 2 and not top.parts:
-        problem = kind_and_name(project.text(file))[0] == "problem"
-        return dict.fromkeys(_PROBLEM_SECTIONS if problem else _DOMAIN_SECTIONS, "keyword")
-    return _in_formula(project, file, opened) if section in _FORMULAS else {}
+    if top.parts or len(opened) == 1:
+        return {}
+    problem = kind_and_name(project.text(file))[0] == "problem"
+    return dict.fromkeys(_PROBLEM_SECTIONS if problem else _DOMAIN_SECTIONS, "keyword")
 
 
 def _in_formula(project: Project, file: Path, opened: list[_Open]) -> dict[str, str]:
     top, section = opened[-1], opened[1]
-    if len(opened) == 2 or section.last == ":parameters":
+    if section.head not in _FORMULAS or section.last == ":parameters":
         return {}
     if top.parts:
-        variables = {name: "variable" for group in opened for name in group.variables}
-        return variables | _declared(project, file, Kind.OBJECT)
+        return _variables(opened) | _declared(project, file, NameKind.OBJECT)
     words = {":init": ("not", "=")}.get(section.head, _EFFECTS if section.last == ":effect" else _CONDITIONS)
-    return _declared(project, file, Kind.PREDICATE, Kind.FUNCTION) | dict.fromkeys(words, "keyword")
+    return _declared(project, file, NameKind.PREDICATE, NameKind.FUNCTION) | dict.fromkeys(words, "keyword")
 
 
 def _opened(lines: tuple[str, ...]) -> list[_Open]:
@@ -110,7 +118,7 @@ def _opened(lines: tuple[str, ...]) -> list[_Open]:
     return opened
 
 
-def _declared(project: Project, file: Path, *kinds: Kind) -> dict[str, str]:
+def _declared(project: Project, file: Path, *kinds: NameKind) -> dict[str, str]:
     return {name.name: str(name.kind) for name in project.declarations(file, *kinds)}
 
 
@@ -118,25 +126,18 @@ def _in_yaml(project: Project, file: Path, lines: list[str]) -> dict[str, str]:
     last = lines[-1]
     if re.search(r"(^|\s)#", last):
         return {}
-    condition = last.rfind("(", 0) if last.count("(") > last.count(")") else -1
-    if condition >= 0:
+    if last.count("(") > last.count(")"):
         return _in_pddl(project, file, (f"(define (:goal {last[last.index('(') :]}",))
     path = path_at(lines)
-    value = re.search(r"(?:[\w-]+:\s+|-\s+|\[|,\s*)([^\[\]{},:]*)$", last)
-    is_value = bool(re.search(r"[\w-]:\s[^{},]*$|\[[^\]]*$|^\s*- [^:]*$", last))
-    if not is_value:
+    value = re.search(r"(?:[\w-]+:\s|^\s*-\s|\[)(?:[^{}\[\]]*,)?\s*([^{}\[\],]*)$", last)
+    if value is None or re.search(r"\{[^{}\[:]*(,[^{}\[:]*)?$", last):
         kind = kind_of_keys(path)
         keys = keys_at(_model(file), path) if path or file.name != "lexicon.yaml" else KEYS
         return dict.fromkeys(keys, "key") | (_declared(project, file, kind) if kind else {})
     if path[-1:] == ("include",):
         return dict.fromkeys(bases_near(file), "base lexicon")
-    words = value[1].split(" ") if value else [""]
-    return _named(project, file, kinds_of_value(path, len(words) - 1))
-
-
-def _named(project: Project, file: Path, kinds: Iterable[Kind]) -> dict[str, str]:
-    chosen = tuple(kinds)
-    return _declared(project, file, *chosen) if chosen else {}
+    kinds = kinds_of_value(path, value[1].count(" "))
+    return _declared(project, file, *kinds) if kinds else {}
 
 
 def _model(file: Path) -> object:

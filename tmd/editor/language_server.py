@@ -25,7 +25,7 @@ from tmd.check.diagnostic import Diagnostic, Severity
 from tmd.check.report import FIXABLE, fix_file
 from tmd.diagnostics import Location, TmdError
 from tmd.editor.completion import complete
-from tmd.editor.names import Kind, Occurrence, Role
+from tmd.editor.names import NameKind, Occurrence, Role
 from tmd.editor.project import Project, lines_of
 from tmd.files import UNSAVED, real
 from tmd.format.pddl_layout import format_pddl
@@ -282,7 +282,7 @@ class DomainServer(LanguageServer):
     def rename(self, params: lsp.RenameParams) -> lsp.WorkspaceEdit:
         """Return the edits that rename a name, and name the files in which it has to be changed by hand."""
         file, name = self.renamed(params)
-        new = f"?{params.new_name.removeprefix('?')}" if name.kind is Kind.VARIABLE else params.new_name
+        new = f"?{params.new_name.removeprefix('?')}" if name.kind is NameKind.VARIABLE else params.new_name
         changes: dict[str, list[lsp.TextEdit]] = {}
         for place in dict.fromkeys(self.project.rename(file, name, new)):
             found = self.location(place)
@@ -317,18 +317,23 @@ class DomainServer(LanguageServer):
         """Return the fixes of ``tmd check --fix`` for a range, one by one, and for the whole file."""
         file = self.file(params.text_document.uri)
         text = self.project.text(file)
-        known = self.found.get(file, []) if self._checked_texts.get(file) == text else []  # else their places are wrong
-        fixable = [found for found in known if found.code in FIXABLE]
-        texts = {}
-        for found in fixable:
-            inside = self.range(found.location)
-            if params.range.start <= inside.end and inside.start <= params.range.end:
-                texts[f"Fix: {found.hint or found.message}"] = fix_file(file, [found])
-        if len(fixable) > 1:
-            texts["Fix all that is mechanical in this file"] = fix_file(file, fixable)
+        texts = (
+            self._fixed(file, params.range) if self._checked_texts.get(file) == text else {}
+        )  # else places are wrong
         whole, uri = self.whole(text), self.uri(file)
         edits = {title: lsp.WorkspaceEdit({uri: [lsp.TextEdit(whole, new)]}) for title, new in texts.items() if new}
         return [lsp.CodeAction(title, lsp.CodeActionKind.QuickFix, edit=edit) for title, edit in edits.items()]
+
+    def _fixed(self, file: Path, chosen: lsp.Range) -> dict[str, str | None]:
+        """Return the text after each fix for a range, by what the fix does."""
+        fixable = [found for found in self.found.get(file, []) if found.code in FIXABLE]
+        ranges = [self.range(found.location) for found in fixable]
+        texts = {
+            f"Fix: {found.hint or found.message}": fix_file(file, [found])
+            for found, place in zip(fixable, ranges, strict=True)
+            if chosen.start <= place.end and place.start <= chosen.end
+        }
+        return texts | ({"Fix all that is mechanical in this file": fix_file(file, fixable)} if fixable[1:] else {})
 
     def code_lens(self, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
         """Return a lens on the first line that is no comment, and one on each comment ``try: REQUEST``."""
@@ -365,11 +370,7 @@ class DomainServer(LanguageServer):
         """Run ``tmd ground`` in a process of its own, which may take long; one that still runs is stopped."""
         if not text.strip():
             raise TmdError("write the request as a comment, `; try: Take the cup.` (in YAML after #), and try that")
-        domain = self.project.domain_of(file)
-        places = self.project.environments(domain) if domain else []
-        if domain is None or not (places or environment):
-            raise TmdError(f"no environment for {file.name} was found; write a problem beside the domain")
-        chosen = environment or str(file if file in places else places[0])
+        domain, chosen = self._where(file, environment)
         known = (("--domains", self.project.roots.domains), ("--problems", self.project.roots.problems))
         options = [word for name, root in known if root for word in (name, str(real(root)))]
         self.stop_request()
@@ -386,6 +387,19 @@ class DomainServer(LanguageServer):
         unsaved = [path for path in self.project.related(file) if path in UNSAVED]
         notes = [f"note: {path} is not saved; the file on the disk was used\n" for path in unsaved]
         return f"{text}\n{chosen}\n\n{''.join(notes)}{output.decode('utf-8', errors='replace')}"
+
+    def _where(self, file: Path, environment: str) -> tuple[Path, str]:
+        """Return the domain of a file and the environment for its requests.
+
+        Raises:
+            TmdError: One of them is missing.
+        """
+        domain = self.project.domain_of(file)
+        places = self.project.environments(domain) if domain else []
+        places = [Path(environment)] if environment else [place for place in places if place == file] or places
+        if domain is None or not places:
+            raise TmdError(f"no environment for {file.name} was found; write a problem beside the domain")
+        return domain, str(places[0])
 
     def stop_request(self) -> None:
         """End the request that still runs."""

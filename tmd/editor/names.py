@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
@@ -12,7 +12,7 @@ from tmd.pddl.reading.formulas import RESERVED, is_variable
 from tmd.pddl.reading.syntax import Document, Group, Node, Word, parse
 
 
-class Kind(StrEnum):
+class NameKind(StrEnum):
     """Kinds of names; names of two kinds never clash."""
 
     TYPE = "type"
@@ -24,7 +24,7 @@ class Kind(StrEnum):
 
 
 class Role(StrEnum):
-    """What a text does with a name."""
+    """Uses of a name in a text."""
 
     DECLARED = "declared"
     USED = "used"
@@ -50,7 +50,7 @@ class Occurrence:
     """
 
     name: str
-    kind: Kind
+    kind: NameKind
     role: Role
     place: Location
     within: str = ""
@@ -98,64 +98,60 @@ class _Names:
     names: list[Occurrence] = field(default_factory=list)
     bound: list[tuple[Location, set[str]]] = field(default_factory=list)
 
-    def note(self, word: Word, kind: Kind, role: Role, **more: object) -> None:
+    def note(self, word: Word, kind: NameKind, role: Role, **more: object) -> None:
         found = Occurrence(word.text, kind, role, word.location, self.within)
         self.names.append(replace(found, **more) if more else found)  # type: ignore[arg-type]
 
     def section(self, group: Group) -> None:
         """Note the names of a part of ``(define ...)``."""
-        self.within, self.bound = group.head.removeprefix(":"), []
-        rest = group.parts[1:]
-        match group.head:
-            case ":types":
-                self.typed(rest, Kind.TYPE)
-            case ":constants" | ":objects":
-                self.typed(rest, Kind.OBJECT)
-            case ":predicates" | ":functions":
-                kind = Kind.PREDICATE if group.head == ":predicates" else Kind.FUNCTION
-                for part in rest:
-                    self.signature(part, kind)
-            case ":action" | ":durative-action":
-                self.action(group)
-            case ":derived":
-                self.derived(group)
-            case ":init" | ":goal" | ":metric":
-                for part in rest:
-                    self.formula(part, Role.HOLDS if group.head == ":init" else Role.READ)
+        head, rest = group.head, group.parts[1:]
+        self.within, self.bound = head.removeprefix(":"), []
+        if head in _TYPED:
+            self.typed(rest, _TYPED[head])
+        elif head in (":action", ":durative-action"):
+            self.action(group)
+        elif head == ":derived":
+            self.derived(group)
+        for part in rest:
+            if head in _SIGNATURES:
+                self.signature(part, _SIGNATURES[head])
+            elif head in _FORMULAS:
+                self.formula(part, _FORMULAS[head])
 
-    def signature(self, node: Node, kind: Kind) -> None:
-        """Note the declaration of a predicate or function."""
-        if isinstance(node, Group) and node.parts and isinstance(node.parts[0], Word):
-            self.note(node.parts[0], kind, Role.DECLARED, group=node)
-            self.bound = [(node.location, set())]
-            self.typed(node.parts[1:], Kind.VARIABLE)
+    def signature(self, node: Node, kind: NameKind, role: Role = Role.DECLARED) -> None:
+        """Note the declaration of a predicate or function, or the head of a derived one."""
+        name = _head(node)
+        if isinstance(node, Group) and name is not None:
+            self.note(name, kind, role, group=node if role is Role.DECLARED else None)
+            self.bound = self.bound or [(node.location, set())]
+            self.typed(node.parts[1:], NameKind.VARIABLE)
+            self.bound = []
 
     def action(self, group: Group) -> None:
-        name = group.parts[1] if len(group.parts) > 1 else None
+        name, *parts = group.parts[1:] or (None,)
         if isinstance(name, Word):
             self.within = f"action {name.text}"
-            self.note(name, Kind.ACTION, Role.DECLARED, group=group)
+            self.note(name, NameKind.ACTION, Role.DECLARED, group=group)
         self.bound = [(group.location, set())]
         keyword = ""
-        for node in group.parts[2:]:
+        for node in parts:
             if isinstance(node, Word):
                 keyword = node.text
             elif keyword == ":parameters":
-                self.typed(node.parts, Kind.VARIABLE)
+                self.typed(node.parts, NameKind.VARIABLE)
             else:
                 self.formula(node, Role.ADDED if keyword == ":effect" else Role.READ)
 
     def derived(self, group: Group) -> None:
-        head, *conditions = group.parts[1:] or (None,)
-        self.bound = [(group.location, set())]
-        if isinstance(head, Group) and head.parts and isinstance(head.parts[0], Word):
-            self.within = f"derived {head.head}"
-            self.note(head.parts[0], Kind.PREDICATE, Role.ADDED)
-            self.typed(head.parts[1:], Kind.VARIABLE)
+        head, *conditions = group.parts[1:] or (group,)
+        self.within = f"derived {head.head}" if isinstance(head, Group) else ""
+        self.bound = bound = [(group.location, set[str]())]
+        self.signature(head, NameKind.PREDICATE, Role.ADDED)
+        self.bound = bound
         for part in conditions:
             self.formula(part, Role.READ)
 
-    def typed(self, nodes: Sequence[Node], kind: Kind) -> None:
+    def typed(self, nodes: Sequence[Node], kind: NameKind) -> None:
         """Note the names of a typed list, and its types, which stand behind dashes."""
         waiting: list[Word] = []
         words = iter(nodes)
@@ -164,59 +160,64 @@ class _Names:
                 waiting.append(node)
                 continue
             behind = node if isinstance(node, Group) else next(words, None)
-            types = [word for word in _words(behind) if word.text != "either"]
+            inside = (behind,) if isinstance(behind, Word) else _parts(behind)
+            types = [word for word in inside if isinstance(word, Word) and word.text != "either"]
             self.declare(waiting, kind, tuple(word.text for word in types))
             for word in types:
-                self.note(word, Kind.TYPE, Role.USED)
+                self.note(word, NameKind.TYPE, Role.USED)
             waiting = []
         self.declare(waiting, kind, (OBJECT,))
 
-    def declare(self, words: Iterable[Word], kind: Kind, types: tuple[str, ...]) -> None:
+    def declare(self, words: Iterable[Word], kind: NameKind, types: tuple[str, ...]) -> None:
         for word in words:
-            if kind is not Kind.VARIABLE:
+            if kind is not NameKind.VARIABLE:
                 self.note(word, kind, Role.DECLARED, types=types)
             elif self.bound and is_variable(word.text):
                 self.bound[-1][1].add(word.text)
                 self.note(word, kind, Role.DECLARED, types=types, scope=self.bound[-1][0])
 
-    def formula(self, node: Node, role: Role, kind: Kind = Kind.PREDICATE) -> None:
+    def formula(self, node: Node, role: Role, kind: NameKind = NameKind.PREDICATE) -> None:
         """Note the names of a condition or an effect; ``role`` is that of its atoms."""
         if isinstance(node, Word):
             self.term(node)
             return
-        rest, head = node.parts[1:], node.head
-        if head in ("forall", "exists"):
+        head = _head(node)
+        word = head.text if head else ""
+        if head and word not in _NO_NAMES:
+            self.note(head, kind, role)
+        role = _ROLES_BELOW.get((word, role), role)
+        if word in _NUMERIC:
+            kind, role = NameKind.FUNCTION, Role.READ
+        parts = list(node.parts[1:] if head else node.parts)
+        quantified = word in ("forall", "exists") and bool(parts)
+        if quantified:
             self.bound.append((node.location, set()))
-            if rest and isinstance(rest[0], Group):
-                self.typed(rest[0].parts, Kind.VARIABLE)
-            for part in rest[1:]:
-                self.formula(part, role, kind)
+            self.typed(_parts(parts.pop(0)), NameKind.VARIABLE)
+        for number, part in enumerate(parts):
+            self.formula(part, Role.READ if word == "when" and number == 0 else role, kind)
+        if quantified:
             self.bound.pop()
-            return
-        if node.parts and isinstance(node.parts[0], Word) and head not in _NO_NAMES:
-            self.note(node.parts[0], kind, role)
-        if head in _NUMERIC:
-            kind, role = Kind.FUNCTION, Role.READ
-        elif head == "not" and role is Role.ADDED:
-            role = Role.DELETED
-        for number, part in enumerate(rest if head else node.parts):
-            self.formula(part, Role.READ if head == "when" and number == 0 else role, kind)
 
     def term(self, word: Word) -> None:
         if is_variable(word.text):
             scope = next((place for place, names in reversed(self.bound) if word.text in names), None)
-            self.note(word, Kind.VARIABLE, Role.USED, scope=scope)
+            self.note(word, NameKind.VARIABLE, Role.USED, scope=scope)
         elif word.text[0].isalpha() and word.text not in _NO_NAMES:
-            self.note(word, Kind.OBJECT, Role.USED)
+            self.note(word, NameKind.OBJECT, Role.USED)
 
 
+_TYPED = {":types": NameKind.TYPE, ":constants": NameKind.OBJECT, ":objects": NameKind.OBJECT}
+_SIGNATURES = {":predicates": NameKind.PREDICATE, ":functions": NameKind.FUNCTION}
+_FORMULAS = {":init": Role.HOLDS, ":goal": Role.READ, ":metric": Role.READ}
+_ROLES_BELOW = {("not", Role.ADDED): Role.DELETED}
 _NUMERIC = frozenset({"=", "<", ">", "<=", ">=", "+", "-", "*", "/", "increase", "decrease", "assign"})
 _NO_NAMES = _NUMERIC | RESERVED | {"minimize", "maximize"}
 
 
-def _words(node: Node | None) -> Iterator[Word]:
-    """Yield the words of a node, without those of groups within groups."""
-    if isinstance(node, Word):
-        yield node
-    elif node is not None:
-        yield from (part for part in node.parts if isinstance(part, Word))
+def _parts(node: Node | None) -> tuple[Node, ...]:
+    return node.parts if isinstance(node, Group) else ()
+
+
+def _head(node: Node) -> Word | None:
+    first = _parts(node)[:1]
+    return first[0] if first and isinstance(first[0], Word) else None

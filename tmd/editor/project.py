@@ -11,7 +11,7 @@ from pathlib import Path
 
 from tmd.check.checker import DATA_FILES
 from tmd.diagnostics import Location, TmdError
-from tmd.editor.names import Kind, Occurrence, Role, names_in_pddl
+from tmd.editor.names import NameKind, Occurrence, Role, names_in_pddl
 from tmd.editor.yaml_names import names_in_yaml
 from tmd.files import real
 from tmd.pddl.model import OBJECT, TOTAL_COST
@@ -25,6 +25,7 @@ _YAML = (".yaml", ".yml")
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 _DOMAIN = re.compile(r"^domain:[ \t]*['\"]?([\w-]+)", re.MULTILINE)
 _ENVIRONMENT = re.compile(r"^objects:", re.MULTILINE)
+_BUILT_IN = RESERVED | {OBJECT, TOTAL_COST}
 # A folder with more files of a kind than that is no domain.
 _MOST_FILES = 500
 
@@ -113,23 +114,21 @@ class Project:
         found = [file, *own, *(data if len(own) > 1 else ()), *self.environments(domain)]
         return [path for path in dict.fromkeys(found) if path.is_file() or path in self.files]
 
-    def declarations(self, file: Path, *kinds: Kind) -> list[Occurrence]:
+    def declarations(self, file: Path, *kinds: NameKind) -> list[Occurrence]:
         """Return what a file may name: objects of other problems are not among it."""
-        domain = self.domain_of(file)
-        folder = domain.parent if domain else file.parent
-        near = [path for path in self.related(file) if path in (file, domain) or path.parent == folder]
-        near = [path for path in near if path == file or not self._is_environment(path)]
-        return [n for path in near for n in self.names(path) if n.role is Role.DECLARED and n.kind in kinds]
+        near = [path for path in self.related(file) if path == file or not self._is_environment(path)]
+        names = (name for path in near for name in self.names(path) if name.kind in kinds)
+        return [name for name in names if name.role is Role.DECLARED]
 
     def definitions(self, file: Path, name: Occurrence) -> list[Occurrence]:
         """Return where a name is declared."""
-        if name.kind is Kind.VARIABLE:
+        if name.kind is NameKind.VARIABLE:
             return [other for other in self._same(file, name) if other.role is Role.DECLARED]
         return [other for other in self.declarations(file, name.kind) if other.name == name.name]
 
     def references(self, file: Path, name: Occurrence) -> list[Occurrence]:
         """Return every place of a name, its declarations included."""
-        if name.kind is Kind.VARIABLE or (name.kind is Kind.OBJECT and self._local(file, name)):
+        if name.kind is NameKind.VARIABLE or (name.kind is NameKind.OBJECT and self._local(file, name)):
             return self._same(file, name)
         same = (other for path in self.related(file) for other in self._same(path, name))
         return [other for other in same if not self._local(Path(other.place.file), other)]
@@ -140,7 +139,7 @@ class Project:
 
     def _local(self, file: Path, name: Occurrence) -> bool:
         """Return whether a name is an object of one problem or environment."""
-        if name.kind is not Kind.OBJECT or not self._is_environment(file):
+        if name.kind is not NameKind.OBJECT or not self._is_environment(file):
             return False
         return any(other.role is Role.DECLARED for other in self._same(file, name))
 
@@ -150,16 +149,14 @@ class Project:
         Raises:
             TmdError: The name is not declared, or ``new`` is not a name or is taken.
         """
-        plain = new.removeprefix("?") if name.kind is Kind.VARIABLE else new
-        declared = self.definitions(file, name)
-        if not declared or name.name in (OBJECT, TOTAL_COST):
-            raise TmdError(f"'{name.name}' is not declared in a file that can be changed")
-        if not _NAME.fullmatch(plain) or plain in RESERVED | {OBJECT, TOTAL_COST}:
+        if not self.definitions(file, name):
+            raise TmdError(f"'{name.name}' is not declared in this domain")
+        if not _NAME.fullmatch(new.removeprefix("?")) or new in _BUILT_IN or name.name in _BUILT_IN:
             raise TmdError(f"'{new}' is not a name: a small letter first, then letters, digits, - and _")
         places = self.references(file, name)
-        if "-" in plain and any(Path(place.place.file).suffix in _YAML for place in places):
+        if "-" in new and any(Path(place.place.file).suffix in _YAML for place in places):
             raise TmdError(f"'{new}' is not a name for YAML files: letters, digits and _")
-        taken = self._taken(file, name, f"?{plain}" if name.kind is Kind.VARIABLE else plain)
+        taken = self._taken(file, name, new)
         if taken is not None:
             raise TmdError(f"there is a {name.kind} '{taken.name}' already: {taken.place}")
         for place in places:
@@ -169,7 +166,7 @@ class Project:
 
     def _taken(self, file: Path, name: Occurrence, new: str) -> Occurrence | None:
         """Return what has the name ``new`` where ``name`` is known."""
-        if name.kind is Kind.VARIABLE:
+        if name.kind is NameKind.VARIABLE:
             others = [other for other in self.names(file) if other.within == name.within]
         else:
             others = [other for path in self.related(file) for other in self.names(path) if other.role is Role.DECLARED]
@@ -178,7 +175,7 @@ class Project:
     def unchanged(self, file: Path, name: Occurrence) -> list[Path]:
         """Return the other files of a domain in which a name stands as a word, and in which it is not renamed."""
         domain = self.domain_of(file)
-        if domain is None or name.kind is Kind.VARIABLE or domain.name != "domain.pddl":
+        if domain is None or name.kind is NameKind.VARIABLE or domain.name != "domain.pddl":
             return []
         places = {environment.parent.parent for environment in self.environments(domain)} - {domain.parent}
         found = [domain.parent / "skills.yaml", domain.parent / "templates.yaml"]
@@ -187,28 +184,24 @@ class Project:
         return [path for path in found if path.is_file() and word.search(self.text(path))]
 
     def hover(self, file: Path, name: Occurrence) -> str:
-        """Return what is known of a name, as Markdown."""
-        declared = self.definitions(file, name)
-        used = self.references(file, name)
-        lines = [f"**{name.kind}** `{name.name}`"]
-        for one in declared[:1]:
-            if one.types and name.kind is not Kind.PREDICATE:
-                lines[0] += f" - `{' | '.join(one.types)}`"
-            lines += [f"```pddl\n{self._source(one)}\n```"] if one.group else []
-        if name.kind is Kind.TYPE:
-            everything = self.declarations(file, Kind.TYPE, Kind.OBJECT)
-            for title, kind in (("subtypes", Kind.TYPE), ("objects", Kind.OBJECT)):
-                lines += _listed(title, (o.name for o in everything if o.kind is kind and name.name in o.types))
-        if name.kind in (Kind.PREDICATE, Kind.FUNCTION):
-            lines += list(_by_role(used))
-        return "\n\n".join(lines if declared else [*lines, "not declared"])
+        """Return what is known of a declared name, as Markdown."""
+        declared = self.definitions(file, name)[0]
+        lines = [f"**{name.kind}** `{name.name}`" + (f" - `{' | '.join(declared.types)}`" if declared.types else "")]
+        lines += [f"```pddl\n{self._source(declared)}\n```"] if declared.group else []
+        if name.kind is NameKind.TYPE:
+            below = [one for one in self.declarations(file, NameKind.TYPE, NameKind.OBJECT) if name.name in one.types]
+            lines += _listed("subtypes", (one.name for one in below if one.kind is NameKind.TYPE))
+            lines += _listed("objects", (one.name for one in below if one.kind is NameKind.OBJECT))
+        if name.kind in (NameKind.PREDICATE, NameKind.FUNCTION):
+            lines += _by_role(self.references(file, name))
+        return "\n\n".join(lines)
 
     def _source(self, declared: Occurrence) -> str:
         """Return the text of a declaration, with the comment behind it."""
         assert declared.group is not None
         begin, end = declared.group.location, declared.group.end
         lines = lines_of(self.text(Path(begin.file)))[begin.line - 1 : end.line]
-        if declared.kind is Kind.ACTION:
+        if declared.kind is NameKind.ACTION:
             return "\n".join(lines)
         behind = lines[-1][end.column :]
         comment = f"  {behind[behind.index(';') :]}" if ";" in behind else ""

@@ -11,33 +11,33 @@ import yaml
 from pydantic import BaseModel
 
 from tmd.diagnostics import Location, TmdError
-from tmd.editor.names import Kind, Occurrence, Role, names_in_conditions
+from tmd.editor.names import NameKind, Occurrence, Role, names_in_conditions
 from tmd.yaml_nodes import compose
 
 T = TypeVar("T")
 # Keys from the root of a file; the items of a list have the path of the list.
 KeyPath: TypeAlias = tuple[str, ...]
 _WORD = re.compile(r"[a-z][a-z0-9_-]*")
-_THING = (Kind.TYPE, Kind.OBJECT)
+_THING = (NameKind.TYPE, NameKind.OBJECT)
 # The meaning of the keys of a mapping, by the end of its path; a star is any key.
-_KEYS: Mapping[KeyPath, tuple[Kind, Role]] = {
-    ("classes",): (Kind.TYPE, Role.DECLARED),
-    ("substances",): (Kind.OBJECT, Role.DECLARED),
-    ("objects",): (Kind.OBJECT, Role.DECLARED),
-    ("objects", "*", "parts", "*"): (Kind.PREDICATE, Role.HOLDS),
-    ("states",): (Kind.PREDICATE, Role.HOLDS),
-    ("skills",): (Kind.ACTION, Role.USED),
+_KEYS: Mapping[KeyPath, tuple[NameKind, Role]] = {
+    ("classes",): (NameKind.TYPE, Role.DECLARED),
+    ("substances",): (NameKind.OBJECT, Role.DECLARED),
+    ("objects",): (NameKind.OBJECT, Role.DECLARED),
+    ("objects", "*", "parts", "*"): (NameKind.PREDICATE, Role.HOLDS),
+    ("states",): (NameKind.PREDICATE, Role.HOLDS),
+    ("skills",): (NameKind.ACTION, Role.USED),
 }
 # The kinds of the words of a scalar; the last is that of all that follow.
-_VALUES: Mapping[KeyPath, tuple[tuple[Kind, ...], ...]] = {
-    ("class",): ((Kind.TYPE,), ()),
-    ("parent",): ((Kind.TYPE,), ()),
-    ("substances", "*"): ((Kind.TYPE,), ()),
-    ("states", "*"): ((Kind.OBJECT,), ()),
-    ("objects", "*", "at"): ((Kind.OBJECT,),),
-    ("facts",): ((Kind.PREDICATE,), (Kind.OBJECT,)),
-    ("init",): ((Kind.PREDICATE,), (Kind.OBJECT,)),
-    ("edges",): ((), (Kind.PREDICATE,), ()),
+_VALUES: Mapping[KeyPath, tuple[tuple[NameKind, ...], ...]] = {
+    ("class",): ((NameKind.TYPE,), ()),
+    ("parent",): ((NameKind.TYPE,), ()),
+    ("substances", "*"): ((NameKind.TYPE,), ()),
+    ("states", "*"): ((NameKind.OBJECT,), ()),
+    ("objects", "*", "at"): ((NameKind.OBJECT,),),
+    ("facts",): ((NameKind.PREDICATE,), (NameKind.OBJECT,)),
+    ("init",): ((NameKind.PREDICATE,), (NameKind.OBJECT,)),
+    ("edges",): ((), (NameKind.PREDICATE,), ()),
     ("nouns", "*"): (_THING, ()),
     ("groups", "*"): (_THING, ()),
 }
@@ -80,12 +80,12 @@ def _scalars(node: yaml.Node | None, path: KeyPath) -> Iterator[tuple[KeyPath, y
             yield from _scalars(value, (*path, key.value))
 
 
-def _meanings(path: KeyPath, number: int, *, is_key: bool) -> list[tuple[Kind, Role]]:
+def _meanings(path: KeyPath, number: int, *, is_key: bool) -> list[tuple[NameKind, Role]]:
     if is_key:
         meaning = lookup(_KEYS, path)
         return [meaning] if meaning and number == 0 else []
     kinds = lookup(_VALUES, path) or ((),)
-    return [(k, Role.HOLDS if k is Kind.PREDICATE else Role.USED) for k in kinds[min(number, len(kinds) - 1)]]
+    return [(k, Role.HOLDS if k is NameKind.PREDICATE else Role.USED) for k in kinds[min(number, len(kinds) - 1)]]
 
 
 def lookup(table: Mapping[KeyPath, T], path: KeyPath) -> T | None:
@@ -98,12 +98,12 @@ def lookup(table: Mapping[KeyPath, T], path: KeyPath) -> T | None:
     return None
 
 
-def kinds_of_value(path: KeyPath, number: int) -> tuple[Kind, ...]:
+def kinds_of_value(path: KeyPath, number: int) -> tuple[NameKind, ...]:
     """Return the kinds of names that may be word ``number`` of the value at ``path``."""
     return tuple(kind for kind, _ in _meanings(path, number, is_key=False))
 
 
-def kind_of_keys(path: KeyPath) -> Kind | None:
+def kind_of_keys(path: KeyPath) -> NameKind | None:
     """Return the kind of the names that are keys at ``path``, where they are not declared by that."""
     meaning = lookup(_KEYS, path)
     return meaning[0] if meaning and meaning[1] is not Role.DECLARED else None
