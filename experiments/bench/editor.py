@@ -1,7 +1,7 @@
 """How soon the language server shows the diagnostics of a domain of 500 lines after a change.
 
-``python experiments/bench/editor.py`` prints milliseconds from the change that an editor sends to the diagnostics that it
-receives, start-up left out: each of 40 edits takes a letter from a name, or gives it back.
+``python experiments/bench/editor.py`` prints milliseconds from the change that an editor sends to the diagnostics that
+it receives, start-up left out: each of 40 edits takes a letter from a name, or gives it back.
 """
 
 from __future__ import annotations

@@ -16,8 +16,10 @@ from tmd.pddl.reading.reader import REQUIREMENTS
 from tmd.pddl.reading.syntax import Source, split_lines
 from tmd.world.problem_domain import domains_in, kind_and_name
 
-_DOMAIN_SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", ":action", ":derived")
-_PROBLEM_SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric")
+_SECTIONS = {
+    "domain": (":requirements", ":types", ":constants", ":predicates", ":functions", ":action", ":derived"),
+    "problem": (":domain", ":requirements", ":objects", ":init", ":goal", ":metric"),
+}
 _PARTS = (":parameters", ":precondition", ":effect")
 _CONDITIONS = ("and", "or", "not", "imply", "forall", "exists", "=")
 _EFFECTS = ("and", "not", "forall", "when", "increase")
@@ -82,13 +84,11 @@ def _in_section(project: Project, file: Path, opened: list[_Open]) -> dict[str, 
     if top.head == ":requirements":
         return dict.fromkeys(REQUIREMENTS, "requirement")
     if top.head == ":domain":
-        return {name: "domain" for place in (file.parent, file.parent.parent) for name in domains_in(place)}
+        return dict.fromkeys((*domains_in(file.parent), *domains_in(file.parent.parent)), "domain")
     if top.head == ":action" and len(top.parts) > 1:
         return {part: "keyword" for part in _PARTS if part not in top.parts}
-    if top.parts or len(opened) == 1:
-        return {}
-    problem = kind_and_name(project.text(file))[0] == "problem"
-    return dict.fromkeys(_PROBLEM_SECTIONS if problem else _DOMAIN_SECTIONS, "keyword")
+    kind = kind_and_name(project.text(file))[0]
+    return {} if top.parts or len(opened) == 1 else dict.fromkeys(_SECTIONS[kind], "keyword")
 
 
 def _in_formula(project: Project, file: Path, opened: list[_Open]) -> dict[str, str]:

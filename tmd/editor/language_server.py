@@ -317,9 +317,8 @@ class DomainServer(LanguageServer):
         """Return the fixes of ``tmd check --fix`` for a range, one by one, and for the whole file."""
         file = self.file(params.text_document.uri)
         text = self.project.text(file)
-        texts = (
-            self._fixed(file, params.range) if self._checked_texts.get(file) == text else {}
-        )  # else places are wrong
+        # after a change the places of the diagnostics are wrong, until the next ones
+        texts = self._fixed(file, params.range) if self._checked_texts.get(file) == text else {}
         whole, uri = self.whole(text), self.uri(file)
         edits = {title: lsp.WorkspaceEdit({uri: [lsp.TextEdit(whole, new)]}) for title, new in texts.items() if new}
         return [lsp.CodeAction(title, lsp.CodeActionKind.QuickFix, edit=edit) for title, edit in edits.items()]

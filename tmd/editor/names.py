@@ -159,9 +159,7 @@ class _Names:
             if isinstance(node, Word) and node.text != "-":
                 waiting.append(node)
                 continue
-            behind = node if isinstance(node, Group) else next(words, None)
-            inside = (behind,) if isinstance(behind, Word) else _parts(behind)
-            types = [word for word in inside if isinstance(word, Word) and word.text != "either"]
+            types = _types(node if isinstance(node, Group) else next(words, None))
             self.declare(waiting, kind, tuple(word.text for word in types))
             for word in types:
                 self.note(word, NameKind.TYPE, Role.USED)
@@ -181,22 +179,23 @@ class _Names:
         if isinstance(node, Word):
             self.term(node)
             return
-        head = _head(node)
+        head, outside = _head(node), len(self.bound)
         word = head.text if head else ""
         if head and word not in _NO_NAMES:
             self.note(head, kind, role)
         role = _ROLES_BELOW.get((word, role), role)
         if word in _NUMERIC:
             kind, role = NameKind.FUNCTION, Role.READ
-        parts = list(node.parts[1:] if head else node.parts)
-        quantified = word in ("forall", "exists") and bool(parts)
-        if quantified:
-            self.bound.append((node.location, set()))
-            self.typed(_parts(parts.pop(0)), NameKind.VARIABLE)
-        for number, part in enumerate(parts):
-            self.formula(part, Role.READ if word == "when" and number == 0 else role, kind)
-        if quantified:
-            self.bound.pop()
+        for number, part in enumerate(self.quantified(node) if word in _QUANTIFIERS else node.parts[bool(head) :]):
+            self.formula(part, Role.READ if (word, number) == ("when", 0) else role, kind)
+        del self.bound[outside:]
+
+    def quantified(self, group: Group) -> Sequence[Node]:
+        """Bind the variables of a quantifier; return the parts behind them."""
+        self.bound.append((group.location, set()))
+        for part in group.parts[1:2]:
+            self.typed(_parts(part), NameKind.VARIABLE)
+        return group.parts[2:]
 
     def term(self, word: Word) -> None:
         if is_variable(word.text):
@@ -209,6 +208,7 @@ class _Names:
 _TYPED = {":types": NameKind.TYPE, ":constants": NameKind.OBJECT, ":objects": NameKind.OBJECT}
 _SIGNATURES = {":predicates": NameKind.PREDICATE, ":functions": NameKind.FUNCTION}
 _FORMULAS = {":init": Role.HOLDS, ":goal": Role.READ, ":metric": Role.READ}
+_QUANTIFIERS = ("forall", "exists")
 _ROLES_BELOW = {("not", Role.ADDED): Role.DELETED}
 _NUMERIC = frozenset({"=", "<", ">", "<=", ">=", "+", "-", "*", "/", "increase", "decrease", "assign"})
 _NO_NAMES = _NUMERIC | RESERVED | {"minimize", "maximize"}
@@ -216,6 +216,12 @@ _NO_NAMES = _NUMERIC | RESERVED | {"minimize", "maximize"}
 
 def _parts(node: Node | None) -> tuple[Node, ...]:
     return node.parts if isinstance(node, Group) else ()
+
+
+def _types(behind: Node | None) -> list[Word]:
+    """Return the types behind a dash: one, or several in ``(either ...)``."""
+    inside = (behind,) if isinstance(behind, Word) else _parts(behind)
+    return [word for word in inside if isinstance(word, Word) and word.text != "either"]
 
 
 def _head(node: Node) -> Word | None:

@@ -10,7 +10,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from tmd.check.checker import DATA_FILES
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import TmdError
 from tmd.editor.names import NameKind, Occurrence, Role, names_in_pddl
 from tmd.editor.yaml_names import names_in_yaml
 from tmd.files import real
@@ -151,7 +151,7 @@ class Project:
         """
         if not self.definitions(file, name):
             raise TmdError(f"'{name.name}' is not declared in this domain")
-        if not _NAME.fullmatch(new.removeprefix("?")) or new in _BUILT_IN or name.name in _BUILT_IN:
+        if not _NAME.fullmatch(new.removeprefix("?")) or _BUILT_IN & {new, name.name}:
             raise TmdError(f"'{new}' is not a name: a small letter first, then letters, digits, - and _")
         places = self.references(file, name)
         if "-" in new and any(Path(place.place.file).suffix in _YAML for place in places):
@@ -159,10 +159,16 @@ class Project:
         taken = self._taken(file, name, new)
         if taken is not None:
             raise TmdError(f"there is a {name.kind} '{taken.name}' already: {taken.place}")
-        for place in places:
-            if not _stands_at(lines_of(self.text(Path(place.place.file))), place):
-                raise TmdError(f"{place.place}: '{place.name}' is not found there; save the file and try again")
+        misread = [place for place in places if not self._stands_at(place)]
+        if misread:
+            raise TmdError(f"{misread[0].place}: '{name.name}' is not found there, so nothing was renamed")
         return places
+
+    def _stands_at(self, name: Occurrence) -> bool:
+        """Return whether a name is found at its place; YAML knows ends of lines that editors do not count."""
+        place, lines = name.place, lines_of(self.text(Path(name.place.file)))
+        line = lines[place.line - 1] if place.line <= len(lines) else ""
+        return line[place.column - 1 :].lower().startswith(name.name)
 
     def _taken(self, file: Path, name: Occurrence, new: str) -> Occurrence | None:
         """Return what has the name ``new`` where ``name`` is known."""
@@ -189,9 +195,8 @@ class Project:
         lines = [f"**{name.kind}** `{name.name}`" + (f" - `{' | '.join(declared.types)}`" if declared.types else "")]
         lines += [f"```pddl\n{self._source(declared)}\n```"] if declared.group else []
         if name.kind is NameKind.TYPE:
-            below = [one for one in self.declarations(file, NameKind.TYPE, NameKind.OBJECT) if name.name in one.types]
-            lines += _listed("subtypes", (one.name for one in below if one.kind is NameKind.TYPE))
-            lines += _listed("objects", (one.name for one in below if one.kind is NameKind.OBJECT))
+            for title, kind in (("subtypes", NameKind.TYPE), ("objects", NameKind.OBJECT)):
+                lines += _listed(title, (n.name for n in self.declarations(file, kind) if name.name in n.types))
         if name.kind in (NameKind.PREDICATE, NameKind.FUNCTION):
             lines += _by_role(self.references(file, name))
         return "\n\n".join(lines)
@@ -233,9 +238,3 @@ def _listed(title: str, names: Iterable[str]) -> list[str]:
     listed = list(dict.fromkeys(names))
     more = f", and {len(listed) - _MOST_LISTED} more" if len(listed) > _MOST_LISTED else ""
     return [f"{title}: {', '.join(listed[:_MOST_LISTED])}{more}"] if listed else []
-
-
-def _stands_at(lines: tuple[str, ...], name: Occurrence) -> bool:
-    place: Location = name.place
-    line = lines[place.line - 1] if place.line <= len(lines) else ""
-    return line[place.column - 1 : place.column - 1 + len(name.name)].lower() == name.name
