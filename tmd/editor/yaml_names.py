@@ -27,17 +27,21 @@ _KEYS: Mapping[KeyPath, tuple[NameKind, Role]] = {
     ("objects", "*", "parts", "*"): (NameKind.PREDICATE, Role.HOLDS),
     ("states",): (NameKind.PREDICATE, Role.HOLDS),
     ("skills",): (NameKind.ACTION, Role.USED),
+    **dict.fromkeys([("seen",), ("confirmed",), ("inferred",)], (NameKind.PREDICATE, Role.USED)),
 }
 # The kinds of the words of a scalar; the last is that of all that follow.
 _VALUES: Mapping[KeyPath, tuple[tuple[NameKind, ...], ...]] = {
+    ("inferred", "*", "to"): ((NameKind.PREDICATE,), ()),
     ("class",): ((NameKind.TYPE,), ()),
     ("parent",): ((NameKind.TYPE,), ()),
     ("substances", "*"): ((NameKind.TYPE,), ()),
     ("states", "*"): ((NameKind.OBJECT,), ()),
+    ("objects", "*", "parts", "*", "*"): ((NameKind.OBJECT,), ()),
     ("objects", "*", "at"): ((NameKind.OBJECT,),),
     ("facts",): ((NameKind.PREDICATE,), (NameKind.OBJECT,)),
     ("init",): ((NameKind.PREDICATE,), (NameKind.OBJECT,)),
-    ("edges",): ((), (NameKind.PREDICATE,), ()),
+    **dict.fromkeys([("derived",), ("signs",), ("contents",)], ((NameKind.PREDICATE,), ())),
+    ("edges",): ((), (NameKind.PREDICATE,), (NameKind.OBJECT,)),
     ("nouns", "*"): (_THING, ()),
     ("groups", "*"): (_THING, ()),
 }
@@ -90,7 +94,7 @@ def _meanings(path: KeyPath, number: int, *, is_key: bool) -> list[tuple[NameKin
 
 def lookup(table: Mapping[KeyPath, T], path: KeyPath) -> T | None:
     """Return the entry of ``table`` for the longest end of ``path``."""
-    for length in range(min(4, len(path)), 0, -1):
+    for length in range(len(path), 0, -1):
         for pattern, entry in table.items():
             fits = len(pattern) == length and all(p in ("*", k) for p, k in zip(pattern, path[-length:], strict=True))
             if fits:
