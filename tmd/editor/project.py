@@ -14,6 +14,7 @@ from tmd.diagnostics import TmdError
 from tmd.editor.names import NameKind, Occurrence, Role, names_in_pddl
 from tmd.editor.yaml_names import names_in_yaml
 from tmd.files import real
+from tmd.language.lexicon.file import BASES
 from tmd.pddl.model import OBJECT, TOTAL_COST
 from tmd.pddl.reading.formulas import RESERVED
 from tmd.pddl.reading.syntax import read_text, split_lines
@@ -60,8 +61,10 @@ class Project:
 
     def is_ours(self, file: Path, text: str) -> bool:
         """Return whether a file is of a domain: PDDL, YAML of a known name, or an environment."""
-        known = file.name in DATA_FILES or file.suffix == ".pddl" or file.parent.name in ("environments", "base")
-        return known or (file.suffix in _YAML and bool(_DOMAIN.search(text) and _ENVIRONMENT.search(text)))
+        if file.name in DATA_FILES or file.suffix == ".pddl":
+            return True
+        known = file.parent.name in ("environments", BASES) or (_DOMAIN.search(text) and _ENVIRONMENT.search(text))
+        return file.suffix in _YAML and bool(known)
 
     def names(self, file: Path) -> tuple[Occurrence, ...]:
         """Return the names in a file."""
@@ -110,7 +113,7 @@ class Project:
         if domain is None:
             return [file]
         own = [domain, domain.parent / "instructions.pddl"] if domain.name == "domain.pddl" else [domain]
-        data = [domain.parent / name for name in sorted(DATA_FILES) if name.endswith(".yaml")]
+        data = [domain.parent / name for name in ("lexicon.yaml", "objects.yaml", "skills.yaml")]
         found = [file, *own, *(data if len(own) > 1 else ()), *self.environments(domain)]
         return [path for path in dict.fromkeys(found) if path.is_file() or path in self.files]
 
@@ -184,7 +187,7 @@ class Project:
         if domain is None or name.kind is NameKind.VARIABLE or domain.name != "domain.pddl":
             return []
         places = {environment.parent.parent for environment in self.environments(domain)} - {domain.parent}
-        found = [domain.parent / "skills.yaml", domain.parent / "templates.yaml"]
+        found = [domain.parent / "templates.yaml"]
         found += [path for place in sorted(places) for path in sorted(place.glob("**/*.jsonl"))[:_MOST_FILES]]
         word = re.compile(rf"(?<![\w-]){re.escape(name.name)}(?![\w-])")
         return [path for path in found if path.is_file() and word.search(self.text(path))]
