@@ -29,6 +29,8 @@ _ENVIRONMENT = re.compile(r"^objects:", re.MULTILINE)
 _BUILT_IN = RESERVED | {OBJECT, TOTAL_COST}
 # A folder with more files of a kind than that is no domain.
 _MOST_FILES = 500
+# Files that are read for hovering: a benchmark may have hundreds of large problems.
+_MOST_READ = 30
 
 
 lines_of = lru_cache(maxsize=_MOST_FILES)(split_lines)
@@ -107,20 +109,23 @@ class Project:
             return file.name not in DATA_FILES
         return file.suffix == ".pddl" and kind_and_name(self.text(file))[0] == "problem"
 
-    def related(self, file: Path) -> list[Path]:
-        """Return the files in which the names of a file may stand, itself first."""
+    def own(self, file: Path) -> list[Path]:
+        """Return the files whose declarations hold in a file, itself first."""
         domain = self.domain_of(file)
         if domain is None:
             return [file]
-        own = [domain, domain.parent / "instructions.pddl"] if domain.name == "domain.pddl" else [domain]
-        data = [domain.parent / name for name in ("lexicon.yaml", "objects.yaml", "skills.yaml")]
-        found = [file, *own, *(data if len(own) > 1 else ()), *self.environments(domain)]
-        return [path for path in dict.fromkeys(found) if path.is_file() or path in self.files]
+        names = ("instructions.pddl", "lexicon.yaml", "objects.yaml", "skills.yaml")
+        beside = [domain.parent / name for name in names] if domain.name == "domain.pddl" else []
+        return [path for path in dict.fromkeys((file, domain, *beside)) if path.is_file() or path in self.files]
+
+    def related(self, file: Path) -> list[Path]:
+        """Return the files in which the names of a file may stand, itself first."""
+        domain = self.domain_of(file)
+        return list(dict.fromkeys((*self.own(file), *(self.environments(domain) if domain else ()))))
 
     def declarations(self, file: Path, *kinds: NameKind) -> list[Occurrence]:
         """Return what a file may name: objects of other problems are not among it."""
-        near = [path for path in self.related(file) if path == file or not self._is_environment(path)]
-        names = (name for path in near for name in self.names(path) if name.kind in kinds)
+        names = (name for path in self.own(file) for name in self.names(path) if name.kind in kinds)
         return [name for name in names if name.role is Role.DECLARED]
 
     def definitions(self, file: Path, name: Occurrence) -> list[Occurrence]:
@@ -129,11 +134,11 @@ class Project:
             return [other for other in self._same(file, name) if other.role is Role.DECLARED]
         return [other for other in self.declarations(file, name.kind) if other.name == name.name]
 
-    def references(self, file: Path, name: Occurrence) -> list[Occurrence]:
-        """Return every place of a name, its declarations included."""
+    def references(self, file: Path, name: Occurrence, most: int | None = None) -> list[Occurrence]:
+        """Return every place of a name, its declarations included; ``most`` is the number of files that are read."""
         if name.kind is NameKind.VARIABLE or (name.kind is NameKind.OBJECT and self._local(file, name)):
             return self._same(file, name)
-        same = (other for path in self.related(file) for other in self._same(path, name))
+        same = (other for path in self.related(file)[:most] for other in self._same(path, name))
         return [other for other in same if not self._local(Path(other.place.file), other)]
 
     def _same(self, file: Path, name: Occurrence) -> list[Occurrence]:
@@ -201,7 +206,7 @@ class Project:
             for title, kind in (("subtypes", NameKind.TYPE), ("objects", NameKind.OBJECT)):
                 lines += _listed(title, (n.name for n in self.declarations(file, kind) if name.name in n.types))
         if name.kind in (NameKind.PREDICATE, NameKind.FUNCTION):
-            lines += _by_role(self.references(file, name))
+            lines += _by_role(self.references(file, name, _MOST_READ))
         return "\n\n".join(lines)
 
     def _source(self, declared: Occurrence) -> str:
