@@ -381,6 +381,24 @@ async def test_files_that_no_domain_owns_are_left_alone(editor: Editor) -> None:
     await everything_asked(editor, "compose.yaml", lsp.Position(0, 2))
 
 
+async def test_a_document_that_was_never_saved_is_checked(editor: Editor) -> None:
+    uri = "untitled:Untitled-1"
+    document = lsp.TextDocumentItem(uri, "pddl", 0, "(define (domain d) (:types a - b) (:predicates (p ?x - c)))")
+    editor.client.text_document_did_open(lsp.DidOpenTextDocumentParams(document))
+    for _ in range(500):
+        if editor.client.diagnostics.get(uri):
+            break
+        await asyncio.sleep(0.01)
+    assert "unknown-type" in [diagnostic.code for diagnostic in editor.client.diagnostics[uri]]
+
+
+@pytest.mark.parametrize("arguments", [[], [""], ["nonsense:", "Take it.", "nowhere.yaml"], [7, None, {}, []]])
+async def test_a_request_with_other_arguments_is_answered_in_words(editor: Editor, arguments: list[object]) -> None:
+    params = lsp.ExecuteCommandParams("tmd.request", arguments=arguments)
+    answer = str(await editor.client.workspace_execute_command_async(params))
+    assert answer and "internal error" not in answer and "Traceback" not in answer
+
+
 async def test_a_file_of_another_encoding_gets_the_diagnostic_of_the_checker(editor: Editor) -> None:
     editor.put("domain.pddl", DOMAIN.replace("home port", "h\xf6me").encode("latin-1"))
     editor.open("domain.pddl", DOMAIN.replace("home port", "h\xf6me"))
@@ -421,16 +439,25 @@ async def test_random_edits_never_end_the_server(editor: Editor) -> None:
     await editor.diagnostics("domain.pddl")
 
 
-@pytest.mark.parametrize("goodbye", [["shutdown", "exit"], ["exit"], []])
-async def test_the_server_ends_in_silence_when_the_editor_goes(goodbye: list[str]) -> None:
-    sent = [{"id": 1, "method": "initialize", "params": {"capabilities": {}, "processId": None, "rootUri": None}}]
-    sent += [{"method": "shutdown", "id": 2} if name == "shutdown" else {"method": name} for name in goodbye]
-    bodies = [json.dumps({"jsonrpc": "2.0", **message}).encode() for message in sent]
-    spoken = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in bodies)
-    command = [sys.executable, "-m", "tmd", "lsp"]
-    ended = subprocess.run(command, input=spoken, env=SERVER.server_env, capture_output=True, check=False)
-    assert (ended.returncode, ended.stderr) == (0, b"")
-    assert b'"hoverProvider"' in ended.stdout
+async def test_the_server_ends_in_silence_when_the_editor_goes() -> None:
+    hello = {"id": 1, "method": "initialize", "params": {"capabilities": {}, "processId": None, "rootUri": None}}
+    goodbyes: list[list[dict[str, object]]] = [[{"id": 2, "method": "shutdown"}, {"method": "exit"}], []]
+
+    async def ended(goodbye: list[dict[str, object]]) -> tuple[int | None, bytes]:
+        bodies = [json.dumps({"jsonrpc": "2.0", **message}).encode() for message in (hello, *goodbye)]
+        spoken = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in bodies)
+        server = await asyncio.create_subprocess_exec(
+            *SERVER.server_command,
+            env=SERVER.server_env,
+            stdin=asyncio.subprocess.PIPE,
+            stdout=asyncio.subprocess.PIPE,
+            stderr=asyncio.subprocess.PIPE,
+        )
+        answers, errors = await server.communicate(spoken)
+        assert b'"hoverProvider"' in answers
+        return server.returncode, errors
+
+    assert await asyncio.gather(*map(ended, goodbyes)) == [(0, b"")] * 2
 
 
 async def test_without_its_package_the_command_says_what_to_install(tmp_path: Path) -> None:

@@ -210,11 +210,9 @@ class DomainServer(LanguageServer):
 
     def did_open(self, params: lsp.DidOpenTextDocumentParams | lsp.DidSaveTextDocumentParams) -> None:
         """Take in a document that was opened or saved: it is as on the disk, unless its text says otherwise."""
-        file, text = (
-            self.file(params.text_document.uri),
-            self.workspace.get_text_document(params.text_document.uri).source,
-        )
-        self._uris[file] = params.text_document.uri
+        uri = params.text_document.uri
+        file, text = self.file(uri), self.workspace.get_text_document(uri).source
+        self._uris[file] = uri
         if not self.project.is_ours(file, text):
             return
         self.project.files[file] = None
@@ -228,9 +226,13 @@ class DomainServer(LanguageServer):
 
     def did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
         """Take in a change."""
-        file = self.file(params.text_document.uri)
-        if file in self.project.files:
-            self.keep(file, self.workspace.get_text_document(params.text_document.uri).source)
+        file, text = (
+            self.file(params.text_document.uri),
+            self.workspace.get_text_document(params.text_document.uri).source,
+        )
+        if file in self.project.files or self.project.is_ours(file, text):
+            self.project.files[file] = None
+            self.keep(file, text)
 
     def did_close(self, params: lsp.DidCloseTextDocumentParams) -> None:
         """Forget a document."""
@@ -353,9 +355,10 @@ class DomainServer(LanguageServer):
         """Show what ``tmd ground`` answers to a request in the domain of a file."""
         try:
             answer = await self._grounded(self.file(str(uri)), str(text), str(environment))
-        except (TmdError, OSError) as error:
-            self.tell(str(error))
-            return str(error)
+        except Exception as error:  # a fault of tmd must not end the server
+            message = str(error) if isinstance(error, TmdError | OSError) else _internal(error)
+            self.tell(message)
+            return message
         window = self.client_capabilities.window
         if window is not None and window.show_document is not None and window.show_document.support:
             shown = Path(tempfile.mkdtemp(prefix="tmd-")) / "answer.txt"
