@@ -57,8 +57,7 @@ def renamed(project: Project, file: Path, name: Occurrence, new: str) -> None:
 
 
 @pytest.mark.parametrize("domain", ["01_blocks", "03_drawer"])
-@pytest.mark.parametrize("kind", [NameKind.TYPE, NameKind.PREDICATE, NameKind.ACTION, NameKind.VARIABLE])
-def test_a_renamed_domain_has_no_fault_that_it_had_not(domain: str, kind: NameKind, tmp_path: Path) -> None:
+def test_a_renamed_domain_has_no_fault_that_it_had_not(domain: str, tmp_path: Path) -> None:
     for part in ("domains", "problems"):
         shutil.copytree(ROOT / part / domain, tmp_path / part / domain)
     shutil.copytree(ROOT / "domains" / "base", tmp_path / "domains" / "base")
@@ -67,9 +66,11 @@ def test_a_renamed_domain_has_no_fault_that_it_had_not(domain: str, kind: NameKi
     project = Project(Roots(tmp_path / "domains", tmp_path / "problems"))
     folder = tmp_path / "domains" / domain
     file = folder / "domain.pddl"
-    declared = [name for name in project.names(file) if name.kind is kind and name.role is Role.DECLARED]
-    for name, new in zip(dict.fromkeys((declared[0], declared[-1])), ("widget", "gadget"), strict=False):
-        renamed(project, file, name, f"?{new}" if kind is NameKind.VARIABLE else new)
+    for kind in NameKind:
+        declared = {n.name: n for n in project.names(file) if n.kind is kind and n.role is Role.DECLARED}
+        for name, new in zip(list(declared)[-2:], ("widget", "gadget"), strict=False):
+            found = next(n for n in project.names(file) if (n.kind, n.name, n.role) == (kind, name, Role.DECLARED))
+            renamed(project, file, found, f"?{new}" if kind is NameKind.VARIABLE else f"{new}_{kind}")
     checked = check_paths([folder, tmp_path / "problems"], domains=tmp_path / "domains", problems=tmp_path / "problems")
     assert [d for d in checked.diagnostics if d.code != "stale-domain"] == []
 

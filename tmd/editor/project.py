@@ -86,7 +86,8 @@ class Project:
                 return real(near / "domain.pddl") if near else None
             return None
         if file.suffix != ".pddl" or file.name == "instructions.pddl":
-            return real(beside)
+            sources = (beside, beside.with_name("instructions.pddl"))
+            return real(beside) if any(path.is_file() or path in self.files for path in sources) else None
         if kind_and_name(text)[0] == "domain":
             return file
         found = find_domain_file(file, domain_named_in(text), self.roots.domains).file
