@@ -440,12 +440,9 @@ async def test_random_edits_never_end_the_server(editor: Editor) -> None:
 
 
 async def test_the_server_ends_in_silence_when_the_editor_goes() -> None:
-    hello: dict[str, object] = {
-        "id": 1,
-        "method": "initialize",
-        "params": {"capabilities": {}, "processId": None, "rootUri": None},
-    }
-    messages: list[dict[str, object]] = [hello, {"id": 2, "method": "shutdown"}, {"method": "exit"}]
+    client: dict[str, object] = {"capabilities": {}, "processId": None, "rootUri": None}
+    messages: list[dict[str, object]] = [{"id": 1, "method": "initialize", "params": client}]
+    messages += [{"id": 2, "method": "shutdown"}, {"method": "exit"}]
     bodies = [json.dumps({"jsonrpc": "2.0", **message}).encode() for message in messages]
     spoken = b"".join(b"Content-Length: %d\r\n\r\n%s" % (len(body), body) for body in bodies)
     command = SERVER.server_command

@@ -78,20 +78,26 @@ class Project:
 
     def domain_of(self, file: Path) -> Path | None:
         """Return the file of the domain that a file belongs to."""
-        text, beside = self.text(file), file.parent / "domain.pddl"
+        text = self.text(file)
         if file.suffix in _YAML and file.name not in DATA_FILES:
-            named = _DOMAIN.search(text)
-            with suppress(TmdError):
-                near = named and (folder_near(file, named[1]) or find_domain(named[1], self.roots.domains).path)
-                return real(near / "domain.pddl") if near else None
-            return None
+            return self._domain_named(file, _DOMAIN.search(text))
         if file.suffix != ".pddl" or file.name == "instructions.pddl":
-            sources = (beside, beside.with_name("instructions.pddl"))
-            return real(beside) if any(path.is_file() or path in self.files for path in sources) else None
+            sources = (file.parent / "domain.pddl", file.parent / "instructions.pddl")
+            return real(sources[0]) if any(path.is_file() or path in self.files for path in sources) else None
         if kind_and_name(text)[0] == "domain":
             return file
         found = find_domain_file(file, domain_named_in(text), self.roots.domains).file
         return real(found) if found else None
+
+    def _domain_named(self, file: Path, named: re.Match[str] | None) -> Path | None:
+        """Return the domain that an environment names."""
+        if named is None:
+            return None
+        try:
+            near = folder_near(file, named[1]) or find_domain(named[1], self.roots.domains).path
+        except TmdError:
+            return None
+        return real(near / "domain.pddl")
 
     def environments(self, domain: Path) -> list[Path]:
         """Return the environments and problems of a domain: those that are open, bundled, or near it."""
@@ -163,7 +169,7 @@ class Project:
         if not _NAME.fullmatch(new.removeprefix("?")) or _BUILT_IN & {new, name.name}:
             raise TmdError(f"'{new}' is not a name: a small letter first, then letters, digits, - and _")
         places = self.references(file, name)
-        if "-" in new and any(Path(place.place.file).suffix in _YAML for place in places):
+        if "-" in new and not {Path(place.place.file).suffix for place in places}.isdisjoint(_YAML):
             raise TmdError(f"'{new}' is not a name for YAML files: letters, digits and _")
         taken = self._taken(file, name, new)
         if taken is not None:
