@@ -166,8 +166,7 @@ class Project:
         """
         if not self.definitions(file, name):
             raise TmdError(f"'{name.name}' is not declared in this domain")
-        if not _NAME.fullmatch(new.removeprefix("?")) or _BUILT_IN & {new, name.name}:
-            raise TmdError(f"'{new}' is not a name: a small letter first, then letters, digits, - and _")
+        _check_name(new)
         places = self.references(file, name)
         if "-" in new and not {Path(place.place.file).suffix for place in places}.isdisjoint(_YAML):
             raise TmdError(f"'{new}' is not a name for YAML files: letters, digits and _")
@@ -227,6 +226,12 @@ class Project:
         comment = f"  {behind[behind.index(';') :]}" if ";" in behind else ""
         lines = (*lines[:-1], lines[-1][: end.column])
         return "\n".join((lines[0][begin.column - 1 :], *lines[1:])) + comment
+
+
+def _check_name(name: str) -> None:
+    """Refuse what PDDL does not take for a name, and the names that it has a meaning for."""
+    if not _NAME.fullmatch(name.removeprefix("?")) or name in _BUILT_IN:
+        raise TmdError(f"'{name}' is not a name: a small letter first, then letters, digits, - and _")
 
 
 _TITLES: Mapping[Role, str] = {
