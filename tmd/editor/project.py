@@ -164,8 +164,8 @@ class Project:
         Raises:
             TmdError: The name is not declared, or ``new`` is not a name or is taken.
         """
-        if not self.definitions(file, name):
-            raise TmdError(f"'{name.name}' is not declared in this domain")
+        if not self.definitions(file, name) or name.name in _BUILT_IN:
+            raise TmdError(f"'{name.name}' is not declared in this domain, or is a word of PDDL")
         _check_name(new)
         places = self.references(file, name)
         if "-" in new and not {Path(place.place.file).suffix for place in places}.isdisjoint(_YAML):
