@@ -22,7 +22,7 @@ from pygls.uris import from_fs_path, to_fs_path
 import tmd
 from tmd.check.checker import Checker
 from tmd.check.diagnostic import Diagnostic, Severity
-from tmd.check.report import FIXABLE, fix_file
+from tmd.check.report import fix_file
 from tmd.diagnostics import Location, TmdError
 from tmd.editor.completion import complete
 from tmd.editor.names import NameKind, Occurrence, Role
@@ -327,14 +327,16 @@ class DomainServer(LanguageServer):
 
     def _fixed(self, file: Path, chosen: lsp.Range) -> dict[str, str | None]:
         """Return the text after each fix for a range, by what the fix does."""
-        fixable = [found for found in self.found.get(file, []) if found.code in FIXABLE]
-        ranges = [self.range(found.location) for found in fixable]
+        known = self.found.get(file, [])
+        ranges = [self.range(found.location) for found in known]
         texts = {
             f"Fix: {found.hint or found.message}": fix_file(file, [found])
-            for found, place in zip(fixable, ranges, strict=True)
+            for found, place in zip(known, ranges, strict=True)
             if chosen.start <= place.end and place.start <= chosen.end
         }
-        return texts | ({"Fix all that is mechanical in this file": fix_file(file, fixable)} if fixable[1:] else {})
+        return texts | (
+            {"Fix all that is mechanical in this file": fix_file(file, known)} if any(texts.values()) else {}
+        )
 
     def code_lens(self, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
         """Return a lens on the first line that is no comment, and one on each comment ``try: REQUEST``."""

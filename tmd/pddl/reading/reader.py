@@ -301,10 +301,9 @@ def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Nod
             source.fault_at(f'nothing follows "{keyword.text}"', keyword.location)
             continue
         source.recover(None, _known_part, keyword, action, parts, source)
-        known = keyword.text in _PARTS_OF_ACTIONS or keyword.text in UNSUPPORTED
         # the value of a misspelt keyword is not reported as missing as well
-        meant = [] if known else get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)
-        parts.setdefault(meant[0] if meant else keyword.text, nodes.pop(0))
+        meant = [] if keyword.text in _PARTS_OF_ACTIONS else get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)
+        parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
     return parts
 
 
