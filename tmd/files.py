@@ -10,6 +10,7 @@ import os
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from io import BytesIO
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 from zlib import crc32
@@ -22,6 +23,18 @@ if TYPE_CHECKING:
 # Maximum size of a file that is read: a device may have no end.
 MAX_BYTES = 100_000_000
 _PIECE = 1 << 20
+# The content of files that are changed in an editor and not saved, by their real paths: it is read instead of the disk.
+UNSAVED: dict[Path, bytes] = {}
+
+
+def opened(path: str | Path) -> IO[bytes]:
+    """Open a file, or its unsaved content, for reading.
+
+    Raises:
+        OSError: It cannot be read.
+    """
+    unsaved = UNSAVED.get(real(Path(path))) if UNSAVED else None
+    return Path(path).open("rb") if unsaved is None else BytesIO(unsaved)
 
 
 def read_bytes(source: str | Path | IO[bytes]) -> bytes:
@@ -31,7 +44,7 @@ def read_bytes(source: str | Path | IO[bytes]) -> bytes:
         OSError: It cannot be read, or has more than :data:`MAX_BYTES`.
     """
     if isinstance(source, str | Path):
-        with Path(source).open("rb") as file:
+        with opened(source) as file:
             return read_bytes(file)
     pieces: list[bytes] = []
     while piece := source.read(_PIECE):

@@ -227,6 +227,13 @@ def test_optimal_or_found(tmd: Tmd) -> None:
     assert best.out.startswith("; optimal: no plan is cheaper\n(") and best.code == ExitCode.OK
 
 
+def test_no_pygls(tmd: Tmd) -> None:
+    ended = tmd("lsp", before="import sys; sys.modules['pygls'] = None")
+    assert (ended.code, ended.out) == (ExitCode.MISSING_TOOL, "")
+    expected = "error: the language server needs the package pygls\nhint: pip install 'tell-me-dave[editor]'\n"
+    assert ended.err == expected
+
+
 def test_out_of_memory(tmd: Tmd) -> None:
     broken = BREAK_PARSER.replace("ZeroDivisionError('division by zero')", "MemoryError")
     ended = tmd("parse", "--text", "take the cup", before=broken)

@@ -33,6 +33,7 @@ _MODULES = {
     "learn": "domain",
     "check": "domain",
     "fmt": "domain",
+    "lsp": "pages",
     "parse": "requests",
     "validate": "planning",
     "plan": "planning",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, fields, is_dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from heapq import heappop, heappush
 from typing import NamedTuple, TypeAlias
@@ -296,17 +296,21 @@ def subformulas(formula: Formula) -> Iterator[Formula]:
     return (part for part, _ in signed_subformulas(formula))
 
 
+# The types of parts that have no parts: to leave them out takes half the time.
+_LEAVES = frozenset({str, int, bool, type(None), Location})
+
+
 def walk(node: object) -> Iterator[object]:
-    """Yield a part of a domain (an action, a formula, a tuple of parts) and everything in it, outer parts first."""
-    yield node
-    if isinstance(node, tuple):
-        inner = iter(node)
-    elif isinstance(node, TypedName | Location) or not is_dataclass(node):
-        return
-    else:
-        inner = (getattr(node, one.name) for one in fields(node))
-    for part in inner:
-        yield from walk(part)
+    """Yield a part of a domain (an action, a formula, a tuple of parts) and all parts in it, outer ones first."""
+    waiting = [node]
+    while waiting:
+        node = waiting.pop()
+        yield node
+        if isinstance(node, tuple):
+            waiting += [part for part in reversed(node) if type(part) not in _LEAVES]
+        elif not isinstance(node, TypedName):
+            parts = [getattr(node, name) for name in reversed(getattr(node, "__dataclass_fields__", {}))]
+            waiting += [part for part in parts if type(part) not in _LEAVES]
 
 
 def predicates_of(formula: Formula) -> frozenset[str]:

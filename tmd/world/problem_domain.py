@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 from tmd.diagnostics import TmdError
-from tmd.files import real
+from tmd.files import opened, real
 from tmd.world.folder import find_domain
 
 _DEFINE = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\s+([^\s()]*)", re.IGNORECASE)
@@ -42,8 +42,8 @@ def domain_named_in(text: str) -> str:
 def domain_in(file: Path) -> str | None:
     """Return the name of the domain in ``file``; ``None`` where there is no file or no domain in it."""
     try:
-        with file.open("rb") as opened:
-            kind, name = kind_and_name(opened.read(_HEAD).decode("utf-8", errors="replace"))
+        with opened(file) as content:
+            kind, name = kind_and_name(content.read(_HEAD).decode("utf-8", errors="replace"))
     except OSError:
         return None
     return name if kind == "domain" else None

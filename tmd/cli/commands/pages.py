@@ -1,7 +1,8 @@
-"""``tmd view`` and ``tmd studio``: plans and runs in the browser."""
+"""``tmd view``, ``tmd studio`` and ``tmd lsp``: plans and runs in the browser, domains in an editor."""
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,7 +10,7 @@ import click
 
 from tmd.cli.options import PATH, learned_option, named_files
 from tmd.cli.output import emit
-from tmd.diagnostics import ExitCode
+from tmd.diagnostics import ExitCode, MissingToolError, install_extra
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
@@ -104,6 +105,26 @@ def studio(
         server.serve()
     finally:
         server.close()
+    return ExitCode.OK
+
+
+@click.command("lsp", short_help="Answer an editor: diagnostics, names and requests while typing.")
+@click.pass_obj
+def lsp(roots: Roots) -> ExitCode:
+    """Serve an editor over standard input and output, in the Language Server Protocol.
+
+    It reads PDDL, lexicon.yaml, objects.yaml, skills.yaml and environments. docs/editors.md has the settings of
+    editors.
+    """
+    try:
+        from tmd.editor.language_server import serve
+    except ImportError as error:
+        if (error.name or "").startswith("tmd"):
+            raise
+        raise MissingToolError("the language server needs the package pygls", hint=install_extra("editor")) from error
+    if sys.stdin.isatty():
+        emit("waiting for an editor on standard input; Ctrl-C ends this\n", error=True)
+    serve(roots)
     return ExitCode.OK
 
 

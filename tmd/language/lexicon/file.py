@@ -16,7 +16,7 @@ from typing import NoReturn, TypeVar
 import yaml
 
 from tmd.diagnostics import Location, TmdError
-from tmd.files import bundled, real
+from tmd.files import bundled, read_bytes, real
 from tmd.language.lexicon.lexicon import (
     TYPO_LENGTH,
     Base,
@@ -272,7 +272,7 @@ def _ways(text: str) -> list[tuple[int, str]]:
 def _opened(path: Path) -> tuple[_Source, dict[str, yaml.Node]]:
     """Return the text of a file, and its sections by name; empty ones are left out."""
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_bytes(path).decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise TmdError(f"cannot read the lexicon {path}: {reason}", hint="check the file; it is UTF-8 text") from None

@@ -348,7 +348,8 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
         if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
             value = nodes[0] = _in_parentheses(nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
-        meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # its value is not reported as missing as well
+        # the value of a misspelt keyword is not reported as missing as well
+        meant = [] if keyword.text in _PARTS_OF_ACTIONS else get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)
         parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
         if keyword.text in _PARTS_OF_ACTIONS:
             found.append((_PARTS_OF_ACTIONS.index(keyword.text), keyword.text, keyword.location, after(value)))

@@ -1,0 +1,177 @@
+"""The names in a YAML file of a domain, and the keys that fit at a place."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from types import UnionType
+from typing import Annotated, TypeAlias, TypeVar, Union, get_args, get_origin
+
+import yaml
+from pydantic import BaseModel
+
+from tmd.diagnostics import Location, TmdError
+from tmd.editor.names import NameKind, Occurrence, Role, names_in_conditions
+from tmd.yaml_nodes import compose
+
+T = TypeVar("T")
+# Keys from the root of a file; the items of a list have the path of the list.
+KeyPath: TypeAlias = tuple[str, ...]
+_WORD = re.compile(r"[a-z][a-z0-9_-]*")
+_THING = (NameKind.TYPE, NameKind.OBJECT)
+# The meaning of the keys of a mapping, by the end of its path; a star is any key.
+_KEYS: Mapping[KeyPath, tuple[NameKind, Role]] = {
+    ("classes",): (NameKind.TYPE, Role.DECLARED),
+    ("substances",): (NameKind.OBJECT, Role.DECLARED),
+    ("objects",): (NameKind.OBJECT, Role.DECLARED),
+    ("objects", "*", "parts", "*"): (NameKind.PREDICATE, Role.HOLDS),
+    ("states",): (NameKind.PREDICATE, Role.HOLDS),
+    ("skills",): (NameKind.ACTION, Role.USED),
+    **dict.fromkeys([("seen",), ("confirmed",), ("inferred",)], (NameKind.PREDICATE, Role.USED)),
+}
+# The kinds of the words of a scalar; the last is that of all that follow.
+_VALUES: Mapping[KeyPath, tuple[tuple[NameKind, ...], ...]] = {
+    ("inferred", "*", "to"): ((NameKind.PREDICATE,), ()),
+    ("class",): ((NameKind.TYPE,), ()),
+    ("parent",): ((NameKind.TYPE,), ()),
+    ("substances", "*"): ((NameKind.TYPE,), ()),
+    ("states", "*"): ((NameKind.OBJECT,), ()),
+    ("objects", "*", "parts", "*", "*"): ((NameKind.OBJECT,), ()),
+    ("objects", "*", "at"): ((NameKind.OBJECT,),),
+    ("facts",): ((NameKind.PREDICATE,), (NameKind.OBJECT,)),
+    ("init",): ((NameKind.PREDICATE,), (NameKind.OBJECT,)),
+    **dict.fromkeys([("derived",), ("signs",), ("contents",)], ((NameKind.PREDICATE,), ())),
+    ("edges",): ((), (NameKind.PREDICATE,), (NameKind.OBJECT,)),
+    ("nouns", "*"): (_THING, ()),
+    ("groups", "*"): (_THING, ()),
+}
+
+
+def names_in_yaml(text: str, file: str) -> list[Occurrence]:
+    """Return the names of types, objects, predicates and actions, those of PDDL conditions included."""
+    try:
+        root = compose(text, file)
+    except TmdError:
+        return []
+    found: list[Occurrence] = []
+    conditions: list[tuple[int, int]] = []
+    for path, node, value in _scalars(root, ()):
+        begin, end = node.start_mark.index, node.end_mark.index
+        if value is None and "(" in node.value:
+            conditions.append((begin, end))
+            continue
+        for number, word in enumerate(_WORD.finditer(text, begin, end)):
+            row = node.start_mark.line + 1 + text.count("\n", begin, word.start())
+            column = word.start() - text.rfind("\n", 0, word.start())
+            types = _class_in(value) if number == 0 else ()
+            found += [
+                Occurrence(word[0], kind, role, Location(file, row, column), path[0] if path else "", types)
+                for kind, role in _meanings(path, number, is_key=value is not None)
+            ]
+    return found + names_in_conditions(_only(text, conditions), file)
+
+
+def _scalars(node: yaml.Node | None, path: KeyPath) -> Iterator[tuple[KeyPath, yaml.ScalarNode, yaml.Node | None]]:
+    """Yield each key with the path of its mapping and its value, and each other scalar with its path."""
+    if isinstance(node, yaml.ScalarNode):
+        yield path, node, None
+    elif isinstance(node, yaml.SequenceNode):
+        for child in node.value:
+            yield from _scalars(child, path)
+    elif isinstance(node, yaml.MappingNode) and "shape" not in path:
+        for key, value in node.value:
+            yield path, key, value
+            yield from _scalars(value, (*path, key.value))
+
+
+def _meanings(path: KeyPath, number: int, *, is_key: bool) -> list[tuple[NameKind, Role]]:
+    if is_key:
+        meaning = lookup(_KEYS, path)
+        return [meaning] if meaning and number == 0 else []
+    kinds = lookup(_VALUES, path) or ((),)
+    return [(k, Role.HOLDS if k is NameKind.PREDICATE else Role.USED) for k in kinds[min(number, len(kinds) - 1)]]
+
+
+def lookup(table: Mapping[KeyPath, T], path: KeyPath) -> T | None:
+    """Return the entry of ``table`` for the longest end of ``path``."""
+    for length in range(len(path), 0, -1):
+        for pattern, entry in table.items():
+            fits = len(pattern) == length and all(p in ("*", k) for p, k in zip(pattern, path[-length:], strict=True))
+            if fits:
+                return entry
+    return None
+
+
+def kinds_of_value(path: KeyPath, number: int) -> tuple[NameKind, ...]:
+    """Return the kinds of names that may be word ``number`` of the value at ``path``."""
+    return tuple(kind for kind, _ in _meanings(path, number, is_key=False))
+
+
+def kind_of_keys(path: KeyPath) -> NameKind | None:
+    """Return the kind of the names that are keys at ``path``, where they are not declared by that."""
+    meaning = lookup(_KEYS, path)
+    return meaning[0] if meaning and meaning[1] is not Role.DECLARED else None
+
+
+def _class_in(value: yaml.Node | None) -> tuple[str, ...]:
+    """Return the class or parent that the value of a key gives."""
+    if isinstance(value, yaml.ScalarNode):
+        return (value.value,)
+    entries = value.value if isinstance(value, yaml.MappingNode) else []
+    return tuple(str(inner.value) for key, inner in entries if key.value in ("class", "parent"))
+
+
+def _only(text: str, pieces: list[tuple[int, int]]) -> str:
+    """Return the text with everything but some pieces blank, so that all places stay; quotes and bars are blank too."""
+    kept, last = [], 0
+    for begin, end in pieces:
+        kept += [re.sub(r"[^\n]", " ", text[last:begin]), re.sub(r"[\"'|>;]", " ", text[begin:end])]
+        last = end
+    return "".join(kept)
+
+
+def keys_at(model: object, path: KeyPath) -> list[str]:
+    """Return the keys that a file of ``model`` may have in the mapping at ``path``."""
+    for part in path:
+        model = next((inner for kind in _alternatives(model) for inner in _inside(kind, part)), None)
+    fields = [kind.model_fields for kind in _alternatives(model) if _is_model(kind)]  # type: ignore[attr-defined]
+    return [field.alias or name for one in fields for name, field in one.items()]
+
+
+def _inside(kind: object, key: str) -> Iterator[object]:
+    """Yield the type of the value of ``key`` in a mapping of the type ``kind``."""
+    if _is_model(kind):
+        fields = kind.model_fields  # type: ignore[attr-defined]
+        yield from (field.annotation for name, field in fields.items() if (field.alias or name) == key)
+    elif get_origin(kind) is dict:
+        yield get_args(kind)[1]
+
+
+def _alternatives(kind: object) -> Iterator[object]:
+    """Yield the types that a value may have; for a list, those of its items."""
+    if get_origin(kind) in (Union, UnionType, Annotated, list, tuple):
+        for one in get_args(kind):
+            yield from _alternatives(one)
+    else:
+        yield kind
+
+
+def _is_model(kind: object) -> bool:
+    return isinstance(kind, type) and issubclass(kind, BaseModel)
+
+
+def path_at(lines: list[str]) -> KeyPath:
+    """Return the path of the mapping or value in which a text ends, from its indentation and open brackets."""
+    path: list[str] = []
+    *before, last = lines
+    flow = re.sub(r"\{[^{}]*\}", "", last)
+    opened = re.findall(r"([\w-]+):\s*\{", flow)
+    key = re.search(r"([\w-]+):[^{},:]*$", flow)
+    path = [*opened, key[1]] if key else opened
+    indent = len(last) - len(last.lstrip(" "))
+    for line in reversed(before):
+        found = re.match(r"( *)(?:- )?([\w-]+):\s*(#.*)?$", line)
+        if found and len(found[1]) < indent:
+            indent = len(found[1])
+            path.insert(0, found[2])
+    return tuple(path)
