@@ -22,7 +22,7 @@ from tmd.language.lexicon.lexicon import Lexicon, builtin
 from tmd.language.parser import parse
 from tmd.language.syntax.phrases import builtin_rows
 from tmd.language.syntax.tagger import classes
-from tmd.world.folder import find_domain
+from tmd.world.roots import Roots
 
 _LAST_ENVIRONMENT = 8
 """Later ones are for testing."""
@@ -53,7 +53,7 @@ def _of_veil(directory: Path) -> Iterator[tuple[str, str]]:
 def _lexicon(domain: str) -> Lexicon:
     if not domain:
         return builtin()
-    folder = find_domain(domain)
+    folder = Roots().folder(domain)
     return read_lexicon(folder.lexicon_path, folder.kinds)
 
 
