@@ -281,8 +281,8 @@ class ArmMotionParameters:
 class InverseKinematicsParameters:
     """The inverse kinematics of an arm."""
 
-    # Values of the free joint that are tried.
-    rolls: int = 48
+    # Pans of the shoulder that are tried.
+    pans: int = 96
     # Starts of the numerical solver.
     starts: int = 64
     # Radians that solutions keep from the limits, where a motor would push against the stop.
@@ -297,7 +297,7 @@ class InverseKinematicsParameters:
     stride: float = 0.4
     # Radians that a joint may move between two poses of a motion.
     leap: float = 0.5
-    # Radians that it may move without another roll being looked at.
+    # Radians that it may move without another pan being looked at.
     smooth: float = 0.25
 
 

@@ -135,7 +135,7 @@ class _Upright:
         if sine > 1e-9:
             x, y, z = (float(value) for value in turn / sine)
             pose = pose.spun(Pose.about((x, y, z), float(np.arctan2(sine, up[2]))))
-        solve = self._kinematics.with_roll if anywhere else self._kinematics.track
+        solve = self._kinematics.with_pan if anywhere else self._kinematics.track
         found = solve(pose, self._torso, row.tolist())
         return None if found is None else np.array(found, dtype=float)
 

@@ -109,9 +109,9 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     options = pick_options(cell, name) if cell.scene.is_item(name) and cell.free() else []
     found = list(islice(candidates(cell, options, focus, cell.front(name), BASE_MOTION.brief_budget), 2 + attempt))
     places: list[tuple[Base, float]] = [(c.base, c.torso) for c in found[attempt:]]
-    clear = _stances_before(cell, name, focus)
+    clear = _stances_before(cell, name)
     if not (places or clear) and cell.fold():  # one hand is at what the other holds
-        clear = _stances_before(cell, name, focus)
+        clear = _stances_before(cell, name)
     here = cell.robot.torso()
     places += [(base, here) for base in clear]
     for base, torso in places:
@@ -128,10 +128,17 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     raise last
 
 
-def _stances_before(cell: Cell, name: str, focus: Pose) -> list[Base]:
-    """Return some places with room to stand before a thing, as the arms are now."""
-    clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
-    return list(islice(clear, BASE_MOTION.max_stances))
+def _stances_before(cell: Cell, name: str) -> list[Base]:
+    """Return some places with room to stand near a thing, as the arms are now.
+
+    If none is before a part, a door that stands open, they are before its whole.
+    """
+    clear: list[Base] = []
+    for each in dict.fromkeys((name, cell.whole(name))):
+        around = stances(cell, Pose(cell.centre(each)), cell.front(each), _FARTHER)
+        near = (b for b in around if cell.reach(name, b) <= REACH and not cell.robot.collides(base=b))
+        clear = clear or list(islice(near, BASE_MOTION.max_stances))
+    return clear
 
 
 def step_back(cell: Cell, door: str) -> None:

@@ -244,17 +244,17 @@ class Cell:
         name_, angle = min(handle.settings.items(), key=lambda pair: (abs(pair[1] - at), pair[0]))
         return name_ if abs(angle - at) <= ARTICULATION.setting_share * step else None
 
-    def reach(self, name: str) -> float:
-        """Return the distance on the floor from the robot's base to a thing or its whole, in metres.
+    def reach(self, name: str, base: Sequence[float] | None = None) -> float:
+        """Return the distance on the floor from the robot's base, or another one, to a thing or its whole, in metres.
 
         Its doors and drawers, which may stand open, do not count. A thing in something is as near as that.
         """
-        x, y, _ = self.robot.base()
+        x, y, _ = base or self.robot.base()
         body, _ = self.scene.place(name)
         low, high = self.sim.extents(body, -1 if -1 in self.robot.solid_links(body) else None)
         own = hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
         place = self.support(self.whole(name))
-        return own if place is None or place[1] != "in" else min(own, self.reach(place[0]))
+        return own if place is None or place[1] != "in" else min(own, self.reach(place[0], base))
 
     def measured(self, atom: GroundAtom, sensor: str) -> str:
         """Return the numbers behind a fact."""
