@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.diagnostics import MissingToolError
-from tmd.robot.pr2 import ik
 from tmd.robot.pr2 import urdf as pr2_urdf
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree
@@ -20,10 +19,7 @@ except MissingToolError:
     pytest.skip("needs the extra robot", allow_module_level=True)
 ARMS = {side: ArmKinematics(TREE, side) for side in ("right", "left")}
 HOME = (0.0,) * 7
-SOLVERS = [
-    pytest.param(False, marks=pytest.mark.skipif(ik._closed_form("right") is None, reason="needs pr2-ikfast")),
-    True,
-]
+SOLVERS = [False, True]
 
 
 def configuration(side: str, seed: int) -> Array:
@@ -83,7 +79,23 @@ def test_endless_joints_take_the_short_way() -> None:
         assert abs(arm[6] + 7.0) <= np.pi + 1e-9
 
 
-def test_without_the_compiled_solver_the_numeric_one_answers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ik, "_closed_form", lambda side: None)
-    target = tool("right", configuration("right", 5), 0.1)
-    assert ARMS["right"].solve(target, 0.1, HOME)
+@given(side=st.sampled_from(["right", "left"]), seed=st.integers(0, 10**6), torso=st.floats(0, 0.31))
+@settings(max_examples=60, deadline=None, derandomize=True)
+def test_the_closed_form_gives_a_configuration_back_to_the_digit(side: str, seed: int, torso: float) -> None:
+    arm = configuration(side, seed)
+    found = ARMS[side].with_pan(tool(side, arm, torso), torso, tuple(arm))
+    assert found == pytest.approx(arm, abs=1e-6)
+
+
+def test_an_arm_that_is_built_otherwise_has_no_closed_form() -> None:
+    """The elbow is 1 cm beside the line from the shoulder to the wrist: descent solves it."""
+    root = pr2_urdf.prepare().root
+    origin = next(j for j in root.iter("joint") if j.get("name") == "r_elbow_flex_joint").find("origin")
+    assert origin is not None
+    origin.set("xyz", "0.4 0.01 0")
+    arm = ArmKinematics(Tree(root), "right")
+    target = Pose.from_matrix(arm.tool(0.1, configuration("right", 5)[None])[0])
+    with pytest.raises(ValueError, match="no closed form"):
+        arm.solve(target, 0.1, HOME, numeric=False)
+    found = arm.solve(target, 0.1, HOME)
+    assert found and Pose.from_matrix(arm.tool(0.1, np.array(found[:1]))[0]).distance(target) < 2e-4

@@ -44,7 +44,7 @@ class ArmKinematics:
         self.lower = np.array([arm[joint].lower for joint in self.joints])
         self.upper = np.array([arm[joint].upper for joint in self.joints])
         self.endless = tuple(int(joint) for joint in np.flatnonzero(np.isinf(self.lower)))
-        self._middle = np.where(np.isinf(self.lower), 0.0, self.lower) / 2 + np.where(np.isinf(self.upper), 0.0, self.upper) / 2
+        self._middle = (np.maximum(self.lower, -9.0) + np.minimum(self.upper, 9.0)) / 2  # 0 for endless joints
         self._offsets, self._closed_form = self._built_as_the_pr2()
 
     def _built_as_the_pr2(self) -> tuple[Array, bool]:
@@ -182,7 +182,8 @@ class ArmKinematics:
         arms = np.stack([pans, lift, roll, elbow, forearm, flex, np.arctan2(-row_x[:, 1], -row_x[:, 2])], axis=1)
         # a full turn more or less brings some joints back between their limits
         arms = self.near(arms - tau * np.round((arms - self._middle) / tau), seed)
-        return arms[self.inside(arms)]
+        kept: Array = arms[self.inside(arms)]
+        return kept
 
     def _numeric(self, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
         lower = np.where(np.isinf(self.lower), -pi, self.lower + IK.margin)

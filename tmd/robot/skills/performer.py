@@ -61,6 +61,8 @@ class RobotPerformer:
             for name in springs:
                 navigate_and_look.step_back(self.cell, name)
                 self.cell.spring(name)
+            if springs:
+                self.cell.moment()
         return said
 
     def _stay_near(self, task: SkillTask) -> None:

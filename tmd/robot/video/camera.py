@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import product
 
 from tmd.robot.pr2.pr2 import ARMS
+from tmd.robot.scene.scene import Handle
 from tmd.robot.sim.pose import Vector
 from tmd.robot.skills.robot_context import Cell
 
@@ -96,6 +97,10 @@ class Camera:
     def _points(self) -> list[_Point]:
         cell, points = self._cell, []
         for name in self._names:
+            handle = cell.scene.handle(name)
+            if handle is not None and handle.kind in ("door", "drawer"):
+                points += self._door_points(name, handle)
+                continue
             low, high = cell.sim.extents(*cell.scene.place(name))
             body, _ = cell.scene.place(name)
             x, y, z = cell.centre(name)
@@ -112,6 +117,19 @@ class Camera:
             if min(math.dist(hand, thing) for thing in things) < _NEAR_HAND:
                 points.append(_Point(hand, own, 2.0))
         return [*points, _Point((x, y, 1.2), own, 0.5)]
+
+    def _door_points(self, name: str, handle: Handle) -> list[_Point]:
+        """Return what to show of a door or a drawer: the handle, and the inside, which nothing but itself may cover."""
+        scene = self._cell.scene
+        inside = scene.regions(name, "in") or scene.regions(self._cell.whole(name), "in")
+        low, high = self._cell.sim.extents(handle.body, handle.index)
+        middles = [scene.frame(whole, each.link).apply(_middle(each.low, each.high)) for whole, each in inside]
+        edge = (*_middle(low, high)[:2], high[2])
+        return [
+            _Point(handle.grasp.position, (), 2.0),
+            *(_Point(each, (), 1.5) for each in middles),
+            _Point(edge, (), 0.5),
+        ]
 
     def _worth(self, view: View, points: Sequence[_Point]) -> float:
         if self._inside(view.eye):
@@ -143,6 +161,11 @@ def _overview(cell: Cell) -> View:
     x, y, z = (e - t for e, t in zip(eye, target, strict=True))
     distance = math.hypot(x, y, z)
     return View(target, math.atan2(y, x), math.asin(z / distance), distance)
+
+
+def _middle(low: Vector, high: Vector) -> Vector:
+    x, y, z = ((a + b) / 2 for a, b in zip(low, high, strict=True))
+    return (x, y, z)
 
 
 def _ball(places: Sequence[Vector]) -> tuple[Vector, float]:

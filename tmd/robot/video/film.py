@@ -36,6 +36,8 @@ TILE = (400, 300)
 _HEAD = 0.35
 # Skills that are seen from afar.
 _FAR = ("look", "drive")
+# Frames of a film for which a picture stays, where little happens.
+_PAUSES = {"look": 3, "drive": 2, "wait": 5}
 
 
 def open_movie(
@@ -87,13 +89,16 @@ class Film:
         self._ran: list[ExecutedStep] = []
         self._of = 0
         self._event: Pixels | None = None
+        self._expected: Sequence[GroundAtom] = ()
+        self._looked_for = ""
+        self._pause = 1
         if strip:
             cell.moment = self._take_event
         if movie is not None:
             width, height = movie.size
             self._size = width, height - caption_height(width)
             self._fps = movie.fps
-            self._time, self._shot = 0.0, 0.0
+            self._time, self._shot, self._shots = 0.0, 0.0, 0
             self._steps, self._ticks = cell.sim.steps, cell.sim.ticks
             cell.sim.add_watcher(self._watch)
 
@@ -105,10 +110,11 @@ class Film:
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """Turn the camera to an instruction."""
         self._of = title.of
-        self._event = None
+        self._event, self._expected = None, expected
         if not title.repair:
             self._tries[title.number] += 1
         task = self._skills.task(title.instruction)
+        self._pause = _PAUSES.get(task.skill, 1)
         names = self._cell.scene.names()
         self._camera.follow([n for n in (task.object, task.target) if n in names], wide=task.skill in _FAR)
         self._caption = Caption(
@@ -138,6 +144,10 @@ class Film:
             # what it is about: the button while it is down, not the arm when it is tucked
             seen = self._event if badge == "ok" else None
             picture = self._picture(self._camera.best(), TILE) if seen is None else seen
+            task = self._skills.task(title.instruction)
+            if task.skill == "drive" and task.object == self._looked_for:
+                self._tiles.pop()  # the way to what was looked for shows it as well
+            self._looked_for = task.object if task.skill == "look" and badge == "ok" else ""
             self._tiles.append(under(picture, self._caption))
 
     def close(self, execution: Execution) -> None:
@@ -158,7 +168,27 @@ class Film:
         self._hold(_ENDING)
 
     def _take_event(self) -> None:
-        self._event = self._picture(self._camera.best(), TILE)
+        with self._as_expected():
+            self._event = self._picture(self._camera.best(), TILE)
+
+    @contextmanager
+    def _as_expected(self) -> Iterator[None]:
+        """Show what the instruction brings about: its picture is used only if that is so in the end."""
+        scene = self._cell.scene
+        signs = [atom for atom in self._expected if atom.predicate in self._skills.signs]
+        gains = [atom for atom in self._expected if atom.predicate == self._skills.contents and len(atom.args) == 2]
+        before = {atom.args[0]: scene.shown(atom.args[0]) for atom in gains}
+        for atom in signs:
+            scene.sign(atom.args[0], atom.predicate, True)
+        for name, shown in before.items():
+            scene.show(name, (*shown, *(atom.args[1] for atom in gains if atom.args[0] == name)))
+        try:
+            yield
+        finally:
+            for atom in signs:
+                scene.sign(atom.args[0], atom.predicate, False)
+            for name, shown in before.items():
+                scene.show(name, shown)
 
     def _number(self, title: Title) -> str:
         """Return its place in the plan, and the number of the try after the first."""
@@ -188,12 +218,11 @@ class Film:
         self._time += stepped / STEPS_PER_SECOND + ticked * TICK
         if self._time >= self._shot - 1e-9:
             self._shot += 1 / self._fps
-            self._shoot()
-
-    def _shoot(self) -> None:
-        assert self._movie is not None
-        self._last = self._picture(self._camera.view, self._size)
-        self._movie.add(under(self._last, self._caption))
+            self._shots += 1
+            if self._last is None or self._shots % self._pause == 0:
+                self._last = self._picture(self._camera.view, self._size)
+            assert self._movie is not None
+            self._movie.add(under(self._last, self._caption))
 
     def _hold(self, seconds: float) -> None:
         if self._movie is None:
