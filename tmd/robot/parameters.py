@@ -257,6 +257,8 @@ class ArmMotionParameters:
     level_planned: int = 3
     # Radians that what can hold something may lean on its way (10 degrees), or a little more than at its ends.
     level: float = 0.17
+    # Samples for a way on which nothing must stay level: most queries that 300 leave open are solved then.
+    free_samples: int = 1000
     # Attempts to shorten a path.
     rrt_shortcuts: int = 60
     # Radians: an arm that is this near to its posture need not move.

@@ -47,7 +47,7 @@ def plan_arm(
         goal: Seven joint positions; the endless joints are turned the short way.
         ignore: (body, link) that may be touched, link None: all of the body.
         rng: For samples and shortcuts.
-        budget: Maximum number of samples.
+        budget: Maximum number of samples where something must stay level; else it is at least 1000, each cheap.
 
     Returns:
         Joint positions after the start up to the goal, to go through in straight lines; None if the goal touches
@@ -55,7 +55,8 @@ def plan_arm(
     """
     must = robot.keeps_level(side)
     for level in (None,) if must is None else (True,) if must else (True, None):
-        path = _plan_arm(robot, side, goal, ignore, rng, budget, level=bool(level))
+        samples = budget if level else max(budget, ARM_MOTION.free_samples)
+        path = _plan_arm(robot, side, goal, ignore, rng, samples, level=bool(level))
         if path is not None:
             return path
     return None

@@ -115,10 +115,10 @@ class Cell:
         if sim.ticks % _LEANING_EVERY and not self.robot.kinematic:
             return
         for item in dict.fromkeys((*self.scene.filled(), *sorted(self._loaded & set(self.scene.items())))):
-            if self.spills_from(item) is None:
-                continue  # shut: however it leans, nothing gets out
             tilt = self.tilt(item)
-            if tilt > self._leant.get(item, _LEVEL) and not (item in self.over_rim and self.over_rim[item]()):
+            if tilt <= self._leant.get(item, _LEVEL) or (item in self.over_rim and self.over_rim[item]()):
+                continue
+            if self.spills_from(item) is not None:  # shut: however it leans, nothing gets out
                 self._leant[item] = tilt
 
     @contextmanager
