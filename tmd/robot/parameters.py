@@ -261,6 +261,8 @@ class ArmMotionParameters:
     free_samples: int = 1000
     # Attempts to shorten a path.
     rrt_shortcuts: int = 60
+    # Attempts in a row after which a path counts as short.
+    rrt_in_vain: int = 12
     # Radians: an arm that is this near to its posture need not move.
     there: float = 0.03
     # If an arm cannot be tucked as usual, one of its first joints is turned by so many radians.

@@ -87,7 +87,6 @@ class Pr2:
         self.arm_joints = {side: self.arm_kinematics[side].joints for side in ARMS}
         self._held: dict[str, tuple[int, int, Pose]] = {}
         self.keeps_level: Callable[[str], bool | None] = lambda side: None
-        self._solid: dict[int, list[int]] = {}
         self._gaps: list[tuple[float, float]] = []
         self._make_groups()
         self._set_up(pose)
@@ -126,7 +125,7 @@ class Pr2:
     def _find_boxes(self) -> dict[str, LinkBox]:
         known = link_boxes(self.model.root)
         names = {index: name for name, index in self.index.items()}
-        for link in self.solid_links(self.body):
+        for link in self.sim.solid_links(self.body):
             if names[link] not in known:  # a mesh that only the simulator reads: its box, turned back
                 lower, upper = np.array(self.sim.extents(self.body, link))
                 frame = self.sim.pose(self.body, link).homogeneous()
@@ -139,12 +138,6 @@ class Pr2:
             self.sim.colour(self.body, index, robot_colour(name))
 
     # where it is
-
-    def solid_links(self, body: int) -> list[int]:
-        """Return the links of a body that can be touched."""
-        if body not in self._solid:
-            self._solid[body] = self.sim.solid_links(body)
-        return self._solid[body]
 
     def positions(self) -> dict[str, float]:
         """Return the positions of all joints that move, by name."""

@@ -84,8 +84,9 @@ def shorten(
     path: Array, free: Free, strides: Array, rng: np.random.Generator, tries: int = ARM_MOTION.rrt_shortcuts
 ) -> Array:
     """Replace random pieces of the path by straight lines if these are free; it never gets longer."""
+    failed = 0
     for _ in range(tries):
-        if len(path) < 3:
+        if len(path) < 3 or failed == ARM_MOTION.rrt_in_vain:
             break
         lengths = np.linalg.norm(np.diff(path, axis=0) / strides, axis=1)
         at = np.concatenate([[0.0], np.cumsum(lengths)])
@@ -93,12 +94,13 @@ def shorten(
         first, last = int(np.searchsorted(at, low, "right")) - 1, int(np.searchsorted(at, high, "right")) - 1
         if last >= len(path) - 1 or first == last:
             continue
+        failed += 1
         start, end = (
             path[piece] + (path[piece + 1] - path[piece]) * (where - at[piece]) / max(lengths[piece], 1e-12)
             for piece, where in ((first, low), (last, high))
         )
         if _clear(start, end, free, strides):
-            path = np.vstack([path[: first + 1], start, end, path[last + 1 :]])
+            path, failed = np.vstack([path[: first + 1], start, end, path[last + 1 :]]), 0
     return path
 
 

@@ -251,7 +251,7 @@ class Cell:
         """
         x, y, _ = base or self.robot.base()
         body, _ = self.scene.place(name)
-        low, high = self.sim.extents(body, -1 if -1 in self.robot.solid_links(body) else None)
+        low, high = self.sim.extents(body, -1 if -1 in self.sim.solid_links(body) else None)
         own = hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
         place = self.support(self.whole(name))
         return own if place is None or place[1] != "in" else min(own, self.reach(place[0], base))

@@ -24,6 +24,8 @@ _HEIGHTS = tuple(map(math.radians, (28.0, 40.0, 54.0)))
 _CLOSE, _WIDE = 0.5, 1.0
 # A hand that is farther from the thing than this has nothing to do with it.
 _NEAR_HAND = 0.9
+# One that is nearer than this to the middle of the picture works there.
+_AT_WORK = 0.35
 # A ray that gets this near to its goal has met it.
 _SEEN = 0.1
 # The robot's own body counts as seen where it is this near to the point.
@@ -82,6 +84,11 @@ class Camera:
         self._names = tuple(dict.fromkeys(names)) or self._names
         self.wide = wide
         self.view = self.best()
+
+    def at_work(self) -> bool:
+        """Return whether a hand is at what the view shows."""
+        hands = (self._cell.robot.tool(side).position for side in ARMS)
+        return not self.wide and min(math.dist(hand, self.view.target) for hand in hands) < _AT_WORK
 
     def best(self) -> View:
         """Return the angle that shows most now."""

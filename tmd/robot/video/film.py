@@ -36,8 +36,8 @@ TILE = (400, 300)
 _HEAD = 0.35
 # Skills that are seen from afar.
 _FAR = ("look", "drive")
-# Frames of a film for which a picture stays, where little happens.
-_PAUSES = {"look": 3, "drive": 2, "wait": 5}
+# Frames of a film for which a picture stays while no hand is at the thing.
+_PAUSE = 3
 
 
 def open_movie(
@@ -91,7 +91,6 @@ class Film:
         self._event: Pixels | None = None
         self._expected: Sequence[GroundAtom] = ()
         self._looked_for = ""
-        self._pause = 1
         if strip:
             cell.moment = self._take_event
         if movie is not None:
@@ -114,7 +113,6 @@ class Film:
         if not title.repair:
             self._tries[title.number] += 1
         task = self._skills.task(title.instruction)
-        self._pause = _PAUSES.get(task.skill, 1)
         names = self._cell.scene.names()
         self._camera.follow([n for n in (task.object, task.target) if n in names], wide=task.skill in _FAR)
         self._caption = Caption(
@@ -219,7 +217,7 @@ class Film:
         if self._time >= self._shot - 1e-9:
             self._shot += 1 / self._fps
             self._shots += 1
-            if self._last is None or self._shots % self._pause == 0:
+            if self._last is None or self._camera.at_work() or self._shots % _PAUSE == 0:
                 self._last = self._picture(self._camera.view, self._size)
             assert self._movie is not None
             self._movie.add(under(self._last, self._caption))
