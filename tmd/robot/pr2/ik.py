@@ -23,7 +23,6 @@ _PAN = 0
 _DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
 # Metres and radians: a descent from all of whose starts the pose is reached so well has ended.
 _EXACT = 1e-7
-_PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
 
 class ArmKinematics:
@@ -34,6 +33,8 @@ class ArmKinematics:
         lower: (7,), −inf for endless joints.
         upper: (7,).
         endless: The numbers of the joints that turn without end.
+        points: (8, 3), the joints and the tool in ``base_link`` with all joints at 0.
+        closed_form: Whether the closed form is that of this arm.
     """
 
     def __init__(self, tree: Tree, side: str) -> None:
@@ -45,13 +46,14 @@ class ArmKinematics:
         self.upper = np.array([arm[joint].upper for joint in self.joints])
         self.endless = tuple(int(joint) for joint in np.flatnonzero(np.isinf(self.lower)))
         self._middle = (np.maximum(self.lower, -9.0) + np.minimum(self.upper, 9.0)) / 2  # 0 for endless joints
-        self._offsets, self._closed_form = self._built_as_the_pr2()
+        self.points, self.closed_form = self._built_as_the_pr2()
+        # from pan to lift, from there to the elbow, to the wrist, and to the tool
+        self._lengths = np.diff(self.points[[0, 1, 3, 5, 7], 0])
 
     def _built_as_the_pr2(self) -> tuple[Array, bool]:
-        """Return shoulder (3,) and lengths (4,) of an arm with its joints at 0, and whether the closed form is its own.
+        """Return the points of the arm, and whether it is built as the PR2's.
 
-        The axes are then z, y, x, y, x, y, x, all on a line along x: two joints turn about one point of the shoulder
-        and three about one of the wrist, and elbow and wrist bend one way only.
+        The axes are then z, y, x, y, x, y, x, all on a line along x, and elbow and wrist bend one way only.
         """
         frame, points, axes = np.eye(4), [], []
         for link in self._chain:
@@ -59,11 +61,11 @@ class ArmKinematics:
             if link.joint in self.joints:
                 axes.append(frame[:3, :3] @ link.axis)
                 points.append(frame[:3, 3])
-        pan, lift, _, elbow, _, wrist, _, tool = (*points, frame[:3, 3])
-        line = np.array([*points, tool]) - pan
+        points.append(frame[:3, 3])
+        line = np.array(points) - points[0]
         fits = np.allclose(axes, np.eye(3)[[2, 1, 0, 1, 0, 1, 0]]) and np.allclose(frame[:3, :3], np.eye(3))
         fits = fits and np.allclose(line[:, 1:], 0.0) and bool(np.all(self.upper[[3, 5]] <= 0.0))
-        return np.concatenate([pan, np.diff([pan[0], lift[0], elbow[0], wrist[0], tool[0]])]), fits
+        return np.array(points), fits
 
     def tool(self, torso: float, arms: Array) -> Array:
         """Return the tool frame in ``base_link``: (n, 4, 4) for arms (n, 7)."""
@@ -97,15 +99,13 @@ class ArmKinematics:
         kept: Array = np.all((arms >= self.lower + margin) & (arms <= self.upper - margin), axis=1)
         return kept
 
-    def solve(
-        self, tool: Pose, torso: float, seed: Sequence[float], *, numeric: bool | None = None
-    ) -> list[tuple[float, ...]]:
+    def solve(self, tool: Pose, torso: float, seed: Sequence[float]) -> list[tuple[float, ...]]:
         """Return configurations that bring the tool frame to a pose in ``base_link``, within the limits.
 
         ``torso`` is the height of the torso joint. Results near ``seed``, seven positions, come first (largest joint
-        motion counts). ``numeric`` selects damped least squares; None: only where there is no closed form.
+        motion counts).
         """
-        if self._is_numeric(numeric):
+        if not self.closed_form:
             arms = self._kept(self._numeric(tool, torso, seed), tool, torso, seed)
         else:
             pans = np.linspace(self.lower[_PAN] + IK.margin, self.upper[_PAN] - IK.margin, IK.pans)
@@ -114,15 +114,13 @@ class ArmKinematics:
         order = np.lexsort((far.sum(axis=1), np.round(far.max(axis=1), 6)))
         return [tuple(float(value) for value in arm) for arm in arms[order]]
 
-    def track(
-        self, tool: Pose, torso: float, seed: Sequence[float], *, numeric: bool | None = None
-    ) -> tuple[float, ...] | None:
+    def track(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
         """Return the solution next to ``seed``, for a tool that moves in small steps; None if there is none nearby.
 
         The arguments are those of :meth:`solve`.
         """
         start = np.asarray(seed, dtype=float)
-        if self._is_numeric(numeric):
+        if not self.closed_form:
             return _next_to(start, self._kept(self._descend(start[None], tool, torso), tool, torso, seed), IK.leap)
         # the same pan as before first: mostly it will do
         for pans, most in ((_DETOURS[:1], IK.smooth), (_DETOURS, IK.leap)):
@@ -134,16 +132,11 @@ class ArmKinematics:
     def with_pan(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
         """Return a solution with the shoulder panned as in ``seed``, wherever the other joints are, or None."""
         start = np.asarray(seed, dtype=float)
-        if self._is_numeric(None):
+        if not self.closed_form:
             arms = self._kept(self._descend(start[None], tool, torso), tool, torso, seed)
         else:
             arms = self._closed(tool, torso, start[:1], seed)
         return _next_to(start, arms, np.inf)
-
-    def _is_numeric(self, numeric: bool | None) -> bool:
-        if numeric is False and not self._closed_form:
-            raise ValueError("this arm has no closed form")
-        return not self._closed_form if numeric is None else numeric
 
     def _kept(self, arms: Array, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
         """Return the rows within the limits that reach the pose."""
@@ -159,8 +152,8 @@ class ArmKinematics:
         The length of the line from shoulder to wrist gives the elbow, its direction lift and roll of the upper arm, and
         what is then left of the orientation the three joints of the wrist, as Euler angles x, y, x.
         """
-        turn, (offset, upper, fore, hand) = tool.matrix(), self._offsets[3:]
-        wrist = np.array(tool.position) - hand * turn[:, 0] - self._offsets[:3] - (0.0, 0.0, torso)
+        turn, (offset, upper, fore, hand) = tool.matrix(), self._lengths
+        wrist = np.array(tool.position) - hand * turn[:, 0] - self.points[0] - (0.0, 0.0, torso)
         x, y = _spun(pans, wrist[0], wrist[1])
         x, z = x - offset, wrist[2]
         bend = (x * x + y * y + z * z - upper**2 - fore**2) / (2 * upper * fore)
@@ -240,13 +233,7 @@ def _error(target: Array, frames: Array) -> Array:
 @cache
 def _halton(count: int) -> Array:
     """Return (count, 7) points that cover the unit cube evenly, always the same (Halton 1960)."""
-    result = np.zeros((count, len(_PRIMES)))
-    for column, prime in enumerate(_PRIMES):
-        for row in range(count):
-            index, fraction = row + 1, 1.0
-            while index:
-                fraction /= prime
-                index, digit = divmod(index, prime)
-                result[row, column] += fraction * digit
-    result.flags.writeable = False
-    return result
+    from scipy.stats import qmc  # type: ignore[import-untyped]  # slow to import, and the PR2 needs none
+
+    points: Array = qmc.Halton(len(ARM), scramble=False).random(count + 1)[1:]
+    return points

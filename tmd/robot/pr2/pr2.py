@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from math import asin, atan2, cos, hypot, pi, sin
+from math import asin, atan2, hypot, pi
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +30,6 @@ from tmd.robot.sim.simulator import Simulator
 
 ARMS = ("right", "left")
 _TORSO_START = 0.15
-_FINGER_RANGE = (0.0, 0.548)
 _TOUCHING = 0.002
 # Microseconds of the inverse kinematics of a pose, about.
 _SOLVE_WORK = 350
@@ -199,8 +198,6 @@ class Pr2:
 
     def fingers(self, gap: float) -> tuple[float, ...]:
         """Return the positions of a hand's finger joints for a gap between its tips, within their limits."""
-        if self.model.is_pr2:
-            return (finger_angle(gap),) * len(self.model.fingers)
         if not self._gaps:
             low, high = self.model.finger_range
             for angle in np.linspace(low, high, 200):
@@ -210,7 +207,7 @@ class Pr2:
                 tips = [frames[f"r_gripper_{finger}_finger_tip_link"][:3, 3] for finger in "lr"]
                 self._gaps.append((float(np.linalg.norm(tips[0] - tips[1])) - self.model.tip_offset, float(angle)))
         gaps, angles = zip(*self._gaps, strict=True)
-        return (float(np.interp(gap, gaps, angles)),) * len(self.model.fingers)
+        return (float(np.interp(gap if gap > 0 else -1.0, gaps, angles)),) * len(self.model.fingers)
 
     def open_gripper(self, side: str, gap: float = 0.08) -> bool:
         """Open a hand until its tips are ``gap`` apart; return whether they are."""
@@ -424,17 +421,3 @@ class Pr2:
         positions = self.elsewhere(base, torso)
         with CollisionChecker(self, self.arm_joints[side], positions=positions, arm=side, ignore=ignore) as checker:
             return checker.each_free(np.array(arms, dtype=float))
-
-
-def finger_gap(angle: float) -> float:
-    """Return the metres between the finger tips for an angle of the finger joints; measured on the model."""
-    return max(0.0, -0.0037 + 0.1827 * sin(angle) + 0.0099 * (cos(angle) - 1))
-
-
-def finger_angle(gap: float) -> float:
-    """Return the angle of the finger joints for a gap, within their limits."""
-    low, high = _FINGER_RANGE
-    for _ in range(40):
-        middle = (low + high) / 2
-        low, high = (middle, high) if finger_gap(middle) < gap else (low, middle)
-    return high

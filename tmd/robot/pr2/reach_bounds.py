@@ -15,7 +15,6 @@ import numpy as np
 
 from tmd.robot.parameters import CONTACT
 from tmd.robot.pr2.kinematics import Array
-from tmd.robot.pr2.urdf import TOOL
 from tmd.robot.sim.pose import Pose
 
 if TYPE_CHECKING:
@@ -33,8 +32,7 @@ class ReachBounds:
 
     def __init__(self, robot: Pr2, side: str) -> None:
         kinematics = robot.arm_kinematics[side]
-        pan, lift, _, elbow, _, wrist, _ = (_point(robot, _moved_by(robot, joint)) for joint in kinematics.joints)
-        tool = _point(robot, f"{side[0]}_{TOOL}")
+        pan, lift, _, elbow, _, wrist, _, tool = kinematics.points
         self.shoulder = pan
         self.offset = float(np.linalg.norm(lift - pan))
         upper, fore = float(np.linalg.norm(elbow - lift)), float(np.linalg.norm(wrist - elbow))
@@ -82,15 +80,3 @@ class Wrists:
             of_side = self._sides[self._of] == side
             held[of_side] = span.holds(inside[of_side], torso)
         return [int(number) for number in np.flatnonzero(np.logical_and.reduceat(held, self._starts))]
-
-
-def _moved_by(robot: Pr2, joint: str) -> str:
-    """Return the link that a joint carries: its frame is at the joint."""
-    return next(link.name for link in robot.tree.links.values() if link.joint == joint)
-
-
-def _point(robot: Pr2, link: str) -> Array:
-    """Return the position of a link in ``base_link`` with all joints at 0."""
-    frames = robot.tree.forward({}, robot.tree.links, {robot.tree.root: np.eye(4)})
-    point: Array = (np.linalg.inv(frames["base_link"]) @ frames[link])[:3, 3]
-    return point
