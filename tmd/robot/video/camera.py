@@ -117,7 +117,7 @@ class Camera:
         own = (cell.robot.body, *(cell.scene.bodies[item] for item in cell.in_hand.values()))
         x, y, _ = cell.robot.base()
         if self.wide:
-            return [*points, _Point((x, y, 1.2), own, 1.5), _Point((x, y, 0.5), own, 1.0)]
+            return [*points, _Point((x, y, 1.2), own, 1.5), _Point((x, y, 0.5), own, 2.0)]
         things = [p.place for p in points]
         for side in ARMS:
             hand = cell.robot.tool(side).position
