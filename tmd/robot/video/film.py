@@ -139,7 +139,7 @@ class Film:
         self._caption = Caption(str(title.instruction), number, _said(title), tuple(facts), note, badge)
         self._hold(_SHOWN if badge == "ok" else _FAILURE_SHOWN)
         if self._strip:
-            # what it is about: the button while it is down, not the arm when it is tucked; but what went out, once it is
+            # what it is about: the button while it is down, not the arm when it is tucked; what goes out, once it is out
             out = any(not each.holds and each.atom.predicate in self._skills.signs for each in step.effects)
             seen = self._event if badge == "ok" and not out else None
             picture = self._picture(self._camera.best(), TILE) if seen is None else seen
