@@ -29,7 +29,7 @@ from tmd.robot.assets.features import Frame, Grasp, Grip
 from tmd.robot.assets.fittings import DOWN, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfLink, UrdfModel
 from tmd.robot.assets.vessels import CLEARANCE, WIDEST, contents, grasp, rim_grasps
-from tmd.robot.pr2.kinematics import Tree, angles, origin, set_origin, shape_points
+from tmd.robot.pr2.kinematics import Link, Tree, angles, origin, set_origin, shape_points
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.urdf_files import CUBE, cache_directory, end_of, find_mesh, mesh_library, read_urdf
 from tmd.world.shape import GraspEntry, HandleEntry, RegionEntry, Shape
@@ -51,7 +51,7 @@ _CARRIED = (0.02, 0.6)
 # Metres from a handle to what the fingers meet there, at most.
 _BESIDE = 0.02
 # Radians, or metres, beyond which a limit is in other units.
-_FARTHEST = {"revolute": 4 * math.pi, "prismatic": _LARGEST}
+_FARTHEST = {"revolute": (4 * math.pi, "radians"), "prismatic": (_LARGEST, "metres")}
 # Metres: a wall of so much is taken at its rim.
 _RIM = 0.02
 # Metres from the tool's frame back to the palm.
@@ -400,7 +400,10 @@ def _read(path: Path) -> _Source:
     if "root" in links and firsts != ["root"]:
         raise ModelFault(("urdf",), f"{path}: a link that is not the root is called 'root'", "call it something else")
     moved = {joint.get("name", ""): end_of(joint, "child") for joint in joints if joint.get("type") != "fixed"}
-    return _Source(path, root, Tree(root) if joints else None, firsts[0], moved)
+    tree = Tree(root) if joints else None
+    for each in tree.links.values() if tree is not None else ():
+        _check_limits(path, each)
+    return _Source(path, root, tree, firsts[0], moved)
 
 
 def _check_joint(path: Path, joint: ET.Element, links: Sequence[str]) -> None:
@@ -412,21 +415,21 @@ def _check_joint(path: Path, joint: ET.Element, links: Sequence[str]) -> None:
         if end_of(joint, end) not in links:
             message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
             raise ModelFault(("urdf",), message, nearest(end_of(joint, end), links))
-    for value in (_limit(joint, "lower"), _limit(joint, "upper")) if joint.get("type") in _FARTHEST else ():
-        if abs(value) > _FARTHEST[joint.get("type", "")]:
-            unit = "radians" if joint.get("type") == "revolute" else "metres"
-            raise ModelFault(("urdf",), f"{told} has a limit of {value:g}", f"limits are in {unit}")
-    if joint.get("type") in _FARTHEST and _limit(joint, "lower") >= _limit(joint, "upper"):
-        message = f"{told} cannot move: its lower limit is not below its upper one"
-        raise ModelFault(("urdf",), message, 'say `<limit lower="0" upper="1.57" effort="10" velocity="1"/>`')
     if joint.find("mimic") is not None:
         raise ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
 
 
-def _limit(joint: ET.Element, end: str) -> float:
-    """Return the ``lower`` or ``upper`` limit of a joint of a URDF; 0 without one, as simulators read it."""
-    limit = joint.find("limit")
-    return float(limit.get(end, "0")) if limit is not None else 0.0
+def _check_limits(path: Path, link: Link) -> None:
+    if link.kind not in _FARTHEST:
+        return
+    farthest, unit = _FARTHEST[link.kind]
+    if not link.lower < link.upper < math.inf:
+        message = f"{path}: the joint '{link.joint}' cannot move: its lower limit is not below its upper one"
+        raise ModelFault(("urdf",), message, 'say `<limit lower="0" upper="1.57" effort="10" velocity="1"/>`')
+    value = max(link.lower, link.upper, key=abs)
+    if abs(value) > farthest:
+        message = f"{path}: the joint '{link.joint}' has a limit of {value:g}"
+        raise ModelFault(("urdf",), message, f"limits are in {unit}")
 
 
 def _find_meshes(source: _Source) -> None:

@@ -34,6 +34,7 @@ class ArmKinematics:
         upper: (7,).
         endless: The numbers of the joints that turn without end.
         points: (8, 3), the joints and the tool in ``base_link`` with all joints at 0.
+        lengths: (4,), from pan to lift, from there to the elbow, to the wrist, and to the tool.
         closed_form: Whether the closed form is that of this arm.
     """
 
@@ -47,8 +48,7 @@ class ArmKinematics:
         self.endless = tuple(int(joint) for joint in np.flatnonzero(np.isinf(self.lower)))
         self._middle = (np.maximum(self.lower, -9.0) + np.minimum(self.upper, 9.0)) / 2  # 0 for endless joints
         self.points, self.closed_form = self._built_as_the_pr2()
-        # from pan to lift, from there to the elbow, to the wrist, and to the tool
-        self._lengths = np.diff(self.points[[0, 1, 3, 5, 7], 0])
+        self.lengths = np.linalg.norm(np.diff(self.points[[0, 1, 3, 5, 7]], axis=0), axis=1)
 
     def _built_as_the_pr2(self) -> tuple[Array, bool]:
         """Return the points of the arm, and whether it is built as the PR2's.
@@ -152,7 +152,7 @@ class ArmKinematics:
         The length of the line from shoulder to wrist gives the elbow, its direction lift and roll of the upper arm, and
         what is then left of the orientation the three joints of the wrist, as Euler angles x, y, x.
         """
-        turn, (offset, upper, fore, hand) = tool.matrix(), self._lengths
+        turn, (offset, upper, fore, hand) = tool.matrix(), self.lengths
         wrist = np.array(tool.position) - hand * turn[:, 0] - self.points[0] - (0.0, 0.0, torso)
         x, y = _spun(pans, wrist[0], wrist[1])
         x, z = x - offset, wrist[2]

@@ -32,17 +32,14 @@ class ReachBounds:
 
     def __init__(self, robot: Pr2, side: str) -> None:
         kinematics = robot.arm_kinematics[side]
-        pan, lift, _, elbow, _, wrist, _, tool = kinematics.points
-        self.shoulder = pan
-        self.offset = float(np.linalg.norm(lift - pan))
-        upper, fore = float(np.linalg.norm(elbow - lift)), float(np.linalg.norm(wrist - elbow))
-        self.hand = float(np.linalg.norm(tool - wrist))
+        self.shoulder = kinematics.points[0]
+        self.offset, upper, fore, self.hand = map(float, kinematics.lengths)
         bent = min(abs(float(kinematics.lower[_ELBOW])), np.pi)
         self.nearest = sqrt(upper**2 + fore**2 + 2 * upper * fore * cos(bent)) - CONTACT.slack
         self.farthest = upper + fore + CONTACT.slack
-        if not robot.model.is_pr2:  # its wrist is no point: the whole arm, from any distance
+        if not kinematics.closed_form:  # its wrist is no point: the whole arm, from any distance
+            self.farthest += self.hand
             self.hand, self.nearest = 0.0, 0.0
-            self.farthest += float(np.linalg.norm(tool - wrist))
 
     def holds(self, wrists: Array, torso: float) -> Array:
         """Return for each of the wrists (n, 3), in ``base_link``, whether it is in reach."""

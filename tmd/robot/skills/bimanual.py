@@ -82,7 +82,7 @@ def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[O
         except SkillError:
             continue
         for goal in islice(_places(cell, side, item, options), _MOST_HERE):
-            path = plan_arm(cell.robot, side, goal, rng=cell.rng, budget=200)
+            path = plan_arm(cell.robot, side, goal, rng=cell.rng)
             if path is not None and cell.robot.move_arm(side, path):
                 yield
 

@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 
+import numpy as np
+
 from tmd.robot.pr2.pr2 import ARMS
 from tmd.robot.scene.scene import Handle
 from tmd.robot.sim.pose import Vector
@@ -129,14 +131,10 @@ class Camera:
         """Return what to show of a door or a drawer: the handle, and the inside, which nothing but itself may cover."""
         scene = self._cell.scene
         inside = scene.regions(name, "in") or scene.regions(self._cell.whole(name), "in")
-        low, high = self._cell.sim.extents(handle.body, handle.index)
-        middles = [scene.frame(whole, each.link).apply(_middle(each.low, each.high)) for whole, each in inside]
-        edge = (*_middle(low, high)[:2], high[2])
-        return [
-            _Point(handle.grasp.position, (), 2.0),
-            *(_Point(each, (), 1.5) for each in middles),
-            _Point(edge, (), 0.5),
+        middles = [
+            scene.frame(whole, each.link).apply((np.add(each.low, each.high) / 2).tolist()) for whole, each in inside
         ]
+        return [_Point(handle.grasp.position, (), 2.0), *(_Point(each, (), 1.5) for each in middles)]
 
     def _worth(self, view: View, points: Sequence[_Point]) -> float:
         if self._inside(view.eye):
@@ -168,11 +166,6 @@ def _overview(cell: Cell) -> View:
     x, y, z = (e - t for e, t in zip(eye, target, strict=True))
     distance = math.hypot(x, y, z)
     return View(target, math.atan2(y, x), math.asin(z / distance), distance)
-
-
-def _middle(low: Vector, high: Vector) -> Vector:
-    x, y, z = ((a + b) / 2 for a, b in zip(low, high, strict=True))
-    return (x, y, z)
 
 
 def _ball(places: Sequence[Vector]) -> tuple[Vector, float]:

@@ -139,7 +139,7 @@ class Film:
         self._caption = Caption(str(title.instruction), number, _said(title), tuple(facts), note, badge)
         self._hold(_SHOWN if badge == "ok" else _FAILURE_SHOWN)
         if self._strip:
-            # what it is about: the button while it is down, not the arm when it is tucked; what goes out, once it is out
+            # what it is about: the button while it is down, not the arm when it is tucked; what goes out, afterwards
             out = any(not each.holds and each.atom.predicate in self._skills.signs for each in step.effects)
             seen = self._event if badge == "ok" and not out else None
             picture = self._picture(self._camera.best(), TILE) if seen is None else seen
@@ -167,27 +167,20 @@ class Film:
         self._hold(_ENDING)
 
     def _take_event(self) -> None:
-        with self._as_expected():
-            self._event = self._picture(self._camera.best(), TILE)
-
-    @contextmanager
-    def _as_expected(self) -> Iterator[None]:
-        """Show what the instruction brings about: its picture is used only if that is so in the end."""
+        """Take the picture with what the instruction brings about: it is used only if that is so in the end."""
         scene = self._cell.scene
         signs = [atom for atom in self._expected if atom.predicate in self._skills.signs]
-        gains = [atom for atom in self._expected if atom.predicate == self._skills.contents and len(atom.args) == 2]
-        before = {atom.args[0]: scene.shown(atom.args[0]) for atom in gains}
+        gains = [atom.args for atom in self._expected if atom.predicate == self._skills.contents]
+        before = {name: scene.shown(name) for name, _ in gains}
         for atom in signs:
             scene.sign(atom.args[0], atom.predicate, True)
         for name, shown in before.items():
-            scene.show(name, (*shown, *(atom.args[1] for atom in gains if atom.args[0] == name)))
-        try:
-            yield
-        finally:
-            for atom in signs:
-                scene.sign(atom.args[0], atom.predicate, False)
-            for name, shown in before.items():
-                scene.show(name, shown)
+            scene.show(name, (*shown, *(what for where, what in gains if where == name)))
+        self._event = self._picture(self._camera.best(), TILE)
+        for atom in signs:
+            scene.sign(atom.args[0], atom.predicate, False)
+        for name, shown in before.items():
+            scene.show(name, shown)
 
     def _number(self, title: Title) -> str:
         """Return its place in the plan, and the number of the try after the first."""
