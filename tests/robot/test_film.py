@@ -26,6 +26,7 @@ from tmd.robot.monitor.listeners import Order, Recorder, Title
 from tmd.robot.monitor.observation import Mismatch
 from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
+from tmd.robot.video.camera import Camera
 from tmd.robot.video.captions import Caption, caption_height, filmstrip, under
 from tmd.robot.video.film import Film, open_movie
 from tmd.robot.video.movie_file import MovieFile
@@ -122,7 +123,9 @@ def test_a_door_is_shown_from_where_its_inside_is_seen(tmp_path: Path) -> None:
         camera, cell = Camera(ready.cell), ready.cell
         camera.follow(["cupboard1_door"], wide=False)
         ((whole, region), *_) = cell.scene.regions("cupboard1", "in")
-        inside = cell.scene.frame(whole, region.link).apply([(a + b) / 2 for a, b in zip(region.low, region.high)])
+        inside = cell.scene.frame(whole, region.link).apply(
+            [(a + b) / 2 for a, b in zip(region.low, region.high, strict=True)]
+        )
         hit = cell.sim.ray(camera.view.eye, inside)
         assert hit is None or np.linalg.norm(np.subtract(hit.position, inside)) < 0.12
 
