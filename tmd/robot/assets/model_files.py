@@ -85,7 +85,7 @@ def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) ->
     low, high = (_vector(corner) for corner in mesh.bounds)
     solid = shape.solid if shape.solid is not None else not shape.holds
     if not solid and not mesh.is_watertight:
-        hint = "close its holes, or say `solid: true`" if not shape.holds else "close its holes: walls have two sides"
+        hint = "close its holes; or say `solid: true`, if nothing goes into it"
         raise ModelFault(("mesh",), f"{path} is not closed: nothing is inside or outside of it", hint)
     hollow = _hollow(mesh) if shape.holds else None
     seen, solids = _copies(path, shape, mesh, solid=solid)
@@ -117,12 +117,11 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
     library = mesh_library()
     try:
         mesh: Any = library.load(path, force="mesh")
-        sound = len(mesh.faces) > 0 and bool(np.isfinite(mesh.vertices).all())
+        if len(mesh.faces) == 0 or not np.isfinite(mesh.vertices).all():
+            raise ValueError("it has no triangles")
     except Exception as error:  # its readers raise whatever a damaged file leads to
         told = " ".join(str(error).split())[:120] or type(error).__name__
         raise ModelFault(("mesh",), f"{path} is not a mesh: {told}", "name an OBJ, STL, PLY or GLB file") from error
-    if not sound:
-        raise ModelFault(("mesh",), f"{path} is not a mesh: it has no triangles", "name an OBJ, STL, PLY or GLB file")
     return mesh  # type: ignore[no-any-return]  # trimesh.load gives whatever the file holds
 
 
@@ -138,8 +137,7 @@ def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
     if extents.min() <= 0:
         raise ModelFault(("mesh",), f"{path} has no thickness: it is {size} m large", "give it another side")
     if not _SMALLEST <= extents.max() <= _LARGEST:
-        hint = _unit(mesh, shape.scale) or "say `scale: 0.001` if its unit is the millimetre"
-        raise ModelFault(("mesh",), f"{path} is {size} m large", hint)
+        raise ModelFault(("mesh",), f"{path} is {size} m large", _unit(mesh, shape.scale))
     bottom = mesh.vertices[:, 2].min()
     foot = mesh.vertices[mesh.vertices[:, 2] < bottom + 0.05 * extents[2]]
     middle = (foot.min(axis=0) + foot.max(axis=0)) / 2
@@ -148,13 +146,13 @@ def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
 
 
 def _unit(mesh: trimesh.Trimesh, scale: float) -> str:
-    """Return the unit in which the mesh would be something that a hand takes, as advice; empty if there is none."""
+    """Return the unit in which the mesh would be something that a hand takes, as advice."""
     sides = sorted(map(float, mesh.extents))
     for name, unit in _UNITS.items():
         if _CARRIED[0] <= sides[-1] * unit <= _CARRIED[1] and sides[0] * unit <= _NARROW:
             size = " × ".join(f"{100 * side * unit:.3g}" for side in mesh.extents)
             return f"say `scale: {scale * unit:g}` if its unit is the {name}: then it is {size} cm large"
-    return ""
+    return "say by `scale:` how many metres its unit is"
 
 
 def _copies(path: Path, shape: Shape, mesh: trimesh.Trimesh, *, solid: bool) -> tuple[Path, list[Path]]:
@@ -258,8 +256,7 @@ def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh, scale: float) -> N
         if width <= _NARROW:
             grasp(model, (0.0, 0.0, over), DOWN, across, width)
     if not model.grasps:
-        narrow = "say under `grasps:` where it is narrow enough to be taken"
-        hint = ", or ".join(filter(None, (_unit(mesh, scale), narrow)))
+        hint = f"{_unit(mesh, scale)}, or say under `grasps:` where it is narrow enough to be taken"
         raise ModelFault(
             ("mesh",), f"no hand fits round it: it is wider than {100 * _NARROW:.0f} cm on all sides", hint
         )

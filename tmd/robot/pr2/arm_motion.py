@@ -100,9 +100,9 @@ def _plan_arm(
         if path is None:
             return None
         path = shorten(path, free, STRIDES, rng)
-        path = exact(
-            path, robot.arm_groups[side], lambda track: free(track, ARM_MOTION.rounding * ARM_MOTION.clearance)
-        )
+        if not robot.kinematic:  # else corners are not rounded
+            rounding = ARM_MOTION.rounding * ARM_MOTION.clearance
+            path = exact(path, robot.arm_groups[side], lambda track: free(track, rounding))
     return [tuple(float(value) for value in row) for row in path[1:]]
 
 

@@ -105,11 +105,11 @@ class ArmKinematics:
         ``torso`` is the height of the torso joint. Results near ``seed``, seven positions, come first (largest joint
         motion counts).
         """
-        if not self.closed_form:
-            arms = self._kept(self._numeric(tool, torso, seed), tool, torso, seed)
-        else:
+        if self.closed_form:
             pans = np.linspace(self.lower[_PAN] + IK.margin, self.upper[_PAN] - IK.margin, IK.pans)
             arms = self._closed(tool, torso, pans, seed)
+        else:
+            arms = self._kept(self._numeric(tool, torso, seed), tool, torso, seed)
         far = np.abs(arms - np.asarray(seed, dtype=float))
         order = np.lexsort((far.sum(axis=1), np.round(far.max(axis=1), 6)))
         return [tuple(float(value) for value in arm) for arm in arms[order]]
@@ -119,24 +119,22 @@ class ArmKinematics:
 
         The arguments are those of :meth:`solve`.
         """
-        start = np.asarray(seed, dtype=float)
-        if not self.closed_form:
-            return _next_to(start, self._kept(self._descend(start[None], tool, torso), tool, torso, seed), IK.leap)
         # the same pan as before first: mostly it will do
-        for pans, most in ((_DETOURS[:1], IK.smooth), (_DETOURS, IK.leap)):
-            found = _next_to(start, self._closed(tool, torso, seed[_PAN] + pans, seed), most)
+        for pans, most in ((_DETOURS[:1], IK.smooth), (_DETOURS, IK.leap))[not self.closed_form :]:
+            found = _next_to(seed, self._beside(tool, torso, seed, seed[_PAN] + pans), most)
             if found is not None:
                 return found
         return None
 
     def with_pan(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
         """Return a solution with the shoulder panned as in ``seed``, wherever the other joints are, or None."""
-        start = np.asarray(seed, dtype=float)
-        if not self.closed_form:
-            arms = self._kept(self._descend(start[None], tool, torso), tool, torso, seed)
-        else:
-            arms = self._closed(tool, torso, start[:1], seed)
-        return _next_to(start, arms, np.inf)
+        return _next_to(seed, self._beside(tool, torso, seed, np.array(seed[:1])), np.inf)
+
+    def _beside(self, tool: Pose, torso: float, seed: Sequence[float], pans: Array) -> Array:
+        """Return solutions (n, 7) with some pans, or the one that a descent from ``seed`` leads to."""
+        if self.closed_form:
+            return self._closed(tool, torso, pans, seed)
+        return self._kept(self._descend(np.array([seed]), tool, torso), tool, torso, seed)
 
     def _kept(self, arms: Array, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
         """Return the rows within the limits that reach the pose."""
@@ -208,7 +206,7 @@ def _spun(angle: Array, x: Array | float, y: Array | float) -> tuple[Array, Arra
     return cosine * x + sine * y, cosine * y - sine * x
 
 
-def _next_to(start: Array, arms: Array, most: float) -> tuple[float, ...] | None:
+def _next_to(start: Sequence[float], arms: Array, most: float) -> tuple[float, ...] | None:
     """Return the row of ``arms`` (n, 7) that is nearest to ``start``, if no joint is farther away than ``most``."""
     if not len(arms):
         return None

@@ -64,7 +64,7 @@ def plan(
         budget: Maximum number of samples.
         project: Brings new nodes to where a constraint holds (CBiRRT, Berenson et al. 2009); ``free`` checks it too.
     """
-    if _clear(start, goal, free, strides):
+    if clear(start, goal, free, strides):
         return np.array([start, goal])
     trees = [_Tree([start]), _Tree([goal])]
     for _ in range(budget):
@@ -99,12 +99,12 @@ def shorten(
             path[piece] + (path[piece + 1] - path[piece]) * (where - at[piece]) / max(lengths[piece], 1e-12)
             for piece, where in ((first, low), (last, high))
         )
-        if _clear(start, end, free, strides):
+        if clear(start, end, free, strides):
             path, failed = np.vstack([path[: first + 1], start, end, path[last + 1 :]]), 0
     return path
 
 
-def _clear(start: Array, end: Array, free: Free, strides: Array) -> bool:
+def clear(start: Array, end: Array, free: Free, strides: Array) -> bool:
     """Return whether the line is free; ``start`` is not checked."""
     return free(dense(np.array([start, end]), strides.tolist())[1:])
 
@@ -121,7 +121,7 @@ def _extend(tree: _Tree, target: Array, free: Free, strides: Array, project: Pro
         if point is None or float(np.linalg.norm((target - point) / strides)) > length - edge / 10:
             return None  # the constraint leads away from there
     assert point is not None
-    return tree.add(point, near) if _clear(tree.nodes[near], point, free, strides) else None
+    return tree.add(point, near) if clear(tree.nodes[near], point, free, strides) else None
 
 
 def _connect(tree: _Tree, target: Array, free: Free, strides: Array, project: Project | None) -> int | None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice, product
-from math import atan2, cos, degrees, sin
+from math import atan2, cos, degrees, dist, sin
 
 from tmd.robot.monitor.observation import REACH
 from tmd.robot.parameters import BASE_MOTION, STANCE
@@ -74,7 +74,7 @@ def _lookouts(cell: Cell, name: str, point: Vector) -> Iterator[tuple[Base, floa
 
 def _past_robot(eye: Vector, spot: Vector) -> Vector:
     """Return the start of a ray: not the eye, since the robot stands elsewhere now, and may stand there."""
-    share = min(BASE_MOTION.head_radius / max(Pose(eye).distance(Pose(spot)), 1e-6), 0.9)
+    share = min(BASE_MOTION.head_radius / max(dist(eye, spot), 1e-6), 0.9)
     x, y, z = (a + share * (b - a) for a, b in zip(eye, spot, strict=True))
     return (x, y, z)
 
@@ -92,9 +92,7 @@ def _seen(cell: Cell, name: str, point: Vector) -> str:
     for spot in _spots(cell, name, point):
         if cell.robot.sees(spot, body):
             pan = degrees(cell.robot.positions()["head_pan_joint"])
-            return (
-                f"{name} is in view, {Pose(cell.robot.eye().position).distance(Pose(spot)):.1f} m away, pan {pan:.0f}"
-            )
+            return f"{name} is in view, {dist(cell.robot.eye().position, spot):.1f} m away, pan {pan:.0f}"
     return ""
 
 

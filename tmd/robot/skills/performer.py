@@ -61,7 +61,6 @@ class RobotPerformer:
             for name in springs:
                 navigate_and_look.step_back(self.cell, name)
                 self.cell.spring(name)
-            if springs:
                 self.cell.moment()
         return said
 

@@ -100,11 +100,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         here = cell.sim.pose(body)
         return min((here.apply(how.at) for how in known), key=lambda point: point[2])
 
-    def over_rim() -> bool:
-        """Return whether what runs out now gets where it should."""
-        return _beside(cell, leaving(), target) <= POURING.mouth_offset
-
-    with cell.leaning(item, over_rim):
+    with cell.leaning(item, lambda: _beside(cell, leaving(), target) <= POURING.mouth_offset):
         chosen = reach_for(cell, target, options, Pose(_overs(cell, target, POURING.heights[0][0])[0]), attempt)
         how = known[chosen.spot]
         if squeezed:
