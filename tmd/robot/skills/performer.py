@@ -66,10 +66,9 @@ class RobotPerformer:
 
     def _stay_near(self, task: SkillTask) -> None:
         """Go back to what was worked at from so far away, or after so many steps back, that it is not near."""
-        name = task.target or task.object
-        if task.skill in ("close", "open", "rotate", "push") and self.cell.reach(name) > REACH:
+        if task.skill in ("close", "open", "rotate", "push") and self.cell.reach(task.object) > REACH:
             with suppress(SkillError):
-                navigate_and_look.drive(self.cell, name, 0)
+                navigate_and_look.drive(self.cell, task.object, 0)
 
     def _remember(self, task: SkillTask) -> None:
         """Remember the poses and grips of things with which something could not be done.

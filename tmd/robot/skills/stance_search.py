@@ -368,10 +368,11 @@ def _held_up(cell: Cell) -> str:
 def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[bool, int]:
     """Return whether there are a posture for the last pose and a motion through all, and the cost of this check."""
     robot, side = cell.robot, option.side
-    found = robot.solve(side, option.poses[-1], base=base, torso=torso)[: STANCE.max_postures]
+    found = robot.solve(side, option.poses[-1], base=base, torso=torso)
     if not found:
         return False, STANCE.prices[0]
-    if not any(robot.clear(side, found, base=base, torso=torso, ignore=option.ignore)):
+    spread = found[:: -(-len(found) // STANCE.max_postures)]  # neighbours touch the same
+    if not any(robot.clear(side, spread, base=base, torso=torso, ignore=option.ignore)):
         return False, STANCE.prices[1]
     poses = dense(option.poses, _COARSE)  # what lies in between is looked at once the robot is there
     rows = plan_poses(robot, side, poses, ignore=option.ignore, base=base, torso=torso)

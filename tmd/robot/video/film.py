@@ -97,7 +97,7 @@ class Film:
             width, height = movie.size
             self._size = width, height - caption_height(width)
             self._fps = movie.fps
-            self._time, self._shot, self._shots = 0.0, 0.0, 0
+            self._time, self._shot = 0.0, 0.0
             self._steps, self._ticks = cell.sim.steps, cell.sim.ticks
             cell.sim.add_watcher(self._watch)
 
@@ -210,8 +210,7 @@ class Film:
         self._time += stepped / STEPS_PER_SECOND + ticked * TICK
         if self._time >= self._shot - 1e-9:
             self._shot += 1 / self._fps
-            self._shots += 1
-            if self._last is None or self._camera.at_work() or self._shots % _PAUSE == 0:
+            if self._last is None or self._camera.at_work() or round(self._shot * self._fps) % _PAUSE == 0:
                 self._last = self._picture(self._camera.view, self._size)
             assert self._movie is not None
             self._movie.add(under(self._last, self._caption))
