@@ -132,6 +132,18 @@ def test_a_door_is_seen_to_hit_what_the_other_hand_holds(cell: Cell) -> None:
     assert 0 < len(struck) < len(places)
 
 
+def test_what_was_just_dipped_is_kept_level_before_anything_is_seen_on_it(cell: Cell) -> None:
+    with held(cell, "right", "spoon1"):
+        motion = cell.sim.motion(cell.scene.bodies["spoon1"])
+        x, y, z = cell.sim.pose(cell.scene.bodies["spoon1"]).position
+        cell.sim.set_pose(cell.scene.bodies["spoon1"], Pose((x, y, z)))
+        assert cell.robot.keeps_level("right") is None, "an empty spoon may lie in the hand as it likes"
+        cell.load("spoon1")
+        assert cell.robot.keeps_level("right") is True
+        cell.reset_leant()
+        cell.sim.set_motion(cell.scene.bodies["spoon1"], motion)
+
+
 def test_contents_leave_a_vessel_at_its_mouth_whatever_its_handle(cell: Cell) -> None:
     """However it is held, and from the angle of spilling on, the lowest point of the rim is where the mouth is."""
     vessels = [item for item in cell.scene.items() if cell.scene.opening(item) and cell.scene.grasps(item)]

@@ -70,11 +70,10 @@ class Cell:
     def _keeps_level(self, side: str) -> bool | None:
         """Return True for a full thing, False for one that can hold something, None for what lies in the hand."""
         item = self.in_hand.get(side)
-        if item is None or not (self.scene.stands(item) or self.scene.shown(item)):
+        if item is None or self.tilt(item) > CONTACT.upright or self.robot.held(side) is None:
             return None
-        if self.tilt(item) > CONTACT.upright or self.robot.held(side) is None:
-            return None
-        return bool(self.scene.shown(item)) and self.spills_from(item) is not None
+        full = bool(self.scene.shown(item)) or item in self._loaded
+        return full and self.spills_from(item) is not None if full or self.scene.stands(item) else None
 
     def look_on(self, doing: str) -> None:
         """Limit the cost of what is being looked for.
