@@ -107,9 +107,7 @@ class ArmKinematics:
         """
         if self.closed_form:
             pans = np.linspace(self.lower[_PAN] + IK.margin, self.upper[_PAN] - IK.margin, IK.pans)
-            arms = self._closed(tool, torso, pans[::2], seed)
-            if not len(arms):  # a narrow family can lie between two points of the grid
-                arms = self._closed(tool, torso, pans[1::2], seed)
+            arms = self._closed(tool, torso, pans, seed)
         else:
             arms = self._kept(self._numeric(tool, torso, seed), tool, torso, seed)
         far = np.abs(arms - np.asarray(seed, dtype=float))

@@ -105,7 +105,9 @@ def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Opt
         if not any(robot.solve(now[i].side, moved[i][-1]) for i in near):
             continue
         goals = [
-            g for g in robot.solve(side, there * grip.inverse())[:_POSTURES] if not robot.collides(side=side, arm=g)
+            g
+            for g in robot.solve(side, there * grip.inverse())[::_POSTURES][:_POSTURES]
+            if not robot.collides(side=side, arm=g)
         ]
         for goal in goals[:1]:
             asked += 1
