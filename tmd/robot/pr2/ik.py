@@ -20,7 +20,7 @@ from tmd.robot.pr2.urdf import ARM, TOOL
 from tmd.robot.sim.pose import Pose
 
 _PAN = 0
-_DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
+_DETOURS = np.array([0.0, *(sign * far for far in (0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2) for sign in (1, -1))])
 # Metres and radians: a descent from all of whose starts the pose is reached so well has ended.
 _EXACT = 1e-7
 
