@@ -58,7 +58,6 @@ endef
 current = $(BIN)/python -c '' 2>/dev/null && { $(foreach stamp,$(1),cmp -s pyproject.toml $(stamp) ||) false; }
 
 $(STAMP): venv
-	@command -v g++ >/dev/null || { echo "error: there is no g++, which pr2-ikfast is compiled with; install it (apt-get install g++). 'make experiment' and 'make demo' do without" >&2; exit 1; }
 	@echo "installing everything, tests and tools too, into $(VENV)/: 2.3 GB on disk, about 4 minutes; stop and go on as you like …"
 	$(call installed,dev)
 

@@ -36,7 +36,7 @@ LAYERS = (
 LAYER = {package: number for number, layer in enumerate(LAYERS) for package in layer}
 HEAVY = {
     "unified_planning", "up_fast_downward", "numba", "pybullet", "rich", "joblib",
-    "matplotlib", "jinja2", "scipy", "distributed", "dask", "imageio", "PIL", "ikfast_pr2", "pr2_ikfast",
+    "matplotlib", "jinja2", "scipy", "distributed", "dask", "imageio", "PIL",
     "viser", "trimesh", "vhacdx", "mcap_ros2", "mujoco", "openai", "pygls", "lsprotocol",
 }  # fmt: skip
 MOST_COMPLEX = 15

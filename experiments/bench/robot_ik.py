@@ -55,11 +55,9 @@ def inverse_kinematics() -> None:
         Pose.from_matrix(arm.tool(0.15, row[None])[0]) for row in rng.uniform(lower + 0.02, upper - 0.02, (POSES, 7))
     ]
     print(f"{'solver':24} {'solved':>8} {'solutions':>10} {'ms':>8}")
-    for name, numeric in (("pr2-ikfast, 48 rolls", False), ("damped least squares", True)):
-        if not numeric and importlib.util.find_spec("pr2_ikfast") is None:
-            continue
+    for name, arm.closed_form in (("closed form, 96 pans", True), ("damped least squares", False)):
         start = time.perf_counter()
-        found = [len(arm.solve(target, 0.15, (0.0,) * 7, numeric=numeric)) for target in targets]
+        found = [len(arm.solve(target, 0.15, (0.0,) * 7)) for target in targets]
         spent = (time.perf_counter() - start) / POSES * 1e3
         print(f"{name:24} {np.mean(np.array(found) > 0):8.1%} {np.mean(found):10.1f} {spent:8.2f}")
 

@@ -27,6 +27,8 @@ SPILLS = 20.0
 HEATED = 1.9
 """Seconds that something must have stood where it gets hot."""
 PRESSED = 0.5
+BESIDE = 0.006
+"""Metres beside an opening at which what falls still gets in: the edge that it leaves over is as thick as a wall."""
 
 
 @dataclass
@@ -286,7 +288,9 @@ class Judge:
         return found is not None and found[1] == "lid" and found[0] <= SHUT
 
     def _came_in(self, item: str, step: Step) -> bool:
-        return any(self._runs_in(item, frame) or self._poured_in(item, frame) for frame in step.frames)
+        return self._tipped_in(item, step) or any(
+            self._runs_in(item, frame) or self._dipped(item, frame) for frame in step.frames
+        )
 
     def _rim(self, item: str, frame: Frame) -> tuple[Array, float]:
         """The middle and the radius of the opening of a vessel; of a spoon, of its head."""
@@ -306,19 +310,36 @@ class Judge:
                     return degrees(frame.tilt(item)) <= UPRIGHT
         return False
 
-    def _poured_in(self, item: str, frame: Frame) -> bool:
-        """Whether the lowest end of something that is tipped is over the opening, or dipped into it."""
+    def _tipped_in(self, item: str, step: Step) -> bool:
+        """Whether something that was tipped over the opening lost what is in it there.
+
+        It is lost from the angle of spilling on: over the opening then, and up to where it is tipped most. What comes
+        out of a packet does so at its lowest end, wherever it was carried before.
+        """
+        for other in sorted({name for frame in step.frames for name in frame.held} - {item}):
+            opening = self._seen.models[other].opening
+            spills = SPILLS if opening is None else max(degrees(opening.spills_from), SPILLS)
+            tipped = [frame for frame in step.frames if other in frame.held and degrees(frame.tilt(other)) >= spills]
+            most = max(range(len(tipped)), key=lambda number: tipped[number].tilt(other), default=-1)
+            over = [self._held_over(other, item, frame) for frame in tipped[: most + 1]]
+            if over and (any(over) if opening is None else all(over)):
+                return True
+        return False
+
+    def _held_over(self, other: str, item: str, frame: Frame) -> bool:
+        """Whether the lowest end of one thing is over the opening of another; a spoon's may be below its rim."""
         middle, radius = self._rim(item, frame)
-        for other in frame.held:
-            for one, target in ((other, item), (item, other)):
-                if one != other and target == other:
-                    continue
-                for end in self._ends(one, frame):
-                    if one != item and hypot(*(end - middle)[:2]) <= radius + 0.012 and end[2] > middle[2] - 0.06:
-                        return True
+        below = 0.06 if self._seen.models[other].opening is None else 0.005
+        return any(
+            hypot(*(end - middle)[:2]) <= radius + BESIDE and end[2] > middle[2] - below
+            for end in self._ends(other, frame)
+        )
+
+    def _dipped(self, item: str, frame: Frame) -> bool:
+        """Whether the head of a spoon is below the rim of something."""
         if item not in frame.held:
             return False
-        head = self._ends(item, frame)[0]  # a spoon that is dipped into something
+        head = self._ends(item, frame)[0]
         for source in self._seen.items:
             if source != item and self._seen.models[source].opening is not None:
                 rim, wide = self._rim(source, frame)
@@ -332,7 +353,7 @@ class Judge:
         for other in self._seen.items:
             if other != item and self._seen.models[other].opening is not None:
                 rim, wide = self._rim(other, frame)
-                if hypot(*(end - rim)[:2]) <= wide + 0.012:
+                if hypot(*(end - rim)[:2]) <= wide + BESIDE:
                     return True
         return any(self._seen.models[whole].spouts and self._within(whole, end) for whole in self._seen.bodies)
 

@@ -111,10 +111,14 @@ def demonstrations(corpus: Corpus) -> list[Demonstration]:
 
 
 def run(
-    corpus: Corpus, demonstration: Demonstration, *faults: Callable[[Truth, Instruction], bool]
+    corpus: Corpus,
+    demonstration: Demonstration,
+    *faults: Callable[[Truth, Instruction], bool],
+    start: Callable[[State], State] = lambda state: state,
 ) -> tuple[Execution, Truth, list[ExecutedStep]]:
     truth = Truth(corpus, demonstration.environment)
     truth.faults = list(faults)
+    truth.state = start(truth.state)
     told: list[ExecutedStep] = []
     known = OBSERVERS.get(demonstration.environment)
     if known is None:
@@ -471,6 +475,8 @@ def test_what_spills_as_it_is_held_is_taken_in_another_way(corpus: Corpus, demon
     names = [s.instruction.name for s in done.steps if s.instruction.args[:1] == (spoons[0],)]
     first, second = [n for n, name in enumerate(names) if name == "scoopfrom"][:2]
     assert "grasp" in names[first:second]
+    planned = [i.name for i in chosen.instructions if i.args[:1] == (spoons[0],)]
+    assert names.count("scoopto") == planned.count("scoopto"), "what the repair took is not taken a second time"
 
 
 def test_what_stands_beside_the_stream_stays_dry(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
@@ -490,6 +496,39 @@ def test_what_stands_beside_the_stream_stays_dry(corpus: Corpus, demonstrations:
     assert done.status is SkillStatus.RECOVERED, done.reason
     assert any("the stream is beside kettle1" in str(m) for step in told for m in step.mismatches)
     assert GroundAtom("filled", ("kettle1",)) in done.state
+
+
+def test_nothing_was_recovered_where_only_a_bystander_stays_dry(
+    corpus: Corpus, demonstrations: list[Demonstration]
+) -> None:
+    chosen = next(d for d in demonstrations if d.id == "boiling_water-kitchen1-01")
+    named = {name for instruction in chosen.instructions for name in instruction.args}
+    assert "bowl1" not in named
+
+    def beside_it(state: State) -> State:
+        elsewhere = {a for a in state if a.predicate == "at" and a.args[0] == "bowl1"}
+        return (state - elsewhere) | {GroundAtom("at", ("bowl1", "sink1", "in"))}
+
+    def dry(truth: Truth, instruction: Instruction) -> bool:
+        truth.beside = {"bowl1"}
+        return False
+
+    done, _, told = run(corpus, chosen, dry, start=beside_it)
+    assert any("the stream is beside bowl1" in str(m) for step in told for m in step.mismatches)
+    assert (done.status, done.repairs) == (SkillStatus.DONE, 0), done.reason
+
+
+def test_a_drive_that_does_not_get_there_is_not_tried_for_ever(
+    corpus: Corpus, demonstrations: list[Demonstration]
+) -> None:
+    def never(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name == "moveto":
+            raise SkillError(SkillPhase.EFFECT, "it is 1.42 m away")
+        return False
+
+    done, _, _ = run(corpus, demonstrations[0], never)
+    assert done.status is SkillStatus.STOPPED and "tried again as it failed" in done.reason
+    assert [step.instruction.name for step in done.steps].count("moveto") == 2
 
 
 @given(data=st.data())

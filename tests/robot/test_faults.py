@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
@@ -13,7 +14,7 @@ from experiments.execution.__main__ import CLOSING, OPENING, main
 from experiments.execution.faults import InjectedFault, opportunities
 from experiments.execution.judge import Judge
 from experiments.execution.record import FAILED, Case, FaultRecord, Record, append, read
-from experiments.execution.recorder import Recorder
+from experiments.execution.recorder import Frame, Recorder
 from experiments.execution.report import claimed_falsely, masked, report, seen
 from experiments.execution.run import corpus, holds, run, skills_of
 from tmd.diagnostics import ExitCode, TmdError
@@ -72,6 +73,40 @@ def test_the_judge_tells_what_is_not_so() -> None:
         recorder.end(Title(instruction, 1, 1, False, None), step)
         lying = Judge(recorder).judge(execution)
     assert any("(at mug1 table1 on)" in claim and "leans by" in claim for claim in lying.false)
+
+
+def test_a_pour_counts_from_the_tilt_at_which_the_thing_spills() -> None:
+    """Carried over the cup it is no pour, and what leaves beside the cup at any tilt does not come in."""
+    _, world = Roots().world(NOOK)
+    environment, folder = Roots().room(NOOK)
+    problem, instruction = world.task.problem, Instruction("pour", ("mug1", "cup1"))
+    effects = (KnownEffect(GroundAtom("contains", ("cup1", "water")), True, Basis.INFERRED, ""),)
+    told = ExecutedStep(instruction, False, "", "", effects, (), 0, 1, problem.init)
+    execution = Execution(SkillStatus.STOPPED, "", (told,), 0, problem.init)
+    with SimulationSession(environment, folder, problem, kinematic=True) as session:
+        recorder = Recorder(session)
+        step, middle = recorder.look(Title(instruction, 1, 1, False, None), told), recorder.models["cup1"].opening
+        rim = recorder.models["mug1"].opening
+        assert middle is not None and rim is not None
+        over = recorder.start.point("cup1", middle.centre) + np.array((0.0, 0.0, 0.05))
+
+        def frame(tilt: float, beside: float) -> Frame:
+            """The mug is tipped about y, the lowest point of its rim so far beside the cup's middle."""
+            pose = Pose.about((0.0, 1.0, 0.0), tilt)
+            x, y, z = pose.apply((rim.centre[0] + rim.radius + 0.005, rim.centre[1], rim.centre[2]))
+            turn = np.array(pose.homogeneous())[:3, :3]
+            places = recorder.start.places | {"mug1": (over + np.array((beside - x, -y, -z)), turn)}
+            return Frame(0, places, recorder.start.joints, ("mug1",))
+
+        def false(*frames: Frame) -> bool:
+            recorder.steps[:] = [replace(step, frames=frames)]
+            return bool(Judge(recorder).judge(execution).false)
+
+        begins = rim.spills_from + 0.05
+        assert false(frame(0.0, 0.0), frame(0.3, 0.0)), "upright over the cup"
+        assert not false(frame(0.0, 0.2), frame(begins, 0.0), frame(1.8, 0.0), frame(0.0, 0.2))
+        assert false(frame(begins, middle.radius + 0.02), frame(1.8, 0.0)), "it began to run out beside the cup"
+        assert false(frame(begins, 0.0), frame(1.8, middle.radius + 0.02))
 
 
 def test_what_is_stuck_is_seen_and_tried_again() -> None:

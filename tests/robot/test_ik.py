@@ -8,7 +8,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.diagnostics import MissingToolError
-from tmd.robot.pr2 import ik
 from tmd.robot.pr2 import urdf as pr2_urdf
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree
@@ -20,10 +19,11 @@ except MissingToolError:
     pytest.skip("needs the extra robot", allow_module_level=True)
 ARMS = {side: ArmKinematics(TREE, side) for side in ("right", "left")}
 HOME = (0.0,) * 7
-SOLVERS = [
-    pytest.param(False, marks=pytest.mark.skipif(ik._closed_form("right") is None, reason="needs pr2-ikfast")),
-    True,
-]
+DESCENT = {side: ArmKinematics(TREE, side) for side in ("right", "left")}
+for each in DESCENT.values():
+    each.closed_form = False
+SOLVERS = pytest.mark.parametrize("arms", [ARMS, DESCENT], ids=["closed form", "descent"])
+Arms = dict[str, ArmKinematics]
 
 
 def configuration(side: str, seed: int) -> Array:
@@ -38,37 +38,37 @@ def tool(side: str, arm: Array, torso: float) -> Pose:
     return Pose.from_matrix(ARMS[side].tool(torso, arm[None])[0])
 
 
-@pytest.mark.parametrize("numeric", SOLVERS)
+@SOLVERS
 @given(side=st.sampled_from(["right", "left"]), seed=st.integers(0, 10**6), torso=st.floats(0, 0.31))
 @settings(max_examples=25, deadline=None, derandomize=True)
-def test_poses_that_an_arm_can_reach_are_solved(numeric: bool, side: str, seed: int, torso: float) -> None:
+def test_poses_that_an_arm_can_reach_are_solved(arms: Arms, side: str, seed: int, torso: float) -> None:
     target = tool(side, configuration(side, seed), torso)
-    found = ARMS[side].solve(target, torso, HOME, numeric=numeric)
+    found = arms[side].solve(target, torso, HOME)
     assert found
-    arms = np.array(found)
-    assert ARMS[side].inside(arms, 0.0).all()
-    for arm in arms:
+    rows = np.array(found)
+    assert arms[side].inside(rows, 0.0).all()
+    for arm in rows:
         reached = tool(side, arm, torso)
         assert reached.distance(target) < 2e-4
         assert reached.angle(target) < 2e-3
-    far = np.abs(arms).max(axis=1)
+    far = np.abs(rows).max(axis=1)
     assert (np.diff(far) > -1e-5).all()
 
 
-@pytest.mark.parametrize("numeric", SOLVERS)
-def test_a_pose_out_of_reach_has_no_solution(numeric: bool) -> None:
-    assert ARMS["right"].solve(Pose((1.5, 0.0, 1.0)), 0.1, HOME, numeric=numeric) == []
-    assert ARMS["right"].track(Pose((1.5, 0.0, 1.0)), 0.1, HOME, numeric=numeric) is None
+@SOLVERS
+def test_a_pose_out_of_reach_has_no_solution(arms: Arms) -> None:
+    assert arms["right"].solve(Pose((1.5, 0.0, 1.0)), 0.1, HOME) == []
+    assert arms["right"].track(Pose((1.5, 0.0, 1.0)), 0.1, HOME) is None
 
 
-@pytest.mark.parametrize("numeric", SOLVERS)
-def test_small_motions_of_the_tool_are_small_motions_of_the_arm(numeric: bool) -> None:
+@SOLVERS
+def test_small_motions_of_the_tool_are_small_motions_of_the_arm(arms: Arms) -> None:
     arm = np.array([-0.5, 0.3, -0.8, -1.3, 0.4, -0.9, 0.5])
     start = tool("right", arm, 0.2)
     row: tuple[float, ...] = tuple(arm)
     for step in range(1, 11):
         target = Pose((start.position[0], start.position[1], start.position[2] + 0.01 * step), start.orientation)
-        after = ARMS["right"].track(target, 0.2, row, numeric=numeric)
+        after = arms["right"].track(target, 0.2, row)
         assert after is not None
         assert max(abs(a - b) for a, b in zip(row, after, strict=True)) < 0.15
         assert tool("right", np.array(after), 0.2).distance(target) < 2e-4
@@ -83,7 +83,22 @@ def test_endless_joints_take_the_short_way() -> None:
         assert abs(arm[6] + 7.0) <= np.pi + 1e-9
 
 
-def test_without_the_compiled_solver_the_numeric_one_answers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ik, "_closed_form", lambda side: None)
-    target = tool("right", configuration("right", 5), 0.1)
-    assert ARMS["right"].solve(target, 0.1, HOME)
+@given(side=st.sampled_from(["right", "left"]), seed=st.integers(0, 10**6), torso=st.floats(0, 0.31))
+@settings(max_examples=60, deadline=None, derandomize=True)
+def test_the_closed_form_gives_a_configuration_back_to_the_digit(side: str, seed: int, torso: float) -> None:
+    arm = configuration(side, seed)
+    found = ARMS[side].with_pan(tool(side, arm, torso), torso, tuple(arm))
+    assert found == pytest.approx(arm, abs=1e-6)
+
+
+def test_an_arm_that_is_built_otherwise_has_no_closed_form() -> None:
+    """The elbow is 1 cm beside the line from the shoulder to the wrist: descent solves it."""
+    root = pr2_urdf.prepare().root
+    origin = next(j for j in root.iter("joint") if j.get("name") == "r_elbow_flex_joint").find("origin")
+    assert origin is not None
+    origin.set("xyz", "0.4 0.01 0")
+    arm = ArmKinematics(Tree(root), "right")
+    target = Pose.from_matrix(arm.tool(0.1, configuration("right", 5)[None])[0])
+    assert ARMS["right"].closed_form and not arm.closed_form
+    found = arm.solve(target, 0.1, HOME)
+    assert found and Pose.from_matrix(arm.tool(0.1, np.array(found[:1]))[0]).distance(target) < 2e-4

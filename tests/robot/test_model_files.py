@@ -168,8 +168,56 @@ WRONG = {
         r"cabinet\.urdf has no link 'shelf'.*body, door_panel",
     ),
     "empty-region": ({"cabinet": CABINET.replace("0.72]", "1.72]")}, r"the region is empty along z"),
+    "no-bottom": ({"mug": "{mesh: tube.obj, holds: true}"}, r"it has no bottom: .*leave `holds` out"),
+    "not-closed": ({"mug": "{mesh: open.obj, solid: false}"}, r".*open\.obj is not closed.*`solid: true`"),
+    "no-thickness": ({"mug": "{mesh: card.obj}"}, r".*card\.obj has no thickness: it is 0\.08 × 0\.06 × 0 m large"),
+    "centimetres": (
+        {"mug": "{mesh: mug.obj, scale: 0.1}"},
+        r".*mug\.obj is .* m large.*`scale: 0\.001`.*centimetre: .* cm",
+    ),
+    "inches": (
+        {"mug": "{mesh: mug.obj, scale: 0.03937}"},
+        r"no hand fits round it.*`scale: 0\.000999998`.*inch.*or say under `grasps:`",
+    ),
+    "xacro": ({"cabinet": "{urdf: macro.urdf}"}, r".*macro\.urdf is a xacro, not a URDF \(expand it"),
+    "degrees": ({"cabinet": "{urdf: degrees.urdf}"}, r".*joint 'hinge' has a limit of 90 \(limits are in radians"),
+    "no-limits": ({"cabinet": "{urdf: loose.urdf}"}, r".*joint 'hinge' cannot move: .*<limit lower"),
+    "beside-the-bar": (
+        {"cabinet": CABINET.replace("0.07, 0.64, -0.1", "0.07, 0.64, -0.35")},
+        r"the hand would be \d+\.\d cm beside 'door_panel' \(`at` is the middle of the bar",
+    ),
     "no-hand": ({"mug": "{urdf: cabinet.urdf}"}, r"no hand can take it.*`grasps:`"),
 }
+
+
+def write_wrong(folder: Path) -> None:
+    """A tube, half a box, a card, and URDFs that are no good."""
+    import trimesh
+
+    trimesh.creation.annulus(0.025, 0.03, 0.09).export(folder / "tube.obj")
+    box = trimesh.creation.box((0.05, 0.05, 0.05))
+    trimesh.Trimesh(box.vertices, box.faces[:-2]).export(folder / "open.obj")
+    (folder / "card.obj").write_text("v 0 0 0\nv 0.08 0 0\nv 0.08 0.06 0\nv 0 0.06 0\nf 1 2 3\nf 1 3 4\n")
+    cabinet = (folder / "cabinet.urdf").read_text()
+    limit = re.search(r"<limit[^>]*>", cabinet)
+    assert limit is not None
+    (folder / "degrees.urdf").write_text(cabinet.replace(limit[0], '<limit lower="0" upper="90"/>'))
+    (folder / "loose.urdf").write_text(cabinet.replace(limit[0], ""))
+    macro = '<xacro:macro name="m" params=""/>'
+    (folder / "macro.urdf").write_text(
+        cabinet.replace("<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"').replace(
+            "</robot>", f"{macro}</robot>"
+        )
+    )
+
+
+@pytest.mark.parametrize("suffix", ["obj", "stl", "ply"])
+def test_what_is_just_as_wide_as_a_hand_is_taken_whatever_its_format(kitchen: Kitchen, suffix: str) -> None:
+    import trimesh
+
+    folder = kitchen(mug=f"{{mesh: post.{suffix}}}")
+    trimesh.creation.cylinder(0.035, 0.1, sections=64).export(folder.path / f"post.{suffix}")
+    assert Shapes(folder).blueprint("enamel_mug").model.grasps
 
 
 @pytest.mark.parametrize(("shapes", "told"), WRONG.values(), ids=list(WRONG))
@@ -180,6 +228,7 @@ def test_what_is_wrong_with_a_file_is_told_with_its_place(kitchen: Kitchen, shap
         '<robot name="lost"><link name="a"><collision><geometry><mesh filename="gone.stl"/></geometry></collision>'
         "</link></robot>"
     )
+    write_wrong(folder.path)
     with pytest.raises(TmdError) as caught:
         Shapes(folder).blueprint("enamel_mug" if "mug" in shapes else "cabinet")
     assert re.match(told, f"{caught.value.message} ({caught.value.hint})"), caught.value

@@ -281,7 +281,8 @@ def test_states_of_the_environment_are_seen(kitchen: Scene) -> None:
 
 @pytest.mark.parametrize("kitchen", ["kitchen1"], indirect=True)
 def test_contents_and_signs_change_the_picture(kitchen: Scene) -> None:
-    eye, target = kitchen.viewpoint(["stove1"])
+    x, y, z = kitchen.sim.pose(kitchen.bodies["stove1"]).position
+    eye, target = (x - 1.6, y - 1.0, z + 1.8), (x, y, z + 0.8)
     dark = kitchen.sim.picture(eye, target, 160, 120, shadow=False)
     kitchen.sign("stove1_burner1", "active", True)
     lit = kitchen.sim.picture(eye, target, 160, 120, shadow=False)

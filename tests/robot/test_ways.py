@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from itertools import pairwise
+from itertools import pairwise, product
+from math import cos, pi, sin
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,14 +14,17 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
 from tests.bundled import corpus
+from tmd.robot.monitor.observation import REACH
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.articulated import swing_options
-from tmd.robot.skills.pour_and_dip import dip_options
+from tmd.robot.skills.navigate_and_look import drive
+from tmd.robot.skills.pour_and_dip import _held_at, dip_options, mouths
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import with_room
 from tmd.world.environment import load_environment
+from tmd.world.roots import Roots
 
 
 @pytest.fixture(scope="module")
@@ -125,6 +130,51 @@ def test_a_door_is_seen_to_hit_what_the_other_hand_holds(cell: Cell) -> None:
         assert cell.sim.pose(body) == before
     cell.robot.move_arm("left", [tucked])
     assert 0 < len(struck) < len(places)
+
+
+def test_what_was_just_dipped_is_kept_level_before_anything_is_seen_on_it(cell: Cell) -> None:
+    with held(cell, "right", "spoon1"):
+        motion = cell.sim.motion(cell.scene.bodies["spoon1"])
+        x, y, z = cell.sim.pose(cell.scene.bodies["spoon1"]).position
+        cell.sim.set_pose(cell.scene.bodies["spoon1"], Pose((x, y, z)))
+        assert cell.robot.keeps_level("right") is None, "an empty spoon may lie in the hand as it likes"
+        cell.load("spoon1")
+        assert cell.robot.keeps_level("right") is True
+        cell.reset_leant()
+        cell.sim.set_motion(cell.scene.bodies["spoon1"], motion)
+
+
+def test_contents_leave_a_vessel_at_its_mouth_whatever_its_handle(cell: Cell) -> None:
+    """However it is held, and from the angle of spilling on, the lowest point of the rim is where the mouth is."""
+    vessels = [item for item in cell.scene.items() if cell.scene.opening(item) and cell.scene.grasps(item)]
+    low, high = cell.scene.size("bowl1")
+    assert high[0] - low[0] > 2.5 * high[2], "with its ear it is long and flat"
+    for item, grasp in product(vessels, (0, -1)):
+        opening = cell.scene.opening(item)
+        assert opening is not None
+        with held(cell, "right", item, grasp):
+            for how in mouths(cell, item, "right"):
+                for angle in np.linspace(opening.spills_from, 1.8, 5):
+                    pose = _held_at(Pose((0.0, 0.0, 0.0)), how, (0.0, 0.0, 1.0), float(angle))
+                    x, y, z = opening.centre
+                    out = opening.radius + 0.005
+                    rim = [pose.apply((x + out * cos(a), y + out * sin(a), z)) for a in np.linspace(0.0, 2 * pi, 72)]
+                    assert min(rim, key=lambda point: point[2]) == pytest.approx((0.0, 0.0, 1.0), abs=4e-3), item
+
+
+def test_a_door_that_stands_open_can_be_approached(tmp_path: Path) -> None:
+    """From places before its cupboard: round the door itself there are none that are near to it."""
+    file = tmp_path / "open.yaml"
+    file.write_text(
+        "name: open\ndomain: living_room\nobjects:\n"
+        "  cupboard1: {class: cupboard, parts: {door: {opened: true}}}\n"
+        "  soda_tin1: {class: soda_tin, at: in cupboard1}\n"
+    )
+    environment, folder = Roots().room(str(file))
+    problem = Roots().world(str(file))[1].task.problem
+    with SimulationSession(environment, folder, problem, kinematic=True) as stage:
+        assert "m away" in drive(stage.cell, "cupboard1_door", 0)
+        assert stage.cell.reach("cupboard1") <= REACH
 
 
 def test_nothing_is_dipped_through_a_lid(cell: Cell) -> None:

@@ -136,8 +136,9 @@ def _origin(order: Order) -> str:
 def _ending(execution: Execution, steps: int) -> str:
     how = f"after {_count(execution.repairs, 'repair')}" if execution.repairs else "but not all went as predicted"
     known = _known_by(execution)
+    of = " on what the plan names" if any(step.mismatches for step in execution.steps) else ""
     told = {
-        SkillStatus.DONE: f"every effect is as predicted{known}" if execution.steps else "there was nothing to do",
+        SkillStatus.DONE: f"every effect{of} is as predicted{known}" if execution.steps else "there was nothing to do",
         SkillStatus.RECOVERED: f"everything that the plan is for holds, {how}{known}",
         SkillStatus.STOPPED: execution.reason,
     }[execution.status]

@@ -257,8 +257,12 @@ class ArmMotionParameters:
     level_planned: int = 3
     # Radians that what can hold something may lean on its way (10 degrees), or a little more than at its ends.
     level: float = 0.17
+    # Samples for a way on which nothing must stay level: most queries that 300 leave open are solved then.
+    free_samples: int = 1000
     # Attempts to shorten a path.
     rrt_shortcuts: int = 60
+    # Attempts in a row after which a path counts as short.
+    rrt_in_vain: int = 12
     # Radians: an arm that is this near to its posture need not move.
     there: float = 0.03
     # If an arm cannot be tucked as usual, one of its first joints is turned by so many radians.
@@ -281,8 +285,8 @@ class ArmMotionParameters:
 class InverseKinematicsParameters:
     """The inverse kinematics of an arm."""
 
-    # Values of the free joint that are tried.
-    rolls: int = 48
+    # Pans of the shoulder that are tried.
+    pans: int = 96
     # Starts of the numerical solver.
     starts: int = 64
     # Radians that solutions keep from the limits, where a motor would push against the stop.
@@ -297,7 +301,7 @@ class InverseKinematicsParameters:
     stride: float = 0.4
     # Radians that a joint may move between two poses of a motion.
     leap: float = 0.5
-    # Radians that it may move without another roll being looked at.
+    # Radians that it may move without another pan being looked at.
     smooth: float = 0.25
 
 

@@ -29,7 +29,7 @@ from tmd.robot.assets.features import Frame, Grasp, Grip
 from tmd.robot.assets.fittings import DOWN, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfLink, UrdfModel
 from tmd.robot.assets.vessels import CLEARANCE, WIDEST, contents, grasp, rim_grasps
-from tmd.robot.pr2.kinematics import Tree, angles, origin, set_origin, shape_points
+from tmd.robot.pr2.kinematics import Link, Tree, angles, origin, set_origin, shape_points
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.urdf_files import CUBE, cache_directory, end_of, find_mesh, mesh_library, read_urdf
 from tmd.world.shape import GraspEntry, HandleEntry, RegionEntry, Shape
@@ -43,8 +43,15 @@ _ADVICE = install_extra("meshes")
 _SMALLEST, _LARGEST = 0.01, 6.0
 # For V-HACD: a mug then keeps its hollow, with walls that are a millimetre too thick.
 _PIECES = {"maxConvexHulls": 32, "resolution": 100_000, "maxNumVerticesPerCH": 32}
-# Metres: what is at most so wide fits between the fingers.
-_NARROW = 0.07
+# Metres: what is at most so wide fits between the fingers; formats with short numbers round 7 cm up.
+_NARROW = 0.0701
+# Metres for a unit, the largest first, and the size of what is carried: which of them a mesh is given in is a guess.
+_UNITS = {"inch": 0.0254, "centimetre": 0.01, "millimetre": 0.001}
+_CARRIED = (0.02, 0.6)
+# Metres from a handle to what the fingers meet there, at most.
+_BESIDE = 0.02
+# Radians, or metres, beyond which a limit is in other units.
+_FARTHEST = {"revolute": (4 * math.pi, "radians"), "prismatic": (_LARGEST, "metres")}
 # Metres: a wall of so much is taken at its rim.
 _RIM = 0.02
 # Metres from the tool's frame back to the palm.
@@ -76,8 +83,11 @@ def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) ->
     """
     mesh = _standing(path, shape)
     low, high = (_vector(corner) for corner in mesh.bounds)
-    hollow = _hollow(mesh) if shape.holds else None
     solid = shape.solid if shape.solid is not None else not shape.holds
+    if not solid and not mesh.is_watertight:
+        hint = "close its holes; or say `solid: true`, if nothing goes into it"
+        raise ModelFault(("mesh",), f"{path} is not closed: nothing is inside or outside of it", hint)
+    hollow = _hollow(mesh) if shape.holds else None
     seen, solids = _copies(path, shape, mesh, solid=solid)
     model = UrdfModel(name, mass)
     model.mesh(seen, solids, low, high, colour)
@@ -87,7 +97,7 @@ def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) ->
     if shape.grasps:
         _said_grasps(model, shape.grasps)
     else:
-        _measured_grasps(model, mesh)
+        _measured_grasps(model, mesh, shape.scale)
         if hollow is not None and wall <= _RIM:
             rim_grasps(model, outer, high[2], wall, (math.pi / 2, 0.0, -math.pi / 2))
     for index, region in enumerate(shape.regions):
@@ -107,12 +117,11 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
     library = mesh_library()
     try:
         mesh: Any = library.load(path, force="mesh")
-        sound = len(mesh.faces) > 0 and bool(np.isfinite(mesh.vertices).all())
+        if len(mesh.faces) == 0 or not np.isfinite(mesh.vertices).all():
+            raise ValueError("it has no triangles")
     except Exception as error:  # its readers raise whatever a damaged file leads to
         told = " ".join(str(error).split())[:120] or type(error).__name__
         raise ModelFault(("mesh",), f"{path} is not a mesh: {told}", "name an OBJ, STL, PLY or GLB file") from error
-    if not sound:
-        raise ModelFault(("mesh",), f"{path} is not a mesh: it has no triangles", "name an OBJ, STL, PLY or GLB file")
     return mesh  # type: ignore[no-any-return]  # trimesh.load gives whatever the file holds
 
 
@@ -124,15 +133,26 @@ def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
     mesh.apply_scale(shape.scale)
     mesh.apply_transform(Pose.turned(*map(math.radians, shape.turn)).homogeneous())
     extents = np.asarray(mesh.bounds[1] - mesh.bounds[0])
-    if not _SMALLEST <= extents.max() <= _LARGEST or extents.min() <= 0:
-        size = " × ".join(f"{side:.3g}" for side in extents)
-        hint = "say `scale: 0.001` if its unit is the millimetre"
-        raise ModelFault(("mesh",), f"{path} is {size} m large", hint)
+    size = " × ".join(f"{side:.3g}" for side in extents)
+    if extents.min() <= 0:
+        raise ModelFault(("mesh",), f"{path} has no thickness: it is {size} m large", "give it another side")
+    if not _SMALLEST <= extents.max() <= _LARGEST:
+        raise ModelFault(("mesh",), f"{path} is {size} m large", _unit(mesh, shape.scale))
     bottom = mesh.vertices[:, 2].min()
     foot = mesh.vertices[mesh.vertices[:, 2] < bottom + 0.05 * extents[2]]
     middle = (foot.min(axis=0) + foot.max(axis=0)) / 2
     mesh.apply_translation((-middle[0], -middle[1], -bottom))
     return mesh  # type: ignore[no-any-return]  # as read_mesh gave it
+
+
+def _unit(mesh: trimesh.Trimesh, scale: float) -> str:
+    """Return the unit in which the mesh would be something that a hand takes, as advice."""
+    sides = sorted(map(float, mesh.extents))
+    for name, unit in _UNITS.items():
+        if _CARRIED[0] <= sides[-1] * unit <= _CARRIED[1] and sides[0] * unit <= _NARROW:
+            size = " × ".join(f"{100 * side * unit:.3g}" for side in mesh.extents)
+            return f"say `scale: {scale * unit:g}` if its unit is the {name}: then it is {size} cm large"
+    return "say by `scale:` how many metres its unit is"
 
 
 def _copies(path: Path, shape: Shape, mesh: trimesh.Trimesh, *, solid: bool) -> tuple[Path, list[Path]]:
@@ -192,7 +212,10 @@ def _bottom(mesh: trimesh.Trimesh) -> float:
     points = np.full((len(corners), 3), (1e-7, 1e-7, 0.0))
     weights = mesh_library().triangles.points_to_barycentric(corners * (1.0, 1.0, 0.0), points)
     over = np.all(weights >= -1e-9, axis=1)
-    return float((weights * corners[:, :, 2]).sum(axis=1)[over].max(initial=0.0))
+    if not over.any():
+        message = "it has no bottom: nothing is over the middle of its underside"
+        raise ModelFault(("holds",), message, "close it there, or leave `holds` out")
+    return float((weights * corners[:, :, 2]).sum(axis=1)[over].max())
 
 
 def _hollow(mesh: trimesh.Trimesh) -> tuple[float, float, float, float]:
@@ -210,8 +233,8 @@ def _hollow(mesh: trimesh.Trimesh) -> tuple[float, float, float, float]:
     return radius - 0.002, max(floor, 0.001), outer, outer - _radius(mesh, rim)
 
 
-def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh) -> None:
-    """Add grasps of what is narrow enough: from the sides and slanting, and from above."""
+def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh, scale: float) -> None:
+    """Add grasps of what is narrow enough: from the sides and slanting, and from above; ``scale`` was applied."""
     top, least = model.high[2], TIP + 0.004
     for height in dict.fromkeys((max(0.5 * top, least), max(0.7 * top, least))):
         points = _cut(mesh, min(height, top - 0.002)).reshape(-1, 2)
@@ -233,7 +256,7 @@ def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh) -> None:
         if width <= _NARROW:
             grasp(model, (0.0, 0.0, over), DOWN, across, width)
     if not model.grasps:
-        hint = "say under `grasps:` where it is narrow enough to be taken"
+        hint = f"{_unit(mesh, scale)}, or say under `grasps:` where it is narrow enough to be taken"
         raise ModelFault(
             ("mesh",), f"no hand fits round it: it is wider than {100 * _NARROW:.0f} cm on all sides", hint
         )
@@ -374,7 +397,10 @@ def _read(path: Path) -> _Source:
     if "root" in links and firsts != ["root"]:
         raise ModelFault(("urdf",), f"{path}: a link that is not the root is called 'root'", "call it something else")
     moved = {joint.get("name", ""): end_of(joint, "child") for joint in joints if joint.get("type") != "fixed"}
-    return _Source(path, root, Tree(root) if joints else None, firsts[0], moved)
+    tree = Tree(root) if joints else None
+    for each in tree.links.values() if tree is not None else ():
+        _check_limits(path, each)
+    return _Source(path, root, tree, firsts[0], moved)
 
 
 def _check_joint(path: Path, joint: ET.Element, links: Sequence[str]) -> None:
@@ -388,6 +414,19 @@ def _check_joint(path: Path, joint: ET.Element, links: Sequence[str]) -> None:
             raise ModelFault(("urdf",), message, nearest(end_of(joint, end), links))
     if joint.find("mimic") is not None:
         raise ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
+
+
+def _check_limits(path: Path, link: Link) -> None:
+    if link.kind not in _FARTHEST:
+        return
+    farthest, unit = _FARTHEST[link.kind]
+    if not link.lower < link.upper < math.inf:
+        message = f"{path}: the joint '{link.joint}' cannot move: its lower limit is not below its upper one"
+        raise ModelFault(("urdf",), message, 'say `<limit lower="0" upper="1.57" effort="10" velocity="1"/>`')
+    value = max(link.lower, link.upper, key=abs)
+    if abs(value) > farthest:
+        message = f"{path}: the joint '{link.joint}' has a limit of {value:g}"
+        raise ModelFault(("urdf",), message, f"limits are in {unit}")
 
 
 def _find_meshes(source: _Source) -> None:
@@ -447,7 +486,7 @@ def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
             raise ModelFault(("urdf",), message) from None
         if points:
             cloud = np.vstack(points)
-            model.links[called].boxes.append((_vector(cloud.min(axis=0)), _vector(cloud.max(axis=0))))
+            model.links[called].boxes += [(_vector(each.min(axis=0)), _vector(each.max(axis=0))) for each in points]
             everywhere = cloud @ frames[name][:3, :3].T + frames[name][:3, 3]
             for axis in range(3):
                 model.low[axis] = min(model.low[axis], float(everywhere[:, axis].min()))
@@ -522,6 +561,14 @@ def _handle(model: UrdfModel, source: _Source, index: int, entry: HandleEntry, p
         model.link_parts[link.name] = part
     opening = 0.0 if entry.kind in ("flap", "button") else min(entry.width + 2 * CLEARANCE, WIDEST)
     tool = _frame(path, entry.at, entry.approach, entry.across)
+    away = [
+        np.maximum(np.maximum(low - np.array(entry.at), entry.at - np.array(high)), 0.0) for low, high in link.boxes
+    ]
+    beside = min((float(np.linalg.norm(each)) for each in away), default=math.inf)
+    if beside > _BESIDE:
+        message = f"the hand would be {100 * beside:.1f} cm beside '{link.name or source.first}'"
+        hint = "`at` is the middle of the bar or the button, in the frame of the link that moves"
+        raise ModelFault((*path, "at"), message if math.isfinite(beside) else f"'{link.name}' has no <collision>", hint)
     settings = tuple(entry.settings.items())
     model.grips.append(Grip(part, entry.kind, link.name, tool, opening, entry.closed, opened, settings))
 

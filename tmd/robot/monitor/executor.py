@@ -236,7 +236,7 @@ class Executor:
             if waiting and first_broken(waiting[0][0], state, self.problem) is None:
                 before = state
                 done, state = self._do(*waiting[0], state, attempt)
-                if not done.mismatches and not done.failure:
+                if not done.failure and all(self._beside(m, before) for m in done.mismatches):
                     waiting.pop(0)
                     attempt = 0
                     continue
@@ -269,6 +269,10 @@ class Executor:
     def _aside(self, atom: GroundAtom) -> bool:
         """Return whether a fact is about the contents of a thing that the plan does not name."""
         return self._follows(atom) and atom.args[0] not in self._named
+
+    def _beside(self, mismatch: Mismatch, before: State) -> bool:
+        """Return whether what stands beside a stream stayed as it was, though PDDL lets everything there be filled."""
+        return self._aside(mismatch.atom) and (mismatch.atom in before) is not mismatch.expected
 
     def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State, wanted: _Wanted) -> bool:
         """Return whether the waiting instructions lead to the goal from here, without replanning."""
@@ -345,9 +349,10 @@ class Executor:
         return found
 
     def _the_same_again(self, way: Sequence[Instruction]) -> Instruction | None:
-        """Return the first instruction that moves something, if it has failed as everything stands now."""
-        first = next((instruction for instruction in way if not self.performer.idle(instruction)), None)
-        return first if first is not None and (first, self.performer.situation()) in self._spent else None
+        """Return what has failed as everything stands now, up to the first instruction that moves something."""
+        moving = next((count for count, each in enumerate(way, 1) if not self.performer.idle(each)), len(way))
+        now = self.performer.situation()
+        return next((each for each in way[:moving] if (each, now) in self._spent), None)
 
     def _lasting(self, plan: Sequence[Instruction], state: State) -> tuple[Mismatch, ...]:
         """Return all differences from the plan's final state."""
@@ -410,7 +415,8 @@ class Executor:
         if isinstance(back, str):
             back = ()
         after = _end(plain, after, back)
-        for rest in (waiting, waiting[1:]):
+        # what the way does itself is not done a second time
+        for rest in (waiting[1:], waiting) if waiting and waiting[0] in way else (waiting, waiting[1:]):
             more = _missing(replace(plain, init=after), rest, wanted)
             if not isinstance(more, str) and _leads(plain, [*way, *back, *more, *rest], wanted):
                 return _joined([*way, *back, *more], rest)

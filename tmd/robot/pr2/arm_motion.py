@@ -47,7 +47,7 @@ def plan_arm(
         goal: Seven joint positions; the endless joints are turned the short way.
         ignore: (body, link) that may be touched, link None: all of the body.
         rng: For samples and shortcuts.
-        budget: Maximum number of samples.
+        budget: Maximum number of samples where something must stay level; else it is at least 1000, each cheap.
 
     Returns:
         Joint positions after the start up to the goal, to go through in straight lines; None if the goal touches
@@ -55,7 +55,8 @@ def plan_arm(
     """
     must = robot.keeps_level(side)
     for level in (None,) if must is None else (True,) if must else (True, None):
-        path = _plan_arm(robot, side, goal, ignore, rng, budget, level=bool(level))
+        samples = budget if level else max(budget, ARM_MOTION.free_samples)
+        path = _plan_arm(robot, side, goal, ignore, rng, samples, level=bool(level))
         if path is not None:
             return path
     return None
@@ -99,9 +100,9 @@ def _plan_arm(
         if path is None:
             return None
         path = shorten(path, free, STRIDES, rng)
-        path = exact(
-            path, robot.arm_groups[side], lambda track: free(track, ARM_MOTION.rounding * ARM_MOTION.clearance)
-        )
+        if not robot.kinematic:  # else corners are not rounded
+            rounding = ARM_MOTION.rounding * ARM_MOTION.clearance
+            path = exact(path, robot.arm_groups[side], lambda track: free(track, rounding))
     return [tuple(float(value) for value in row) for row in path[1:]]
 
 
@@ -135,7 +136,7 @@ class _Upright:
         if sine > 1e-9:
             x, y, z = (float(value) for value in turn / sine)
             pose = pose.spun(Pose.about((x, y, z), float(np.arctan2(sine, up[2]))))
-        solve = self._kinematics.with_roll if anywhere else self._kinematics.track
+        solve = self._kinematics.with_pan if anywhere else self._kinematics.track
         found = solve(pose, self._torso, row.tolist())
         return None if found is None else np.array(found, dtype=float)
 

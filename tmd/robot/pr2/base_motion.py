@@ -17,7 +17,7 @@ import numpy as np
 from tmd.robot.parameters import BASE_MOTION
 from tmd.robot.pr2.collision import CollisionChecker, Ignored
 from tmd.robot.pr2.kinematics import Array
-from tmd.robot.pr2.rrt import shorten
+from tmd.robot.pr2.rrt import clear, shorten
 from tmd.robot.pr2.trajectory_following import exact
 from tmd.robot.pr2.urdf import BASE_JOINTS
 
@@ -64,7 +64,8 @@ def plan_base(
         if path is None:
             return None
         path = shorten(path, checker.free, STRIDES, rng, tries=100)
-        path = exact(path, robot.base_group, lambda track: checker.free(track, BASE_MOTION.rounding * clearance))
+        if not robot.kinematic:  # else corners are not rounded
+            path = exact(path, robot.base_group, lambda track: checker.free(track, BASE_MOTION.rounding * clearance))
     return [(float(a), float(b), float(c)) for a, b, c in path[1:]]
 
 
@@ -89,16 +90,10 @@ def _ways_out(checker: CollisionChecker, start: Array) -> list[Array]:
         angle = start[2] + pi + turn
         for away in BASE_MOTION.ways_out_lengths:
             out = start + np.array([away * np.cos(angle), away * np.sin(angle), 0.0])
-            if free_line(checker, start, out):
+            if clear(start, out, checker.free, STRIDES):
                 found.append(out)
                 break
     return found
-
-
-def free_line(checker: CollisionChecker, start: Array, end: Array) -> bool:
-    """Return whether all poses from one to the other are free; the first is not checked."""
-    count = max(1, int(np.ceil(np.max(np.abs(end - start) / STRIDES))))
-    return checker.free(start + (end - start) * np.linspace(0, 1, count + 1)[1:, None])
 
 
 class _Lattice:
@@ -232,7 +227,7 @@ class _Lattice:
         self._screened.update(zip(cells, verdicts, strict=True))
 
     def _line(self, start: Array, end: Array) -> bool:
-        return free_line(self._checker, start, end)
+        return clear(start, end, self._checker.free, STRIDES)
 
 
 class _PlaceDistances:

@@ -62,9 +62,6 @@ class CollisionModel(Protocol):
     joint_index: dict[str, int]
     movable: list[int]
 
-    def solid_links(self, body: int) -> list[int]:
-        """Return the links of a body that can be touched."""
-
     def positions(self) -> dict[str, float]:
         """Return the positions of all joints that move, by name."""
 
@@ -183,7 +180,7 @@ class CollisionChecker:
                 low, high = moved(box_of(sim, body), self._places[body].homogeneous()[None])
                 found.append((body, -1, tuple(low[0]), tuple(high[0])))
                 continue
-            for link in self._robot.solid_links(body):
+            for link in sim.solid_links(body):
                 if (body, link) not in self._ignore:
                     found.append((body, link, *sim.extents(body, link)))
         return found

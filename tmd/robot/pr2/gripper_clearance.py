@@ -48,7 +48,7 @@ class HandChecker:
             (body, link)
             for body in self._robot.sim.bodies()
             if body not in taken and (body, None) not in self._ignore
-            for link in self._robot.solid_links(body)
+            for link in self._robot.sim.solid_links(body)
             if (body, link) not in self._ignore
         ]
 

@@ -1,18 +1,16 @@
-"""Inverse kinematics of one arm of the PR2: joint positions that bring the tool to a pose.
+"""Inverse kinematics of one arm: joint positions that bring the tool to a pose.
 
-Seven joints for six degrees of freedom: a pose that can be reached has a family of solutions, here indexed by the
-upper arm's roll. ``pr2-ikfast`` solves the other six in closed form, on a grid of 48 rolls. Without it, damped least
-squares (Nakamura and Hanafusa 1986; Wampler 1986) from a fixed set of starting points does the same, slower and with
-fewer solutions. Both keep the joint limits.
+Seven joints for six degrees of freedom: a pose that can be reached has a family of solutions. For an arm built as the
+PR2's is, with a wrist whose axes meet in one point, the family is indexed by the shoulder's pan, and the other six
+joints follow in closed form, many pans at once. Damped least squares (Nakamura and Hanafusa 1986; Wampler 1986) from a
+fixed set of starting points does the same for other arms, slower and with fewer solutions. Both keep the joint limits.
 """
 
 from __future__ import annotations
 
-import importlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cache
 from math import pi, tau
-from typing import Any
 
 import numpy as np
 
@@ -21,11 +19,10 @@ from tmd.robot.pr2.kinematics import Array, Tree, motion
 from tmd.robot.pr2.urdf import ARM, TOOL
 from tmd.robot.sim.pose import Pose
 
-_ROLL = 2
-_DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
+_PAN = 0
+_DETOURS = np.array([0.0, *(sign * far for far in (0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2) for sign in (1, -1))])
 # Metres and radians: a descent from all of whose starts the pose is reached so well has ended.
 _EXACT = 1e-7
-_PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
 
 class ArmKinematics:
@@ -36,6 +33,9 @@ class ArmKinematics:
         lower: (7,), −inf for endless joints.
         upper: (7,).
         endless: The numbers of the joints that turn without end.
+        points: (8, 3), the joints and the tool in ``base_link`` with all joints at 0.
+        lengths: (4,), from pan to lift, from there to the elbow, to the wrist, and to the tool.
+        closed_form: Whether the closed form is that of this arm.
     """
 
     def __init__(self, tree: Tree, side: str) -> None:
@@ -46,10 +46,26 @@ class ArmKinematics:
         self.lower = np.array([arm[joint].lower for joint in self.joints])
         self.upper = np.array([arm[joint].upper for joint in self.joints])
         self.endless = tuple(int(joint) for joint in np.flatnonzero(np.isinf(self.lower)))
-        # the closed form is that of the PR2, whose forearm and wrist roll without end
-        self._closed_form = _closed_form(side) if self.endless == (4, 6) else None
-        self._fits: bool | None = None
-        self._pitch = float(self.upper[_ROLL] - self.lower[_ROLL] - 2 * IK.margin) / (IK.rolls - 1)
+        self._middle = (np.maximum(self.lower, -9.0) + np.minimum(self.upper, 9.0)) / 2  # 0 for endless joints
+        self.points, self.closed_form = self._built_as_the_pr2()
+        self.lengths = np.linalg.norm(np.diff(self.points[[0, 1, 3, 5, 7]], axis=0), axis=1)
+
+    def _built_as_the_pr2(self) -> tuple[Array, bool]:
+        """Return the points of the arm, and whether it is built as the PR2's.
+
+        The axes are then z, y, x, y, x, y, x, all on a line along x, and elbow and wrist bend one way only.
+        """
+        frame, points, axes = np.eye(4), [], []
+        for link in self._chain:
+            frame = frame @ link.origin
+            if link.joint in self.joints:
+                axes.append(frame[:3, :3] @ link.axis)
+                points.append(frame[:3, 3])
+        points.append(frame[:3, 3])
+        line = np.array(points) - points[0]
+        fits = np.allclose(axes, np.eye(3)[[2, 1, 0, 1, 0, 1, 0]]) and np.allclose(frame[:3, :3], np.eye(3))
+        fits = fits and np.allclose(line[:, 1:], 0.0) and bool(np.all(self.upper[[3, 5]] <= 0.0))
+        return np.array(points), fits
 
     def tool(self, torso: float, arms: Array) -> Array:
         """Return the tool frame in ``base_link``: (n, 4, 4) for arms (n, 7)."""
@@ -83,83 +99,82 @@ class ArmKinematics:
         kept: Array = np.all((arms >= self.lower + margin) & (arms <= self.upper - margin), axis=1)
         return kept
 
-    def solve(
-        self, tool: Pose, torso: float, seed: Sequence[float], *, numeric: bool | None = None
-    ) -> list[tuple[float, ...]]:
+    def solve(self, tool: Pose, torso: float, seed: Sequence[float]) -> list[tuple[float, ...]]:
         """Return configurations that bring the tool frame to a pose in ``base_link``, within the limits.
 
         ``torso`` is the height of the torso joint. Results near ``seed``, seven positions, come first (largest joint
-        motion counts). ``numeric`` selects damped least squares; None: only without ``pr2-ikfast``.
+        motion counts).
         """
-        closed = None if numeric else self._closed_form
-        if numeric is False and closed is None:
-            raise ValueError("pr2-ikfast is not installed")
-        if closed is None:
-            arms = self._kept(self._numeric(tool, torso, seed), tool, torso, seed)
+        if self.closed_form:
+            pans = np.linspace(self.lower[_PAN] + IK.margin, self.upper[_PAN] - IK.margin, IK.pans)
+            arms = self._closed(tool, torso, pans, seed)
         else:
-            arms = self._kept(self._grid(closed, tool, torso, 0.0), tool, torso, seed)
-            if not len(arms):  # a narrow family can lie between two points of the grid
-                arms = self._kept(self._grid(closed, tool, torso, 0.5), tool, torso, seed)
+            arms = self._kept(self._numeric(tool, torso, seed), tool, torso, seed)
         far = np.abs(arms - np.asarray(seed, dtype=float))
         order = np.lexsort((far.sum(axis=1), np.round(far.max(axis=1), 6)))
         return [tuple(float(value) for value in arm) for arm in arms[order]]
 
-    def track(
-        self, tool: Pose, torso: float, seed: Sequence[float], *, numeric: bool | None = None
-    ) -> tuple[float, ...] | None:
+    def track(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
         """Return the solution next to ``seed``, for a tool that moves in small steps; None if there is none nearby.
 
         The arguments are those of :meth:`solve`.
         """
-        closed = None if numeric else self._closed_form
-        start = np.asarray(seed, dtype=float)
-        if closed is None:
-            return _next_to(start, self._kept(self._descend(start[None], tool, torso), tool, torso, seed), IK.leap)
-        # the same roll as before first: mostly it will do
-        for rolls, most in ((_DETOURS[:1], IK.smooth), (_DETOURS, IK.leap)):
-            arms = self.near(self._closed(closed, tool, torso, seed[_ROLL] + rolls), seed)
-            found = _next_to(start, arms[self.inside(arms)], most)
-            if found is not None and self._reaches(found, tool, torso):
+        # the same pan as before first: mostly it will do
+        for pans, most in ((_DETOURS[:1], IK.smooth), (_DETOURS, IK.leap))[not self.closed_form :]:
+            found = _next_to(seed, self._beside(tool, torso, seed, seed[_PAN] + pans), most)
+            if found is not None:
                 return found
         return None
 
-    def with_roll(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
-        """Return a solution with the upper arm rolled as in ``seed``, wherever the other joints are, or None."""
-        closed, start = self._closed_form, np.asarray(seed, dtype=float)
-        if closed is None:
-            arms = self._descend(start[None], tool, torso)
-        else:
-            arms = self._closed(closed, tool, torso, start[_ROLL : _ROLL + 1])
-        return _next_to(start, self._kept(arms, tool, torso, seed), np.inf)
+    def with_pan(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
+        """Return a solution with the shoulder panned as in ``seed``, wherever the other joints are, or None."""
+        return _next_to(seed, self._beside(tool, torso, seed, np.array(seed[:1])), np.inf)
 
-    def _reaches(self, arm: Sequence[float], tool: Pose, torso: float) -> bool:
-        """Return whether the closed form is right: always for the PR2 it was made for, perhaps not for another one."""
-        if self._fits is None:
-            self._fits = len(self._kept(np.array([arm]), tool, torso, arm)) == 1
-        return self._fits
+    def _beside(self, tool: Pose, torso: float, seed: Sequence[float], pans: Array) -> Array:
+        """Return solutions (n, 7) with some pans, or the one that a descent from ``seed`` leads to."""
+        if self.closed_form:
+            return self._closed(tool, torso, pans, seed)
+        return self._kept(self._descend(np.array([seed]), tool, torso), tool, torso, seed)
 
     def _kept(self, arms: Array, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
-        """Return the rows within the limits that reach the pose: another PR2 than the solver was made for may not."""
+        """Return the rows within the limits that reach the pose."""
         arms = self.near(arms, seed)
         arms = arms[self.inside(arms)]
         away = np.abs(_error(tool.homogeneous(), self.tool(torso, arms)))
         result: Array = arms[(away[:, :3].max(axis=1) < IK.accuracy[0]) & (away[:, 3:].max(axis=1) < IK.accuracy[1])]
         return result
 
-    def _grid(self, closed: Callable[..., Any], tool: Pose, torso: float, shift: float) -> Array:
-        rolls = np.linspace(self.lower[_ROLL] + IK.margin, self.upper[_ROLL] - IK.margin, IK.rolls)
-        return self._closed(closed, tool, torso, rolls + shift * self._pitch)
+    def _closed(self, tool: Pose, torso: float, pans: Array, seed: Sequence[float]) -> Array:
+        """Return the solutions (n, 7) within the limits for some pans (k,) of the shoulder; at most two for each.
 
-    def _closed(self, closed: Callable[..., Any], tool: Pose, torso: float, rolls: Array) -> Array:
-        position, rotation = list(tool.position), tool.matrix().tolist()
-        found: list[Sequence[float]] = []
-        for roll in rolls:
-            found += [row[1:] for row in closed(position, rotation, [torso, float(roll)]) or ()]
-        arms = np.array(found, dtype=float).reshape(-1, len(ARM))
+        The length of the line from shoulder to wrist gives the elbow, its direction lift and roll of the upper arm, and
+        what is then left of the orientation the three joints of the wrist, as Euler angles x, y, x.
+        """
+        turn, (offset, upper, fore, hand) = tool.matrix(), self.lengths
+        wrist = np.array(tool.position) - hand * turn[:, 0] - self.points[0] - (0.0, 0.0, torso)
+        x, y = _spun(pans, wrist[0], wrist[1])
+        x, z = x - offset, wrist[2]
+        bend = (x * x + y * y + z * z - upper**2 - fore**2) / (2 * upper * fore)
+        elbow = -np.arccos(np.clip(bend, -1.0, 1.0))
+        ahead, aside = upper + fore * np.cos(elbow), -fore * np.sin(elbow)
+        sine = -y / np.maximum(aside, 1e-9)
+        reached = (np.abs(bend) <= 1.0) & (np.abs(sine) <= 1.0)
+        roll = np.arcsin(sine[reached])
+        roll = np.concatenate([roll, pi - roll])
+        pans, x, elbow, ahead, aside = (np.tile(v[reached], 2) for v in (pans, x, elbow, ahead, aside))
+        lift = np.arctan2(aside * np.cos(roll), ahead) - np.arctan2(z, x)
+        # the rows of the orientation as the forearm sees it
+        row_x, row_y = _spun(pans[:, None], turn[0], turn[1])
+        row_z, row_x = _spun(lift[:, None], turn[2], row_x)
+        row_y, row_z = _spun(roll[:, None], row_y, row_z)
+        row_z, row_x = _spun(elbow[:, None], row_z, row_x)
+        flex = -np.arccos(np.clip(row_x[:, 0], -1.0, 1.0))
+        forearm = np.arctan2(-row_y[:, 0], row_z[:, 0])
+        arms = np.stack([pans, lift, roll, elbow, forearm, flex, np.arctan2(-row_x[:, 1], -row_x[:, 2])], axis=1)
         # a full turn more or less brings some joints back between their limits
-        bounded = np.isfinite(self.lower)
-        middle = np.where(bounded, np.where(bounded, self.lower, 0.0) + np.where(bounded, self.upper, 0.0), 0.0) / 2
-        return arms - tau * np.round((arms - middle) / tau)
+        arms = self.near(arms - tau * np.round((arms - self._middle) / tau), seed)
+        kept: Array = arms[self.inside(arms)]
+        return kept
 
     def _numeric(self, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
         lower = np.where(np.isinf(self.lower), -pi, self.lower + IK.margin)
@@ -185,7 +200,13 @@ class ArmKinematics:
         return arms
 
 
-def _next_to(start: Array, arms: Array, most: float) -> tuple[float, ...] | None:
+def _spun(angle: Array, x: Array | float, y: Array | float) -> tuple[Array, Array]:
+    """Return coordinates in a frame that is turned by ``angle`` from the axis of ``x`` to that of ``y``."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return cosine * x + sine * y, cosine * y - sine * x
+
+
+def _next_to(start: Sequence[float], arms: Array, most: float) -> tuple[float, ...] | None:
     """Return the row of ``arms`` (n, 7) that is nearest to ``start``, if no joint is farther away than ``most``."""
     if not len(arms):
         return None
@@ -210,24 +231,7 @@ def _error(target: Array, frames: Array) -> Array:
 @cache
 def _halton(count: int) -> Array:
     """Return (count, 7) points that cover the unit cube evenly, always the same (Halton 1960)."""
-    result = np.zeros((count, len(_PRIMES)))
-    for column, prime in enumerate(_PRIMES):
-        for row in range(count):
-            index, fraction = row + 1, 1.0
-            while index:
-                fraction /= prime
-                index, digit = divmod(index, prime)
-                result[row, column] += fraction * digit
-    result.flags.writeable = False
-    return result
+    from scipy.stats import qmc  # type: ignore[import-untyped]  # slow to import, and the PR2 needs none
 
-
-@cache
-def _closed_form(side: str) -> Callable[..., Any] | None:
-    """Return the compiled solver of one arm, or None without the package."""
-    try:
-        module = importlib.import_module("pr2_ikfast")
-    except ImportError:
-        return None
-    solver: Callable[..., Any] = module.solve_right_ik if side == "right" else module.solve_left_ik
-    return solver
+    points: Array = qmc.Halton(len(ARM), scramble=False).random(count + 1)[1:]
+    return points

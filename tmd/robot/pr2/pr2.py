@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from math import asin, atan2, cos, hypot, pi, sin
+from math import asin, atan2, hypot, pi
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +30,6 @@ from tmd.robot.sim.simulator import Simulator
 
 ARMS = ("right", "left")
 _TORSO_START = 0.15
-_FINGER_RANGE = (0.0, 0.548)
 _TOUCHING = 0.002
 # Microseconds of the inverse kinematics of a pose, about.
 _SOLVE_WORK = 350
@@ -87,7 +86,6 @@ class Pr2:
         self.arm_joints = {side: self.arm_kinematics[side].joints for side in ARMS}
         self._held: dict[str, tuple[int, int, Pose]] = {}
         self.keeps_level: Callable[[str], bool | None] = lambda side: None
-        self._solid: dict[int, list[int]] = {}
         self._gaps: list[tuple[float, float]] = []
         self._make_groups()
         self._set_up(pose)
@@ -126,7 +124,7 @@ class Pr2:
     def _find_boxes(self) -> dict[str, LinkBox]:
         known = link_boxes(self.model.root)
         names = {index: name for name, index in self.index.items()}
-        for link in self.solid_links(self.body):
+        for link in self.sim.solid_links(self.body):
             if names[link] not in known:  # a mesh that only the simulator reads: its box, turned back
                 lower, upper = np.array(self.sim.extents(self.body, link))
                 frame = self.sim.pose(self.body, link).homogeneous()
@@ -139,12 +137,6 @@ class Pr2:
             self.sim.colour(self.body, index, robot_colour(name))
 
     # where it is
-
-    def solid_links(self, body: int) -> list[int]:
-        """Return the links of a body that can be touched."""
-        if body not in self._solid:
-            self._solid[body] = self.sim.solid_links(body)
-        return self._solid[body]
 
     def positions(self) -> dict[str, float]:
         """Return the positions of all joints that move, by name."""
@@ -206,8 +198,6 @@ class Pr2:
 
     def fingers(self, gap: float) -> tuple[float, ...]:
         """Return the positions of a hand's finger joints for a gap between its tips, within their limits."""
-        if self.model.is_pr2:
-            return (finger_angle(gap),) * len(self.model.fingers)
         if not self._gaps:
             low, high = self.model.finger_range
             for angle in np.linspace(low, high, 200):
@@ -217,7 +207,7 @@ class Pr2:
                 tips = [frames[f"r_gripper_{finger}_finger_tip_link"][:3, 3] for finger in "lr"]
                 self._gaps.append((float(np.linalg.norm(tips[0] - tips[1])) - self.model.tip_offset, float(angle)))
         gaps, angles = zip(*self._gaps, strict=True)
-        return (float(np.interp(gap, gaps, angles)),) * len(self.model.fingers)
+        return (float(np.interp(gap if gap > 0 else -1.0, gaps, angles)),) * len(self.model.fingers)
 
     def open_gripper(self, side: str, gap: float = 0.08) -> bool:
         """Open a hand until its tips are ``gap`` apart; return whether they are."""
@@ -431,17 +421,3 @@ class Pr2:
         positions = self.elsewhere(base, torso)
         with CollisionChecker(self, self.arm_joints[side], positions=positions, arm=side, ignore=ignore) as checker:
             return checker.each_free(np.array(arms, dtype=float))
-
-
-def finger_gap(angle: float) -> float:
-    """Return the metres between the finger tips for an angle of the finger joints; measured on the model."""
-    return max(0.0, -0.0037 + 0.1827 * sin(angle) + 0.0099 * (cos(angle) - 1))
-
-
-def finger_angle(gap: float) -> float:
-    """Return the angle of the finger joints for a gap, within their limits."""
-    low, high = _FINGER_RANGE
-    for _ in range(40):
-        middle = (low + high) / 2
-        low, high = (middle, high) if finger_gap(middle) < gap else (low, middle)
-    return high

@@ -15,7 +15,6 @@ import numpy as np
 
 from tmd.robot.parameters import CONTACT
 from tmd.robot.pr2.kinematics import Array
-from tmd.robot.pr2.urdf import TOOL
 from tmd.robot.sim.pose import Pose
 
 if TYPE_CHECKING:
@@ -33,18 +32,14 @@ class ReachBounds:
 
     def __init__(self, robot: Pr2, side: str) -> None:
         kinematics = robot.arm_kinematics[side]
-        pan, lift, _, elbow, _, wrist, _ = (_point(robot, _moved_by(robot, joint)) for joint in kinematics.joints)
-        tool = _point(robot, f"{side[0]}_{TOOL}")
-        self.shoulder = pan
-        self.offset = float(np.linalg.norm(lift - pan))
-        upper, fore = float(np.linalg.norm(elbow - lift)), float(np.linalg.norm(wrist - elbow))
-        self.hand = float(np.linalg.norm(tool - wrist))
+        self.shoulder = kinematics.points[0]
+        self.offset, upper, fore, self.hand = map(float, kinematics.lengths)
         bent = min(abs(float(kinematics.lower[_ELBOW])), np.pi)
         self.nearest = sqrt(upper**2 + fore**2 + 2 * upper * fore * cos(bent)) - CONTACT.slack
         self.farthest = upper + fore + CONTACT.slack
-        if not robot.model.is_pr2:  # its wrist is no point: the whole arm, from any distance
+        if not kinematics.closed_form:  # its wrist is no point: the whole arm, from any distance
+            self.farthest += self.hand
             self.hand, self.nearest = 0.0, 0.0
-            self.farthest += float(np.linalg.norm(tool - wrist))
 
     def holds(self, wrists: Array, torso: float) -> Array:
         """Return for each of the wrists (n, 3), in ``base_link``, whether it is in reach."""
@@ -82,15 +77,3 @@ class Wrists:
             of_side = self._sides[self._of] == side
             held[of_side] = span.holds(inside[of_side], torso)
         return [int(number) for number in np.flatnonzero(np.logical_and.reduceat(held, self._starts))]
-
-
-def _moved_by(robot: Pr2, joint: str) -> str:
-    """Return the link that a joint carries: its frame is at the joint."""
-    return next(link.name for link in robot.tree.links.values() if link.joint == joint)
-
-
-def _point(robot: Pr2, link: str) -> Array:
-    """Return the position of a link in ``base_link`` with all joints at 0."""
-    frames = robot.tree.forward({}, robot.tree.links, {robot.tree.root: np.eye(4)})
-    point: Array = (np.linalg.inv(frames["base_link"]) @ frames[link])[:3, 3]
-    return point

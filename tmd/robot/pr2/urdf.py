@@ -73,7 +73,6 @@ class RobotDescription:
         tip_offset: Metres between the frames of the finger tips when their surfaces meet.
         eye: The cameras, in the frame of head_tilt_link.
         own_joints: By the PR2's names of joints: the robot's own, and sign and shift from a position here to one there.
-        is_pr2: Whether lengths and axes are those of the PR2's arms, for closed forms.
     """
 
     urdf: Path
@@ -86,7 +85,6 @@ class RobotDescription:
     tip_offset: float = 0.0336
     eye: tuple[float, float, float] = (0.1, 0.0, 0.11)
     own_joints: Mapping[str, tuple[str, float, float]] = field(default_factory=dict)
-    is_pr2: bool = True
 
 
 def prepare(urdf: Path | None = None) -> RobotDescription:
@@ -131,7 +129,7 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
         return RobotDescription(
             target, root, source, _both_ways(tiago_pro.never_checked(root)), tiago_pro.TUCKED,
             (*FINGERS, *tiago_pro.COUPLED), (0.0, tiago_pro.CLOSED), tiago_pro.TIP_OFFSET, tiago_pro.EYE,
-            tiago_pro.OWN_JOINTS, is_pr2=False,
+            tiago_pro.OWN_JOINTS,
         )  # fmt: skip
     return RobotDescription(target, root, source, _disabled(root), TUCKED)
 

@@ -221,13 +221,6 @@ class Scene(Inventory):
             if lamp.part == part and lamp.predicate == predicate:
                 self.sim.colour(self.bodies[whole], self.link(whole, lamp.link), lamp.on if on else lamp.off)
 
-    def viewpoint(self, around: Sequence[str] = ()) -> tuple[Vector, Vector]:
-        """Return eye and target of a camera that sees some things (or the whole room) and the robot before them."""
-        if not around:
-            return (self.room.low[0] - 0.9, 0.0, 3.4), (0.5, 0.0, 0.4)
-        points = [self.sim.pose(*self.place(name)).position for name in around]
-        x, y, z = (sum(values) / len(points) for values in zip(*points, strict=True))
-        away = math.hypot(x, y) or 1.0
-        side = 0.75 if y <= 0 else -0.75
-        eye = (x - x / away * 1.9 - side * y / away, y - y / away * 1.9 + side * x / away, max(z, 0.7) + 1.1)
-        return eye, (x, y, max(z, 0.5))
+    def viewpoint(self) -> tuple[Vector, Vector]:
+        """Return eye and target of a camera that sees the whole room."""
+        return (self.room.low[0] - 0.9, 0.0, 3.4), (0.5, 0.0, 0.4)

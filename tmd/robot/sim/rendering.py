@@ -41,8 +41,13 @@ def pybullet() -> Any:  # noqa: ANN401 - it has no types
 
 
 def bullet_client(mode: int) -> Any:  # noqa: ANN401 - it has no types
-    """Connect to a new world."""
-    return importlib.import_module("pybullet_utils.bullet_client").BulletClient(mode)
+    """Connect to a new world. The client makes each of pybullet's functions its own once, not at every call."""
+    base: Any = importlib.import_module("pybullet_utils.bullet_client").BulletClient
+
+    def bound(self: Any, name: str) -> Any:  # noqa: ANN401 - it has no types
+        return self.__dict__.setdefault(name, base.__getattr__(self, name))
+
+    return type("Client", (base,), {"__getattr__": bound})(mode)
 
 
 @contextmanager

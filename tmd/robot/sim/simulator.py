@@ -39,6 +39,8 @@ class Joint:
 
 # Asked for a distance of 0, Bullet uses other algorithms, which find nothing between most bodies that overlap (metres).
 _LEAST_DISTANCE = 1e-6
+# Bullet's number for all links of a body.
+_ALL = -2
 # Approximate cost of a distance query, in microseconds.
 _QUERY_WORK = 18
 # Maximum force of a weld or a pin, in newtons: more than any item weighs, and less than what tears furniture.
@@ -69,6 +71,7 @@ class Simulator(Engine):
         self._inertial: dict[int, Pose] = {}
         self._sleepers: set[int] = set()
         self._names: dict[int, dict[str, Joint]] = {}
+        self._solid: dict[int, list[int]] = {}
         self._joined: dict[int, tuple[int, int]] = {}
 
     # bodies
@@ -182,9 +185,10 @@ class Simulator(Engine):
 
     def solid_links(self, body: int) -> list[int]:
         """Return the links that have a collision shape, the root first."""
-        bullet = self._bullet
-        links = range(-1, bullet.getNumJoints(body))
-        return [link for link in links if bullet.getCollisionShapeData(body, link)]
+        if body not in self._solid:
+            links = range(-1, self._bullet.getNumJoints(body))
+            self._solid[body] = [link for link in links if self._bullet.getCollisionShapeData(body, link)]
+        return self._solid[body]
 
     # joints
 
@@ -301,12 +305,9 @@ class Simulator(Engine):
 
         No step is needed.
         """
-        asked = {"linkIndexA": link, "linkIndexB": other_link}
-        chosen = {name: value for name, value in asked.items() if value is not None}
+        one, two = (_ALL if each is None else each for each in (link, other_link))
         self.work += _QUERY_WORK
-        points = self._bullet.getClosestPoints(
-            bodyA=body, bodyB=other, **chosen, distance=max(distance, _LEAST_DISTANCE)
-        )
+        points = self._bullet.getClosestPoints(body, other, max(distance, _LEAST_DISTANCE), one, two)
         return [Contact(point[3] if point[1] == body else point[4], point[8]) for point in points or ()]
 
     def ray(self, start: Sequence[float], end: Sequence[float]) -> Hit | None:

@@ -82,7 +82,7 @@ def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[O
         except SkillError:
             continue
         for goal in islice(_places(cell, side, item, options), _MOST_HERE):
-            path = plan_arm(cell.robot, side, goal, rng=cell.rng, budget=200)
+            path = plan_arm(cell.robot, side, goal, rng=cell.rng)
             if path is not None and cell.robot.move_arm(side, path):
                 yield
 
@@ -105,7 +105,9 @@ def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Opt
         if not any(robot.solve(now[i].side, moved[i][-1]) for i in near):
             continue
         goals = [
-            g for g in robot.solve(side, there * grip.inverse())[:_POSTURES] if not robot.collides(side=side, arm=g)
+            g
+            for g in robot.solve(side, there * grip.inverse())[::_POSTURES][:_POSTURES]
+            if not robot.collides(side=side, arm=g)
         ]
         for goal in goals[:1]:
             asked += 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import islice, product
-from math import atan2, cos, degrees, sin
+from math import atan2, cos, degrees, dist, sin
 
 from tmd.robot.monitor.observation import REACH
 from tmd.robot.parameters import BASE_MOTION, STANCE
@@ -74,7 +74,7 @@ def _lookouts(cell: Cell, name: str, point: Vector) -> Iterator[tuple[Base, floa
 
 def _past_robot(eye: Vector, spot: Vector) -> Vector:
     """Return the start of a ray: not the eye, since the robot stands elsewhere now, and may stand there."""
-    share = min(BASE_MOTION.head_radius / max(Pose(eye).distance(Pose(spot)), 1e-6), 0.9)
+    share = min(BASE_MOTION.head_radius / max(dist(eye, spot), 1e-6), 0.9)
     x, y, z = (a + share * (b - a) for a, b in zip(eye, spot, strict=True))
     return (x, y, z)
 
@@ -92,9 +92,7 @@ def _seen(cell: Cell, name: str, point: Vector) -> str:
     for spot in _spots(cell, name, point):
         if cell.robot.sees(spot, body):
             pan = degrees(cell.robot.positions()["head_pan_joint"])
-            return (
-                f"{name} is in view, {Pose(cell.robot.eye().position).distance(Pose(spot)):.1f} m away, pan {pan:.0f}"
-            )
+            return f"{name} is in view, {dist(cell.robot.eye().position, spot):.1f} m away, pan {pan:.0f}"
     return ""
 
 
@@ -109,9 +107,9 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     options = pick_options(cell, name) if cell.scene.is_item(name) and cell.free() else []
     found = list(islice(candidates(cell, options, focus, cell.front(name), BASE_MOTION.brief_budget), 2 + attempt))
     places: list[tuple[Base, float]] = [(c.base, c.torso) for c in found[attempt:]]
-    clear = _stances_before(cell, name, focus)
+    clear = _stances_before(cell, name)
     if not (places or clear) and cell.fold():  # one hand is at what the other holds
-        clear = _stances_before(cell, name, focus)
+        clear = _stances_before(cell, name)
     here = cell.robot.torso()
     places += [(base, here) for base in clear]
     for base, torso in places:
@@ -128,10 +126,17 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     raise last
 
 
-def _stances_before(cell: Cell, name: str, focus: Pose) -> list[Base]:
-    """Return some places with room to stand before a thing, as the arms are now."""
-    clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
-    return list(islice(clear, BASE_MOTION.max_stances))
+def _stances_before(cell: Cell, name: str) -> list[Base]:
+    """Return some places with room to stand near a thing, as the arms are now.
+
+    If none is before a part, a door that stands open, they are before its whole.
+    """
+    clear: list[Base] = []
+    for each in dict.fromkeys((name, cell.whole(name))):
+        around = stances(cell, Pose(cell.centre(each)), cell.front(each), _FARTHER)
+        near = (b for b in around if cell.reach(name, b) <= REACH and not cell.robot.collides(base=b))
+        clear = clear or list(islice(near, BASE_MOTION.max_stances))
+    return clear
 
 
 def step_back(cell: Cell, door: str) -> None:

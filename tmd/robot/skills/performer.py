@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Hashable
+from contextlib import suppress
 
 from tmd.pddl.model import GroundAtom, Instruction
+from tmd.robot.monitor.observation import REACH
 from tmd.robot.parameters import TIME
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills import articulated, navigate_and_look, pick_and_place, pour_and_dip
@@ -52,13 +54,21 @@ class RobotPerformer:
             if error.stage in (SkillPhase.STANCE, SkillPhase.PATH, SkillPhase.TIME):
                 self._remember(task)
             raise
+        self._stay_near(task)
         if task.skill == "push":
             seen = {p for p, sensor in self.skills.seen.items() if sensor == "joint"}
             springs = sorted(a.args[0] for a in gains if a.predicate in seen and a.args[0] != task.object)
             for name in springs:
                 navigate_and_look.step_back(self.cell, name)
                 self.cell.spring(name)
+                self.cell.moment()
         return said
+
+    def _stay_near(self, task: SkillTask) -> None:
+        """Go back to what was worked at from so far away, or after so many steps back, that it is not near."""
+        if task.skill in ("close", "open", "rotate", "push") and self.cell.reach(task.object) > REACH:
+            with suppress(SkillError):
+                navigate_and_look.drive(self.cell, task.object, 0)
 
     def _remember(self, task: SkillTask) -> None:
         """Remember the poses and grips of things with which something could not be done.

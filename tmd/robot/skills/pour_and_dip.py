@@ -35,24 +35,23 @@ class Mouth:
 def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
     """Return the mouths of what is held, best first.
 
-    It is the far end of a long flat thing, the underside of a packet that hangs from the hand, and else the rim: on
-    either side of the wrist, towards the hand and away from it.
+    It is the rim of what has an opening, on either side of the wrist, away from the hand and towards it; the far end of
+    a long flat thing; the underside of a packet that hangs from the hand; and else the edge of the top.
     """
     low, high = cell.scene.size(item)
     size = [b - a for a, b in zip(low, high, strict=True)]
     middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
     longest = max(range(3), key=lambda axis: size[axis])
     tool = cell.in_tool(side, item).inverse()
+    opening = cell.scene.opening(item)
+    if opening is not None:  # its handle may make it longer than high
+        x, y, top = opening.centre
+        out = opening.radius + POURING.wall
+        return [_rim((x - out, y - out), (x + out, y + out), top, axis) for axis in _axes(tool, (x, y))]
     if longest == 2 or size[longest] < 2.2 * size[2]:
-        hangs = tool.rotate((1.0, 0.0, 0.0))[2] < -0.7 and not cell.scene.holds_contents(item)
-        if hangs:
+        if tool.rotate((1.0, 0.0, 0.0))[2] < -0.7 and not cell.scene.holds_contents(item):
             return [Mouth((middle[0], middle[1], low[2]), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))]
-        opening = cell.scene.opening(item)
-        if opening is not None:
-            out = opening.radius + POURING.wall
-            low, high = (-out, -out, low[2]), (out, out, high[2])
-        top = high[2] if opening is None else opening.centre[2]
-        return [_rim(low, high, top, axis) for axis in _axes(tool, middle)]
+        return [_rim(low, high, high[2], axis) for axis in _axes(tool, middle)]
     far = high if tool.position[longest] < middle[longest] else low
     at, turn = list(middle), [0.0, 0.0, 0.0]
     at[longest] = far[longest] - 0.015 * (1 if far is high else -1)
@@ -60,11 +59,10 @@ def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
     return [Mouth((at[0], at[1], high[2]), (0.0, 0.0, 1.0), (turn[0], turn[1], turn[2]), both=True)]
 
 
-def _rim(low: Vector, high: Vector, top: float, axis: Vector) -> Mouth:
+def _rim(low: Sequence[float], high: Sequence[float], top: float, axis: Vector) -> Mouth:
     """Return the point of the rim that is lowest when a vessel is tipped about ``axis``."""
-    x, y = axis[1], -axis[0]
-    at = ((high if x > 0 else low)[0] * abs(x), (high if y > 0 else low)[1] * abs(y), top)
-    return Mouth(at, (0.0, 0.0, 1.0), axis)
+    at = [(a + b) / 2 + (b - a) / 2 * share for a, b, share in zip(low[:2], high[:2], (axis[1], -axis[0]), strict=True)]
+    return Mouth((at[0], at[1], top), (0.0, 0.0, 1.0), axis)
 
 
 def _axes(tool: Pose, middle: Sequence[float]) -> list[Vector]:
@@ -97,19 +95,19 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
 
     body = cell.scene.bodies[item]
 
-    def over_rim() -> bool:
-        """Return whether what runs out now gets where it should."""
+    def leaving() -> Vector:
+        """Return the point over which contents run out as the thing is held: the lowest of its mouths."""
         here = cell.sim.pose(body)
-        return any(_beside(cell, here.apply(how.at), target) <= POURING.mouth_offset for how in known)
+        return min((here.apply(how.at) for how in known), key=lambda point: point[2])
 
-    with cell.leaning(item, over_rim):
+    with cell.leaning(item, lambda: _beside(cell, leaving(), target) <= POURING.mouth_offset):
         chosen = reach_for(cell, target, options, Pose(_overs(cell, target, POURING.heights[0][0])[0]), attempt)
         how = known[chosen.spot]
         if squeezed:
             cell.robot.close_gripper(side, _SQUEEZE)
         here = cell.sim.pose(body)
         tilt = acos(max(-1.0, min(1.0, here.rotate(how.out)[2])))  # between the mouth and straight up
-        beside = _beside(cell, here.apply(how.at), target)
+        beside = _beside(cell, leaving(), target)
         cell.load(target)
         cell.moment()
         _go_back(cell, chosen)

@@ -101,7 +101,7 @@ class ExecutedStep:
 class SkillStatus(StrEnum):
     """The end of an execution."""
 
-    # Every instruction was done, and every effect is as predicted.
+    # Every instruction was done, and every effect on what the plan names is as predicted.
     DONE = "done"
     # Something was not as predicted, the executor replanned if needed, and all that the plan is for holds.
     RECOVERED = "recovered"

@@ -70,11 +70,10 @@ class Cell:
     def _keeps_level(self, side: str) -> bool | None:
         """Return True for a full thing, False for one that can hold something, None for what lies in the hand."""
         item = self.in_hand.get(side)
-        if item is None or not (self.scene.stands(item) or self.scene.shown(item)):
+        if item is None or self.tilt(item) > CONTACT.upright or self.robot.held(side) is None:
             return None
-        if self.tilt(item) > CONTACT.upright or self.robot.held(side) is None:
-            return None
-        return bool(self.scene.shown(item)) and self.spills_from(item) is not None
+        full = bool(self.scene.shown(item)) or item in self._loaded
+        return full and self.spills_from(item) is not None if full or self.scene.stands(item) else None
 
     def look_on(self, doing: str) -> None:
         """Limit the cost of what is being looked for.
@@ -115,10 +114,10 @@ class Cell:
         if sim.ticks % _LEANING_EVERY and not self.robot.kinematic:
             return
         for item in dict.fromkeys((*self.scene.filled(), *sorted(self._loaded & set(self.scene.items())))):
-            if self.spills_from(item) is None:
-                continue  # shut: however it leans, nothing gets out
             tilt = self.tilt(item)
-            if tilt > self._leant.get(item, _LEVEL) and not (item in self.over_rim and self.over_rim[item]()):
+            if tilt <= self._leant.get(item, _LEVEL) or (item in self.over_rim and self.over_rim[item]()):
+                continue
+            if self.spills_from(item) is not None:  # shut: however it leans, nothing gets out
                 self._leant[item] = tilt
 
     @contextmanager
@@ -244,17 +243,17 @@ class Cell:
         name_, angle = min(handle.settings.items(), key=lambda pair: (abs(pair[1] - at), pair[0]))
         return name_ if abs(angle - at) <= ARTICULATION.setting_share * step else None
 
-    def reach(self, name: str) -> float:
-        """Return the distance on the floor from the robot's base to a thing or its whole, in metres.
+    def reach(self, name: str, base: Sequence[float] | None = None) -> float:
+        """Return the distance on the floor from the robot's base, or another one, to a thing or its whole, in metres.
 
         Its doors and drawers, which may stand open, do not count. A thing in something is as near as that.
         """
-        x, y, _ = self.robot.base()
+        x, y, _ = base or self.robot.base()
         body, _ = self.scene.place(name)
-        low, high = self.sim.extents(body, -1 if -1 in self.robot.solid_links(body) else None)
+        low, high = self.sim.extents(body, -1 if -1 in self.sim.solid_links(body) else None)
         own = hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
         place = self.support(self.whole(name))
-        return own if place is None or place[1] != "in" else min(own, self.reach(place[0]))
+        return own if place is None or place[1] != "in" else min(own, self.reach(place[0], base))
 
     def measured(self, atom: GroundAtom, sensor: str) -> str:
         """Return the numbers behind a fact."""

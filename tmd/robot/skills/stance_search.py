@@ -31,8 +31,8 @@ _FAR_SWINGS = tuple(sign * 0.3 * step for step in range(5, 11) for sign in (1, -
 _COARSE = 4.0
 # Ways or places that are looked at to say what is in the way.
 _EXPLAINED = 8
-# Samples for a way of the arm: where there are other stances to try, and where there is none.
-_SHORT, _LONG = 300, 2000
+# Samples for a way of the arm where there is no other stance to try.
+_LONG = 2000
 _SHOULDER_HEIGHT = 0.790675
 
 
@@ -331,7 +331,7 @@ def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
         raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {place}{_held_up(cell)}")
 
 
-def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int = _SHORT) -> None:
+def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int = 300) -> None:
     side = option.side
     whole = dense(option.poses)
     rows = plan_poses(cell.robot, side, whole, ignore=option.ignore)
@@ -368,10 +368,11 @@ def _held_up(cell: Cell) -> str:
 def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[bool, int]:
     """Return whether there are a posture for the last pose and a motion through all, and the cost of this check."""
     robot, side = cell.robot, option.side
-    found = robot.solve(side, option.poses[-1], base=base, torso=torso)[: STANCE.max_postures]
+    found = robot.solve(side, option.poses[-1], base=base, torso=torso)
     if not found:
         return False, STANCE.prices[0]
-    if not any(robot.clear(side, found, base=base, torso=torso, ignore=option.ignore)):
+    spread = found[:: -(-len(found) // STANCE.max_postures)]  # neighbours touch the same
+    if not any(robot.clear(side, spread, base=base, torso=torso, ignore=option.ignore)):
         return False, STANCE.prices[1]
     poses = dense(option.poses, _COARSE)  # what lies in between is looked at once the robot is there
     rows = plan_poses(robot, side, poses, ignore=option.ignore, base=base, torso=torso)

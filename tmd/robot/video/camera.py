@@ -11,7 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 
+import numpy as np
+
 from tmd.robot.pr2.pr2 import ARMS
+from tmd.robot.scene.scene import Handle
 from tmd.robot.sim.pose import Vector
 from tmd.robot.skills.robot_context import Cell
 
@@ -23,6 +26,8 @@ _HEIGHTS = tuple(map(math.radians, (28.0, 40.0, 54.0)))
 _CLOSE, _WIDE = 0.5, 1.0
 # A hand that is farther from the thing than this has nothing to do with it.
 _NEAR_HAND = 0.9
+# One that is nearer than this to the middle of the picture works there.
+_AT_WORK = 0.35
 # A ray that gets this near to its goal has met it.
 _SEEN = 0.1
 # The robot's own body counts as seen where it is this near to the point.
@@ -82,6 +87,11 @@ class Camera:
         self.wide = wide
         self.view = self.best()
 
+    def at_work(self) -> bool:
+        """Return whether a hand is at what the view shows."""
+        hands = (self._cell.robot.tool(side).position for side in ARMS)
+        return not self.wide and min(math.dist(hand, self.view.target) for hand in hands) < _AT_WORK
+
     def best(self) -> View:
         """Return the angle that shows most now."""
         if not self._names:
@@ -96,6 +106,10 @@ class Camera:
     def _points(self) -> list[_Point]:
         cell, points = self._cell, []
         for name in self._names:
+            handle = cell.scene.handle(name)
+            if handle is not None and handle.kind in ("door", "drawer"):
+                points += self._door_points(name, handle)
+                continue
             low, high = cell.sim.extents(*cell.scene.place(name))
             body, _ = cell.scene.place(name)
             x, y, z = cell.centre(name)
@@ -105,13 +119,22 @@ class Camera:
         own = (cell.robot.body, *(cell.scene.bodies[item] for item in cell.in_hand.values()))
         x, y, _ = cell.robot.base()
         if self.wide:
-            return [*points, _Point((x, y, 1.2), own, 1.5), _Point((x, y, 0.5), own, 1.0)]
+            return [*points, _Point((x, y, 1.2), own, 1.5), _Point((x, y, 0.5), own, 2.0)]
         things = [p.place for p in points]
         for side in ARMS:
             hand = cell.robot.tool(side).position
             if min(math.dist(hand, thing) for thing in things) < _NEAR_HAND:
                 points.append(_Point(hand, own, 2.0))
         return [*points, _Point((x, y, 1.2), own, 0.5)]
+
+    def _door_points(self, name: str, handle: Handle) -> list[_Point]:
+        """Return what to show of a door or a drawer: the handle, and the inside, which nothing but itself may cover."""
+        scene = self._cell.scene
+        inside = scene.regions(name, "in") or scene.regions(self._cell.whole(name), "in")
+        middles = [
+            scene.frame(whole, each.link).apply((np.add(each.low, each.high) / 2).tolist()) for whole, each in inside
+        ]
+        return [_Point(handle.grasp.position, (), 2.0), *(_Point(each, (), 1.5) for each in middles)]
 
     def _worth(self, view: View, points: Sequence[_Point]) -> float:
         if self._inside(view.eye):

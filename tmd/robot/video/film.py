@@ -36,6 +36,8 @@ TILE = (400, 300)
 _HEAD = 0.35
 # Skills that are seen from afar.
 _FAR = ("look", "drive")
+# Frames of a film for which a picture stays while no hand is at the thing.
+_PAUSE = 3
 
 
 def open_movie(
@@ -87,6 +89,8 @@ class Film:
         self._ran: list[ExecutedStep] = []
         self._of = 0
         self._event: Pixels | None = None
+        self._expected: Sequence[GroundAtom] = ()
+        self._looked_for = ""
         if strip:
             cell.moment = self._take_event
         if movie is not None:
@@ -105,7 +109,7 @@ class Film:
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """Turn the camera to an instruction."""
         self._of = title.of
-        self._event = None
+        self._event, self._expected = None, expected
         if not title.repair:
             self._tries[title.number] += 1
         task = self._skills.task(title.instruction)
@@ -135,9 +139,14 @@ class Film:
         self._caption = Caption(str(title.instruction), number, _said(title), tuple(facts), note, badge)
         self._hold(_SHOWN if badge == "ok" else _FAILURE_SHOWN)
         if self._strip:
-            # what it is about: the button while it is down, not the arm when it is tucked
-            seen = self._event if badge == "ok" else None
+            # what it is about: the button while it is down, not the arm when it is tucked; what goes out, afterwards
+            out = any(not each.holds and each.atom.predicate in self._skills.signs for each in step.effects)
+            seen = self._event if badge == "ok" and not out else None
             picture = self._picture(self._camera.best(), TILE) if seen is None else seen
+            task = self._skills.task(title.instruction)
+            if task.skill == "drive" and task.object == self._looked_for:
+                self._tiles.pop()  # the way to what was looked for shows it as well
+            self._looked_for = task.object if task.skill == "look" and badge == "ok" else ""
             self._tiles.append(under(picture, self._caption))
 
     def close(self, execution: Execution) -> None:
@@ -158,7 +167,20 @@ class Film:
         self._hold(_ENDING)
 
     def _take_event(self) -> None:
+        """Take the picture with what the instruction brings about: it is used only if that is so in the end."""
+        scene = self._cell.scene
+        signs = [atom for atom in self._expected if atom.predicate in self._skills.signs]
+        gains = [atom.args for atom in self._expected if atom.predicate == self._skills.contents]
+        before = {name: scene.shown(name) for name, _ in gains}
+        for atom in signs:
+            scene.sign(atom.args[0], atom.predicate, True)
+        for name, shown in before.items():
+            scene.show(name, (*shown, *(what for where, what in gains if where == name)))
         self._event = self._picture(self._camera.best(), TILE)
+        for atom in signs:
+            scene.sign(atom.args[0], atom.predicate, False)
+        for name, shown in before.items():
+            scene.show(name, shown)
 
     def _number(self, title: Title) -> str:
         """Return its place in the plan, and the number of the try after the first."""
@@ -188,12 +210,10 @@ class Film:
         self._time += stepped / STEPS_PER_SECOND + ticked * TICK
         if self._time >= self._shot - 1e-9:
             self._shot += 1 / self._fps
-            self._shoot()
-
-    def _shoot(self) -> None:
-        assert self._movie is not None
-        self._last = self._picture(self._camera.view, self._size)
-        self._movie.add(under(self._last, self._caption))
+            if self._last is None or self._camera.at_work() or round(self._shot * self._fps) % _PAUSE == 0:
+                self._last = self._picture(self._camera.view, self._size)
+            assert self._movie is not None
+            self._movie.add(under(self._last, self._caption))
 
     def _hold(self, seconds: float) -> None:
         if self._movie is None:
