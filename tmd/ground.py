@@ -133,24 +133,33 @@ def reader_of(config: InferenceConfig, library: Library, goals: GoalTable | None
 
 
 @lru_cache(maxsize=16)
-def restored_in(world: World, lexicon: Lexicon, learned: frozenset[PutBack]) -> tuple[tuple[Cube, ...], ...]:
+def restored_in(
+    world: World, lexicon: Lexicon, learned: frozenset[PutBack] = frozenset(), left: frozenset[PutBack] = frozenset()
+) -> tuple[tuple[Cube, ...], ...]:
     """Return what no plan leaves behind in an environment: each condition for each object, as cubes.
 
     Args:
         world: The environment.
         lexicon: The words of its domain, which may declare such conditions.
         learned: What demonstrations undo; it counts where the lexicon declares nothing.
+        left: What demonstrations leave as it came about, whatever the lexicon declares.
     """
     task, kinds = world.task, world.mentions.kinds
     declared = declared_goals(lexicon, task.problem.domain).restored
     found: list[tuple[Formula, str]] = []
     if declared or lexicon.restored is not None:
-        found = [(condition, name) for condition in declared for name in sorted(kinds)]
+        kept = {(p.predicate, p.kind) for p in left}
+        found = [(c, name) for c in declared for name in sorted(kinds) if (_state_named(c), kinds[name]) not in kept]
     else:
         for name in sorted(kinds):
             found += [(Atom(p.predicate, ("?x",)), name) for p in sorted(learned) if p.kind == kinds[name]]
     cubes = (ground_condition(task, condition, {"?x": name}) for condition, name in found)
     return tuple(dict.fromkeys(each for each in cubes if each and Cube() not in each))
+
+
+def _state_named(condition: Formula) -> str:
+    """Return the predicate of a condition that is an atom of one thing; empty for others."""
+    return condition.predicate if isinstance(condition, Atom) and len(condition.terms) == 1 else ""
 
 
 def restored_of(
@@ -162,8 +171,9 @@ def restored_of(
     lexicon = library.lexicon
     if not declared:
         lexicon = replace(lexicon, restored=None, base=replace(lexicon.base, restored=()))
-    learned = goals.put_back if goals is not None and LEARNED in config.sources else frozenset()
-    return restored_in(world, lexicon, learned)
+    if goals is None or LEARNED not in config.sources:
+        return restored_in(world, lexicon)
+    return restored_in(world, lexicon, goals.put_back, goals.left)
 
 
 def _asked(

@@ -31,7 +31,7 @@ def instructions(text: str) -> tuple[Instruction, ...]:
 def tidying(world: World, kitchen: Corpus) -> Tidying:
     passing = passing_predicates(world.task.problem.domain)
     lasting = sum(1 << bit for bit, atom in enumerate(world.task.atoms) if atom.predicate not in passing)
-    restored = restored_in(world, kitchen.lexicon, frozenset())
+    restored = restored_in(world, kitchen.lexicon)
     return Tidying(world.task, GapFiller(world.task), restored, lasting, 0, lambda states: True)
 
 
@@ -120,9 +120,9 @@ def _walk(world: World, choices: Sequence[int]) -> tuple[tuple[Instruction, ...]
 def test_a_lexicon_says_what_is_restored(kitchen: Corpus, tmp_path: Path) -> None:
     world = kitchen.world("kitchen1")
     door = ground_condition(world.task, Atom("opened", ("fridge1_door",)))
-    assert door in restored_in(world, kitchen.lexicon, frozenset())
+    assert door in restored_in(world, kitchen.lexicon)
     (tmp_path / "lexicon.yaml").write_text("restored: []\n", encoding="utf-8")
-    assert restored_in(world, read_lexicon(tmp_path / "lexicon.yaml"), frozenset()) == ()
+    assert restored_in(world, read_lexicon(tmp_path / "lexicon.yaml")) == ()
 
 
 @pytest.mark.parametrize("text", ["restored: opened\n", "restored: {opened: true}\n", "restored: [[a]]\n"])

@@ -324,7 +324,8 @@ class GoalPass(ForwardPass):
         for aim, quick in self._attempts(state, target.aims):
             tried = () if isinstance(quick, Unreachable) else proposals
             found = [c for p in tried if (c := self._completed(way, p, target, aim)) is not None]
-            answer = self._far_if_needed(quick, state, aim, target) if not found else quick
+            mixed = all(self._unmixed(state, end, aim) for _, end in found)
+            answer = self._far_if_needed(quick, state, aim, target) if mixed else quick
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
             elif isinstance(answer, Filled):
@@ -345,9 +346,10 @@ class GoalPass(ForwardPass):
         return [choice for choice, own in zip(found, moved, strict=True) if not any(other < own for other in moved)]
 
     def _moved(self, state: Bits, end: Bits) -> frozenset[str]:
-        """Return the objects that are somewhere else, or have other contents, in ``end`` than in ``state``."""
+        """Return the objects that are somewhere else, or have other contents, in ``end``, and what they contain now."""
         changed = self.task.names((state ^ end) & self.lasting)
-        return frozenset(atom.args[0] for atom in changed if len(atom.args) > 1)
+        gained = self.task.names(end & ~state & self._contents)
+        return frozenset(atom.args[0] for atom in changed if len(atom.args) > 1) | frozenset(map(str, gained))
 
     def _on_the_way(self, target: Target, state: Bits) -> tuple[Instructions, Bits] | Refusal:
         """Return instructions through the conditions on the way to a goal, and the state they end in.
@@ -395,6 +397,11 @@ class GoalPass(ForwardPass):
         """
         *stronger, last = own
         least = self.planner.fill(state, last)
+        unmixed = self._unmixed(state, least.state, own[0]) if isinstance(least, Filled) else ()
+        if unmixed:
+            answer = self.planner.fill(state, unmixed)
+            if isinstance(answer, Filled) and isinstance(least, Filled) and _little_longer(answer, least):
+                yield unmixed, answer
         for aim in stronger if not isinstance(least, Unreachable) else ():
             if isinstance(least, Filled) and any(cube.holds(least.state) for cube in aim):
                 yield aim, least
@@ -403,6 +410,20 @@ class GoalPass(ForwardPass):
             if not (isinstance(answer, Filled) and isinstance(least, Filled)) or _little_longer(answer, least):
                 yield aim, answer
         yield last, least
+
+    def _unmixed(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> tuple[Cube, ...]:
+        """Return an aim without what else came into its vessels from ``state`` to ``end``: hot milk without any coffee.
+
+        Empty where nothing else did.
+        """
+        found = []
+        for cube in aim:
+            vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
+            gained = self.task.names(end & ~state & ~cube.positive & self._contents)
+            others = sum(1 << self.task.index[atom] for atom in gained if atom.args[0] in vessels)
+            if others:
+                found.append(Cube(cube.positive, cube.negative | others))
+        return tuple(found)
 
     def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
@@ -425,7 +446,11 @@ class GoalPass(ForwardPass):
             answer = resort.fill(state, aim)
         if isinstance(answer, Filled):
             shorter = eliminate(answer.plan, self.task, state, aim)
-            return Filled(shorter, self.simulated(state, shorter), len(shorter))
+            answer = Filled(shorter, self.simulated(state, shorter), len(shorter))
+            unmixed = self._unmixed(state, answer.state, aim)
+            other = self._resort(True).fill(state, unmixed) if unmixed else None
+            if isinstance(other, Filled) and _little_longer(other, answer):
+                return other
         return answer
 
     # ------------------------------------------------------------------ proposals

@@ -131,6 +131,7 @@ class _Improvement:
             cube = next((c for c in cubes if c.holds(state)), Cube())
             asked_true |= cube.positive
             asked_false |= cube.negative
+        self.asked = asked_true | asked_false
         self.watched = [
             number
             for number, condition in enumerate(setup.restored)
@@ -258,8 +259,21 @@ class _Improvement:
         for planner in (self.setup.careful, self.setup.planner) if goal else ():
             answer = planner.fill(state, goal)
             if isinstance(answer, Filled):
-                yield answer.plan
+                home = self._home(state)
+                back = planner.fill(state, [Cube(c.positive | home, c.negative) for c in goal]) if home else answer
+                near = isinstance(back, Filled) and len(back.plan) <= len(answer.plan) + 1
+                yield back.plan if isinstance(back, Filled) and near else answer.plan
                 return
+
+    def _home(self, state: Bits) -> Bits:
+        """Return where things were at the start that are in a hand now, and that the request does not name."""
+        held = {a for n in self._untidy(state) for c in self.setup.restored[n] for a in self._arguments(c)}
+        held -= {argument for atom in self.task.names(self.asked) for argument in atom.args}
+        lost = self.task.names(self.start & ~state & self.setup.lasting & ~self.asked)
+        return sum(1 << self.task.index[atom] for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
+
+    def _arguments(self, cube: Cube) -> Iterator[str]:
+        return (argument for atom in self.task.names(cube.positive) for argument in atom.args)
 
     # ------------------------------------------------------------------ shorter plans
 

@@ -55,6 +55,10 @@ UNDONE = 0.6
 """The share of the cases in which people must have undone what they opened or switched on."""
 FEWEST_UNDONE = 5
 """The cases of which that is a share."""
+LEFT = 0.9
+"""The share of the cases in which people leave what they opened open, so that no plan restores it: packets, tins."""
+FEWEST_LEFT = 2
+"""The cases of which that is a share."""
 _NAMES = re.compile(r"\((\S+)")
 """What stands behind parentheses: the predicates of a condition, and its connectives."""
 _NEGATED = "(not"
@@ -96,7 +100,7 @@ def learn_goals(
     learner = _Learner(shown, world_of, lexicon)
     for demonstration in shown:
         learner.take(demonstration)
-    return GoalTable(tuple(learner.rows()), put_back=learner.put_back())
+    return GoalTable(tuple(learner.rows()), put_back=learner.put_back(), left=learner.left())
 
 
 def table_to_json(table: GoalTable) -> dict[str, object]:
@@ -110,7 +114,8 @@ def table_to_json(table: GoalTable) -> dict[str, object]:
         }
         for row in table.rows
     ]
-    return {"rows": rows, "put_back": [[p.predicate, p.kind] for p in sorted(table.put_back)]}
+    states = {name: [[p.predicate, p.kind] for p in sorted(getattr(table, name))] for name in ("put_back", "left")}
+    return {"rows": rows, **states}
 
 
 def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
@@ -123,8 +128,8 @@ def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
     for entry in data["rows"]:
         row = read_row(Declared(str(entry["pattern"]), str(entry["condition"])), domain, LEARNED)
         rows.append(replace(row, evidence=str(entry["evidence"]), probability=float(str(entry["probability"]))))
-    put_back = frozenset(PutBack(str(p), str(kind)) for p, kind in data["put_back"])
-    return GoalTable(tuple(rows), put_back=put_back)
+    put_back, left = (frozenset(PutBack(str(p), str(kind)) for p, kind in data[name]) for name in ("put_back", "left"))
+    return GoalTable(tuple(rows), put_back=put_back, left=left)
 
 
 def _said(text: str) -> int:
@@ -219,6 +224,11 @@ class _Learner:
                 count = self.started[PutBack(atom.predicate, world.mentions.kinds.get(atom.args[0], ""))]
                 count.possible += 1
                 count.held += not state >> world.task.index[atom] & 1
+
+    def left(self) -> frozenset[PutBack]:
+        """Return the literals that are hardly ever undone."""
+        left = (p for p, c in self.started.items() if c.possible >= FEWEST_LEFT and c.held <= (1 - LEFT) * c.possible)
+        return frozenset(left)
 
     def put_back(self) -> frozenset[PutBack]:
         """Return the literals that are undone in most cases."""
