@@ -148,7 +148,8 @@ def test_one_name_for_two_kinds_is_exported_to_all_formats(tmd: Tmd, tmp_path: P
     (tmp_path / "domain.pddl").write_text(ALIKE.format(more=""))
     (tmp_path / "p.pddl").write_text(ALIKE_PROBLEM)
     ended = tmd("export", "p.pddl", "out", "--format", "all")
-    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    assert ended.code == ExitCode.OK
+    assert re.fullmatch(r"warning: other tools refuse names, which are written differently: .*\n", ended.err)
     assert len(list((tmp_path / "out").iterdir())) == 7
 
 
@@ -156,13 +157,13 @@ def test_a_format_that_fails_does_not_keep_the_others_back(tmd: Tmd, tmp_path: P
     pytest.importorskip("up_fast_downward")
     (tmp_path / "domain.pddl").write_text(ALIKE.format(more=""))
     (tmp_path / "p.pddl").write_text(ALIKE_PROBLEM)
-    assert tmd("export", "p.pddl", "plan").code == ExitCode.OK
+    assert tmd("export", "p.pddl", "plan", "--format", "ipc").code == ExitCode.OK
     plan = ("--plan", "plan/plan.plan")
     ended = tmd("export", "p.pddl", "out", "--format", "sas,adl,bt", *plan, before=HIDE)
     assert ended.code == ExitCode.MISSING_TOOL
     assert {path.split("/")[1] for path in ended.out.split()} == {"adl", "bt"}
     assert sorted(ended.out.split()) == sorted(f"out/{path}" for path in found(tmp_path / "out"))
-    assert re.fullmatch(r"not written: sas: .*\n", ended.err)
+    assert re.search(r"^not written: sas: .*\n\Z", ended.err, re.MULTILINE)
     only = tmd("export", "p.pddl", "two", "--format", "sas", *plan, before=HIDE)
     assert (only.code, only.out, (tmp_path / "two").exists()) == (ExitCode.MISSING_TOOL, "", False)
 
@@ -172,12 +173,12 @@ def test_an_exported_plan_is_a_plan_for_the_environment(tmd: Tmd, tmp_path: Path
     assert tmd("export", "study1", "s", *goal).code == ExitCode.OK
     ended = tmd("export", "study1", "out", "--plan", "s/plan.plan")
     assert (ended.code, ended.err) == (ExitCode.OK, "")
-    assert "(grasp key1)" in found(tmp_path / "out")["plan.plan"]
+    assert "(grasp key1 desk1_drawer in)" in found(tmp_path / "out")["plan.plan"]
     file = ROOT / "problems" / "03_drawer" / "environments" / "study1.yaml"
     for environment in ("study1", file):
         checked = tmd("validate", "03_drawer", environment, "s/plan.plan")
         assert checked.out == "valid: 5 instructions, cost 5\n"
-    (tmp_path / "s" / "plan.plan").write_text("(grasp key1)\n")
+    (tmp_path / "s" / "plan.plan").write_text("(grasp key1 desk1_drawer in)\n")
     assert tmd("validate", "03_drawer", "study1", "s/plan.plan").code == ExitCode.INVALID_PLAN
     assert tmd("validate", "03_drawer", "study9", "s/plan.plan").code == ExitCode.BAD_INPUT
 

@@ -212,4 +212,4 @@ def test_the_domain_of_a_problem_stands_beside_it(tmd: Tmd, tmp_path: Path) -> N
     (toys / "domain.pddl").unlink()
     alone = tmd("ground", *request)
     assert alone.code == ExitCode.BAD_INPUT
-    assert alone.err.endswith("hint: give --domain NAME, or put the domain beside it as domain.pddl\n")
+    assert alone.err.startswith("error: there is no domain 'blocks'\nhint: ")
