@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import wraps
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 from lsprotocol import types as lsp
 from pygls.exceptions import JsonRpcException
@@ -34,6 +34,7 @@ from tmd.world.roots import Roots
 
 P = ParamSpec("P")
 R = TypeVar("R")
+_Opened: TypeAlias = lsp.DidOpenTextDocumentParams | lsp.DidSaveTextDocumentParams
 REQUEST = "tmd.request"
 """The command of the code lens: the URI of a file, and perhaps a request and an environment."""
 # Seconds without a change before a file is checked, and before the other open files are.
@@ -73,6 +74,15 @@ def _internal(error: Exception) -> str:
     return f"internal error: {type(error).__name__}: {error}; please report"
 
 
+def _is_on_disk(file: Path, text: str) -> bool:
+    try:
+        return file.read_bytes().decode("utf-8-sig") == text
+    except OSError:
+        return False
+    except UnicodeDecodeError:
+        return True  # the editor guessed another encoding, which the checker has something to say about
+
+
 class DomainServer(LanguageServer):
     """Server of one editor: its open files, and their diagnostics.
 
@@ -102,19 +112,18 @@ class DomainServer(LanguageServer):
         """Return the URI by which the editor knows a file."""
         return self._uris.get(file) or from_fs_path(str(file)) or ""
 
-    def position(self, line: str, row: int, column: int) -> lsp.Position:
-        """Return the position of a column, counted from 0 in characters, of a line."""
-        return lsp.Position(row, self.workspace.position_codec.client_num_units(line[:column]))
+    def _range(self, lines: Sequence[str], begin: tuple[int, int], end: tuple[int, int]) -> lsp.Range:
+        """Return a range in the units of the editor, from rows and columns counted from 0 in characters."""
+        characters = lsp.Range(lsp.Position(*begin), lsp.Position(*end))
+        return self.workspace.position_codec.range_to_client_units(lines, characters)
 
     def place(self, uri: str, at: lsp.Position) -> tuple[Path, tuple[str, ...], int]:
         """Return the file of a position, its lines up to it, and the column, counted from 1 in characters."""
         file = self.file(uri)
         lines = lines_of(self.project.text(file))
-        row, column, units = min(at.line, len(lines) - 1), 0, 0
-        for column, character in enumerate((*lines[row], "")):  # noqa: B007 - the last one is meant
-            units += self.workspace.position_codec.client_num_units(character)
-            if units > at.character:
-                break
+        row, codec = min(at.line, len(lines) - 1), self.workspace.position_codec
+        inside = lsp.Position(row, min(at.character, codec.client_num_units(lines[row])))
+        column = codec.position_from_client_units(lines, inside).character
         return file, (*lines[:row], lines[row][:column]), column + 1
 
     def range(self, place: Location, length: int | None = None) -> lsp.Range:
@@ -125,12 +134,12 @@ class DomainServer(LanguageServer):
         if length is None:
             word = TOKEN.match(line, begin)
             length = word.end() - begin if word else 1
-        return lsp.Range(self.position(line, row, begin), self.position(line, row, begin + length))
+        return self._range(lines, (row, begin), (row, begin + length))
 
     def whole(self, text: str) -> lsp.Range:
         """Return the range of a text."""
         lines = lines_of(text)
-        return lsp.Range(lsp.Position(0, 0), self.position(lines[-1], len(lines) - 1, len(lines[-1])))
+        return self._range(lines, (0, 0), (len(lines) - 1, len(lines[-1])))
 
     def names_at(self, params: Any) -> tuple[Path, list[Occurrence]]:  # noqa: ANN401 - all that have a position
         """Return the file and the names at the position of a request."""
@@ -208,31 +217,15 @@ class DomainServer(LanguageServer):
 
     # ---------------------------------------------------------------- what editors send and ask
 
-    def did_open(self, params: lsp.DidOpenTextDocumentParams | lsp.DidSaveTextDocumentParams) -> None:
-        """Take in a document that was opened or saved: it is as on the disk, unless its text says otherwise."""
+    def taken_in(self, params: _Opened | lsp.DidChangeTextDocumentParams) -> None:
+        """Take in a document; one that was opened or saved is as on the disk, unless its text says otherwise."""
         uri = params.text_document.uri
         file, text = self.file(uri), self.workspace.get_text_document(uri).source
         self._uris[file] = uri
-        if not self.project.is_ours(file, text):
-            return
-        self.project.files[file] = None
-        try:
-            same = file.read_bytes().decode("utf-8-sig") == text
-        except OSError:
-            same = False
-        except UnicodeDecodeError:
-            same = True  # the editor guessed another encoding, which the checker has something to say about
-        self.keep(file, None if same else text)
-
-    def did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
-        """Take in a change."""
-        file, text = (
-            self.file(params.text_document.uri),
-            self.workspace.get_text_document(params.text_document.uri).source,
-        )
         if file in self.project.files or self.project.is_ours(file, text):
             self.project.files[file] = None
-            self.keep(file, text)
+            same = isinstance(params, _Opened) and _is_on_disk(file, text)
+            self.keep(file, None if same else text)
 
     def did_close(self, params: lsp.DidCloseTextDocumentParams) -> None:
         """Forget a document."""
@@ -320,23 +313,16 @@ class DomainServer(LanguageServer):
         file = self.file(params.text_document.uri)
         text = self.project.text(file)
         # after a change the places of the diagnostics are wrong, until the next ones
-        texts = self._fixed(file, params.range) if self._checked_texts.get(file) == text else {}
+        known = self.found.get(file, []) if self._checked_texts.get(file) == text else []
+        chosen = params.range
+        places = ((found, self.range(found.location)) for found in known)
+        within = [found for found, place in places if chosen.start <= place.end and place.start <= chosen.end]
+        texts = {f"Fix: {found.hint or found.message}": fix_file(file, [found]) for found in within}
+        if any(texts.values()):
+            texts["Fix all that is mechanical in this file"] = fix_file(file, known)
         whole, uri = self.whole(text), self.uri(file)
         edits = {title: lsp.WorkspaceEdit({uri: [lsp.TextEdit(whole, new)]}) for title, new in texts.items() if new}
         return [lsp.CodeAction(title, lsp.CodeActionKind.QuickFix, edit=edit) for title, edit in edits.items()]
-
-    def _fixed(self, file: Path, chosen: lsp.Range) -> dict[str, str | None]:
-        """Return the text after each fix for a range, by what the fix does."""
-        known = self.found.get(file, [])
-        ranges = [self.range(found.location) for found in known]
-        texts = {
-            f"Fix: {found.hint or found.message}": fix_file(file, [found])
-            for found, place in zip(known, ranges, strict=True)
-            if chosen.start <= place.end and place.start <= chosen.end
-        }
-        return texts | (
-            {"Fix all that is mechanical in this file": fix_file(file, known)} if any(texts.values()) else {}
-        )
 
     def code_lens(self, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
         """Return a lens on the first line that is no comment, and one on each comment ``try: REQUEST``."""
@@ -346,12 +332,12 @@ class DomainServer(LanguageServer):
             return []
         lines = lines_of(self.project.text(file))
         top = next((row for row, line in enumerate(lines) if line.strip() and line.lstrip()[0] not in ";#"), 0)
-        lenses = [(top, "try a request here", [uri])]
-        for row, asked in ((row, found) for row, line in enumerate(lines) if (found := _TRY.match(line))):
-            lenses.append((row, f"try: {asked[2]}", [uri, asked[2], *filter(None, [asked[1]])]))
-        ranges = (lsp.Range(lsp.Position(row, 0), lsp.Position(row, 0)) for row, _, _ in lenses)
-        commands = (lsp.Command(title, REQUEST, arguments=arguments) for _, title, arguments in lenses)
-        return list(map(lsp.CodeLens, ranges, commands))
+        asked = [(row, found) for row, line in enumerate(lines) if (found := _TRY.match(line))]
+        tried = ((row, f"try: {found[2]}", [found[2], *filter(None, [found[1]])]) for row, found in asked)
+        return [
+            lsp.CodeLens(self._range(lines, (row, 0), (row, 0)), lsp.Command(title, REQUEST, arguments=[uri, *words]))
+            for row, title, words in ((top, "try a request here", []), *tried)
+        ]
 
     async def request(self, uri: str = "", text: str = "", environment: str = "") -> str:
         """Show what ``tmd ground`` answers to a request in the domain of a file."""
@@ -412,9 +398,10 @@ class DomainServer(LanguageServer):
 
 
 _FEATURES: Mapping[str, Callable[[DomainServer], Callable[..., object]]] = {
-    lsp.TEXT_DOCUMENT_DID_OPEN: lambda server: server.did_open,
-    lsp.TEXT_DOCUMENT_DID_SAVE: lambda server: server.did_open,
-    lsp.TEXT_DOCUMENT_DID_CHANGE: lambda server: server.did_change,
+    **dict.fromkeys(
+        (lsp.TEXT_DOCUMENT_DID_OPEN, lsp.TEXT_DOCUMENT_DID_SAVE, lsp.TEXT_DOCUMENT_DID_CHANGE),
+        lambda server: server.taken_in,
+    ),
     lsp.TEXT_DOCUMENT_DID_CLOSE: lambda server: server.did_close,
     lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: lambda server: server.files_changed,
     lsp.TEXT_DOCUMENT_HOVER: lambda server: server.hover,

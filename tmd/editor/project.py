@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -77,12 +77,9 @@ class Project:
         """Return the file of the domain that a file belongs to."""
         text = self.text(file)
         if file.suffix in YAML and file.name not in DATA_FILES:
-            named = _DOMAIN.search(text)
-            if named is None:
-                return None
+            name = next(iter(_DOMAIN.findall(text)), "")
             with suppress(TmdError):
-                folder = folder_near(file, named[1]) or find_domain(named[1], self.roots.domains).path
-                return real(folder / "domain.pddl")
+                return real((folder_near(file, name) or find_domain(name, self.roots.domains).path) / "domain.pddl")
             return None
         if file.suffix != ".pddl" or file.name == "instructions.pddl":
             sources = (file.parent / "domain.pddl", file.parent / "instructions.pddl")
@@ -159,11 +156,8 @@ class Project:
         """
         if not self.definitions(file, name) or name.name in _BUILT_IN:
             raise TmdError(f"'{name.name}' is not declared in this domain, or is a word of PDDL")
-        if not _NAME.fullmatch(new.removeprefix("?")) or new in _BUILT_IN:
-            raise TmdError(f"'{new}' is not a name: a small letter first, then letters, digits, - and _")
         places = self.references(file, name)
-        if "-" in new and not {Path(place.place.file).suffix for place in places}.isdisjoint(YAML):
-            raise TmdError(f"'{new}' is not a name for YAML files: letters, digits and _")
+        _check_name(new, {Path(place.place.file).suffix for place in places})
         taken = self._taken(file, name, new)
         if taken is not None:
             raise TmdError(f"there is a {name.kind} '{taken.name}' already: {taken.place}")
@@ -218,6 +212,14 @@ class Project:
             return "\n".join(lines[begin.line - 1 : end.line])
         _, mark, comment = lines[end.line - 1][end.column :].partition(";")
         return Source(begin.file, lines).text(begin, after(declared.group)) + (f"  ;{comment}" if mark else "")
+
+
+def _check_name(name: str, suffixes: Set[str]) -> None:
+    """Refuse what files with these suffixes do not take for a name, and the names that PDDL has a meaning for."""
+    if not _NAME.fullmatch(name.removeprefix("?")) or name in _BUILT_IN:
+        raise TmdError(f"'{name}' is not a name: a small letter first, then letters, digits, - and _")
+    if "-" in name and not suffixes.isdisjoint(YAML):
+        raise TmdError(f"'{name}' is not a name for YAML files: letters, digits and _")
 
 
 _TITLES: Mapping[Role, str] = {
