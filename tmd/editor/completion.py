@@ -9,7 +9,7 @@ from pathlib import Path
 from tmd.diagnostics import Location
 from tmd.editor.names import NameKind, names_in_pddl
 from tmd.editor.project import YAML, Project
-from tmd.editor.yaml_names import keys_in, kind_of_keys, kinds_of_value, path_at
+from tmd.editor.yaml_names import keys_in, kinds_at, path_at
 from tmd.language.lexicon.file import KEYS, bases_near
 from tmd.pddl.model import OBJECT
 from tmd.pddl.reading.reader import REQUIREMENTS
@@ -119,10 +119,8 @@ def _in_yaml(project: Project, file: Path, lines: Sequence[str]) -> dict[str, st
     path = path_at(lines)
     value = re.search(r"(?:[\w-]+:\s|^\s*-\s|\[)(?:[^{}\[\]]*,)?\s*([^{}\[\],]*)$", last)
     if value is None or re.search(r"\{[^{}\[:]*(,[^{}\[:]*)?$", last):
-        kind = kind_of_keys(path)
         keys = keys_in(file, path) if path or file.name != "lexicon.yaml" else KEYS
-        return dict.fromkeys(keys, "key") | (_declared(project, file, kind) if kind else {})
+        return dict.fromkeys(keys, "key") | _declared(project, file, *kinds_at(path, 0, is_key=True))
     if path[-1:] == ("include",):
         return dict.fromkeys(bases_near(file), "base lexicon")
-    kinds = kinds_of_value(path, value[1].count(" "))
-    return _declared(project, file, *kinds) if kinds else {}
+    return _declared(project, file, *kinds_at(path, value[1].count(" "), is_key=False))

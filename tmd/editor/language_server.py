@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 from lsprotocol import types as lsp
+from pygls.capabilities import get_capability
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 from pygls.uris import from_fs_path, to_fs_path
@@ -59,15 +60,18 @@ def _answering(answer: Callable[P, R]) -> Callable[P, R]:
     def guarded(*arguments: P.args, **named: P.kwargs) -> R:
         try:
             return answer(*arguments, **named)
-        except (TmdError, OSError, RecursionError) as error:
-            message = str(error) or type(error).__name__
         except JsonRpcException:
             raise
         except Exception as error:  # a fault of tmd must not end the server
-            message = _internal(error)
-        raise JsonRpcException(" ".join(message.split()), lsp.LSPErrorCodes.RequestFailed) from None
+            raise JsonRpcException(" ".join(_message(error).split()), lsp.LSPErrorCodes.RequestFailed) from None
 
     return guarded
+
+
+def _message(error: Exception) -> str:
+    """Return the message of an error that is not a fault of tmd, or else one that says that it is."""
+    expected = isinstance(error, TmdError | OSError | RecursionError)
+    return (str(error) or type(error).__name__) if expected else _internal(error)
 
 
 def _internal(error: Exception) -> str:
@@ -313,16 +317,20 @@ class DomainServer(LanguageServer):
         file = self.file(params.text_document.uri)
         text = self.project.text(file)
         # after a change the places of the diagnostics are wrong, until the next ones
-        known = self.found.get(file, []) if self._checked_texts.get(file) == text else []
-        chosen = params.range
+        texts = self._fixed(file, params.range) if self._checked_texts.get(file) == text else {}
+        whole, uri = self.whole(text), self.uri(file)
+        edits = {title: lsp.WorkspaceEdit({uri: [lsp.TextEdit(whole, new)]}) for title, new in texts.items() if new}
+        return [lsp.CodeAction(title, lsp.CodeActionKind.QuickFix, edit=edit) for title, edit in edits.items()]
+
+    def _fixed(self, file: Path, chosen: lsp.Range) -> dict[str, str | None]:
+        """Return the text after each fix for a range, by what the fix does."""
+        known = self.found.get(file, [])
         places = ((found, self.range(found.location)) for found in known)
         within = [found for found, place in places if chosen.start <= place.end and place.start <= chosen.end]
         texts = {f"Fix: {found.hint or found.message}": fix_file(file, [found]) for found in within}
         if any(texts.values()):
             texts["Fix all that is mechanical in this file"] = fix_file(file, known)
-        whole, uri = self.whole(text), self.uri(file)
-        edits = {title: lsp.WorkspaceEdit({uri: [lsp.TextEdit(whole, new)]}) for title, new in texts.items() if new}
-        return [lsp.CodeAction(title, lsp.CodeActionKind.QuickFix, edit=edit) for title, edit in edits.items()]
+        return texts
 
     def code_lens(self, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
         """Return a lens on the first line that is no comment, and one on each comment ``try: REQUEST``."""
@@ -344,11 +352,10 @@ class DomainServer(LanguageServer):
         try:
             answer = await self._grounded(self.file(str(uri)), str(text), str(environment))
         except Exception as error:  # a fault of tmd must not end the server
-            message = str(error) if isinstance(error, TmdError | OSError) else _internal(error)
+            message = _message(error)
             self.tell(message)
             return message
-        window = self.client_capabilities.window
-        if window is not None and window.show_document is not None and window.show_document.support:
+        if get_capability(self.client_capabilities, "window.show_document.support"):
             shown = Path(tempfile.mkdtemp(prefix="tmd-")) / "answer.txt"
             shown.write_text(answer, encoding="utf-8")
             self.window_show_document(lsp.ShowDocumentParams(shown.as_uri(), take_focus=False), lambda _: None)
@@ -385,11 +392,10 @@ class DomainServer(LanguageServer):
             TmdError: One of them is missing.
         """
         domain = self.project.domain_of(file)
-        places = self.project.environments(domain) if domain else []
-        places = [Path(environment)] if environment else [place for place in places if place == file] or places
+        places = [Path(environment)] if environment else self.project.environments(domain) if domain else []
         if domain is None or not places:
             raise TmdError(f"no environment for {file.name} was found; write a problem beside the domain")
-        return domain, str(places[0])
+        return domain, str(file if file in places else places[0])
 
     def stop_request(self) -> None:
         """End the request that still runs."""

@@ -100,15 +100,9 @@ def lookup(table: Mapping[KeyPath, T], path: KeyPath) -> T | None:
     return table.get(next(fitting, ()))
 
 
-def kinds_of_value(path: KeyPath, number: int) -> tuple[NameKind, ...]:
-    """Return the kinds of names that may be word ``number`` of the value at ``path``."""
-    return tuple(kind for kind, _ in _meanings(path, number, is_key=False))
-
-
-def kind_of_keys(path: KeyPath) -> NameKind | None:
-    """Return the kind of the names that are keys at ``path``, where they are not declared by that."""
-    meaning = lookup(_KEYS, path)
-    return meaning[0] if meaning and meaning[1] is not Role.DECLARED else None
+def kinds_at(path: KeyPath, number: int, *, is_key: bool) -> list[NameKind]:
+    """Return the kinds of declared names that may be word ``number`` of a key or value at ``path``."""
+    return [kind for kind, role in _meanings(path, number, is_key=is_key) if role is not Role.DECLARED]
 
 
 def _class_in(value: yaml.Node | None) -> tuple[str, ...]:
@@ -151,7 +145,6 @@ def _fields(kind: object) -> dict[str, object]:
 
 def path_at(lines: Sequence[str]) -> KeyPath:
     """Return the path of the mapping or value in which a text ends, from its indentation and open brackets."""
-    path: list[str] = []
     *before, last = lines
     flow = re.sub(r"\{[^{}]*\}", "", last)
     opened = re.findall(r"([\w-]+):\s*\{", flow)
