@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from tmd.diagnostics import Location
-from tmd.editor.names import NameKind, names_in_pddl
+from tmd.editor.names import NameKind, groups_in, names_in_section
 from tmd.editor.project import YAML, Project
 from tmd.editor.yaml_names import keys_in, kinds_at, path_at
 from tmd.language.lexicon.file import KEYS, bases_near
 from tmd.pddl.model import OBJECT
 from tmd.pddl.reading.reader import REQUIREMENTS
-from tmd.pddl.reading.syntax import Group, Node, Word, parse, split_lines
+from tmd.pddl.reading.syntax import Group, Node, Word, split_lines
 from tmd.world.problem_domain import domains_in, kind_and_name
 
 _SECTIONS = {
@@ -43,25 +43,23 @@ def complete(project: Project, file: Path, text: str) -> dict[str, str]:
 
 def _in_pddl(project: Project, file: Path, text: str) -> dict[str, str]:
     typed = re.split(r"[\s()]", text)[-1]
-    text = text.removesuffix(typed)
-    opened = _opened(text)
+    opened = _opened(text.removesuffix(typed))
     if not opened:
         return {}
     top = opened[-1]
     if typed.startswith("?"):
-        return _variables(text, opened)
+        return _variables(opened)
     if _word(top.parts[-1:]) == "-" or top.head == "either":
         return {**_declared(project, file, NameKind.TYPE), OBJECT: "type"}
-    return _in_formula(project, file, text, opened) if len(opened) > 2 else _in_section(project, file, opened)
+    return _in_formula(project, file, opened) if len(opened) > 2 else _in_section(project, file, opened)
 
 
 def _opened(text: str) -> list[Group]:
     """Return the groups that are open at the end of a text, which is where reading ends them."""
-    document = parse(text, "", lambda _: None)
-    lines = document.source.lines
+    lines = split_lines(text)
     end = Location("", len(lines), len(lines[-1]) + 1)
     opened: list[Group] = []
-    last: Sequence[Node] = document.groups[-1:]
+    last: Sequence[Node] = groups_in(text, "")[-1:]
     while last and isinstance(last[0], Group) and last[0].end == end:
         opened.append(last[0])
         last = last[0].parts[-1:]
@@ -72,13 +70,11 @@ def _word(part: Sequence[Node]) -> str:
     return part[0].text if part and isinstance(part[0], Word) else ""
 
 
-def _variables(text: str, opened: list[Group]) -> dict[str, str]:
+def _variables(opened: list[Group]) -> dict[str, str]:
     """Return the variables that open groups bind, without those of a list that is open itself."""
     top, scopes = opened[-1], {group.location for group in opened}
-    names = (
-        n for n in names_in_pddl(text, "") if n.scope in scopes and (n.place < top.location or top.head in _BINDING)
-    )
-    return {name.name: "variable" for name in names}
+    names = (name for section in opened[1:2] for name in names_in_section(section) if name.scope in scopes)
+    return {n.name: "variable" for n in names if n.place < top.location or top.head in _BINDING}
 
 
 def _in_section(project: Project, file: Path, opened: list[Group]) -> dict[str, str]:
@@ -95,13 +91,13 @@ def _in_section(project: Project, file: Path, opened: list[Group]) -> dict[str, 
     return {} if top.parts or len(opened) == 1 else dict.fromkeys(_SECTIONS[kind], "keyword")
 
 
-def _in_formula(project: Project, file: Path, text: str, opened: list[Group]) -> dict[str, str]:
+def _in_formula(project: Project, file: Path, opened: list[Group]) -> dict[str, str]:
     top, section = opened[-1], opened[1]
     keyword = _word(section.parts[-2:-1])
     if section.head not in _FORMULAS or keyword == ":parameters":
         return {}
     if top.parts:
-        return _variables(text, opened) | _declared(project, file, NameKind.OBJECT)
+        return _variables(opened) | _declared(project, file, NameKind.OBJECT)
     words = {":init": ("not", "=")}.get(section.head, _EFFECTS if keyword == ":effect" else _CONDITIONS)
     return _declared(project, file, NameKind.PREDICATE, NameKind.FUNCTION) | dict.fromkeys(words, "keyword")
 

@@ -63,21 +63,27 @@ class Occurrence:
 
 def names_in_pddl(text: str, file: str) -> list[Occurrence]:
     """Return the names of a domain or problem, in the order of the text; nothing where it nests too deeply."""
+    sections = (part for top in groups_in(text, file) for part in top.parts[1:] if isinstance(part, Group))
+    return [name for section in sections for name in names_in_section(section)]
+
+
+def names_in_section(section: Group) -> list[Occurrence]:
+    """Return the names of a part of ``(define ...)``."""
     found = _Names()
-    for section in (part for top in _groups(text, file) for part in top.parts[1:] if isinstance(part, Group)):
-        found.section(section)
+    found.section(section)
     return found.names
 
 
 def names_in_conditions(text: str, file: str) -> list[Occurrence]:
     """Return the names of a text that consists of conditions."""
     found = _Names("condition")
-    for group in _groups(text, file):
+    for group in groups_in(text, file):
         found.formula(group, Role.READ)
     return found.names
 
 
-def _groups(text: str, file: str) -> tuple[Group, ...]:
+def groups_in(text: str, file: str) -> tuple[Group, ...]:
+    """Return the outermost groups of a text, as far as it can be read; none where it nests too deeply."""
     document = parse(text, file, lambda _: None)
     with suppress(TmdError):
         document.check_depth()
