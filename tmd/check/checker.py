@@ -260,12 +260,12 @@ def _files(directory: Path) -> Iterator[Path]:
     found = [
         path
         for path in directory.rglob("*")
-        if _is_ours(path) and not any(part.startswith(".") for part in path.relative_to(directory).parts)
+        if is_ours(path) and not any(part.startswith(".") for part in path.relative_to(directory).parts)
     ]
     yield from sorted(found, key=lambda path: (path.parent, path.suffix != ".pddl", path.name not in _FIRST, path.name))
 
 
-def _is_ours(path: Path) -> bool:
+def is_ours(path: Path) -> bool:
     """Return whether a file of a directory is one that tmd reads; other YAML may lie there as well."""
     if path.suffix in (".yaml", ".yml"):
         return path.name in DATA_FILES or path.parent.name in ("environments", BASES)

@@ -12,9 +12,10 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from functools import wraps
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeAlias, TypeVar
 
 from lsprotocol import types as lsp
+from pygls.capabilities import get_capability
 from pygls.exceptions import JsonRpcException
 from pygls.lsp.server import LanguageServer
 from pygls.uris import from_fs_path, to_fs_path
@@ -34,6 +35,7 @@ from tmd.world.roots import Roots
 
 P = ParamSpec("P")
 R = TypeVar("R")
+_Opened: TypeAlias = lsp.DidOpenTextDocumentParams | lsp.DidSaveTextDocumentParams
 REQUEST = "tmd.request"
 """The command of the code lens: the URI of a file, and perhaps a request and an environment."""
 # Seconds without a change before a file is checked, and before the other open files are.
@@ -58,19 +60,31 @@ def _answering(answer: Callable[P, R]) -> Callable[P, R]:
     def guarded(*arguments: P.args, **named: P.kwargs) -> R:
         try:
             return answer(*arguments, **named)
-        except (TmdError, OSError, RecursionError) as error:
-            message = str(error) or type(error).__name__
         except JsonRpcException:
             raise
         except Exception as error:  # a fault of tmd must not end the server
-            message = _internal(error)
-        raise JsonRpcException(" ".join(message.split()), lsp.LSPErrorCodes.RequestFailed) from None
+            raise JsonRpcException(" ".join(_message(error).split()), lsp.LSPErrorCodes.RequestFailed) from None
 
     return guarded
 
 
+def _message(error: Exception) -> str:
+    """Return the message of an error that is not a fault of tmd, or else one that says that it is."""
+    expected = isinstance(error, TmdError | OSError | RecursionError)
+    return (str(error) or type(error).__name__) if expected else _internal(error)
+
+
 def _internal(error: Exception) -> str:
     return f"internal error: {type(error).__name__}: {error}; please report"
+
+
+def _is_on_disk(file: Path, text: str) -> bool:
+    try:
+        return file.read_bytes().decode("utf-8-sig") == text
+    except OSError:
+        return False
+    except UnicodeDecodeError:
+        return True  # the editor guessed another encoding, which the checker has something to say about
 
 
 class DomainServer(LanguageServer):
@@ -102,19 +116,18 @@ class DomainServer(LanguageServer):
         """Return the URI by which the editor knows a file."""
         return self._uris.get(file) or from_fs_path(str(file)) or ""
 
-    def position(self, line: str, row: int, column: int) -> lsp.Position:
-        """Return the position of a column, counted from 0 in characters, of a line."""
-        return lsp.Position(row, self.workspace.position_codec.client_num_units(line[:column]))
+    def _range(self, lines: Sequence[str], begin: tuple[int, int], end: tuple[int, int]) -> lsp.Range:
+        """Return a range in the units of the editor, from rows and columns counted from 0 in characters."""
+        characters = lsp.Range(lsp.Position(*begin), lsp.Position(*end))
+        return self.workspace.position_codec.range_to_client_units(lines, characters)
 
     def place(self, uri: str, at: lsp.Position) -> tuple[Path, tuple[str, ...], int]:
         """Return the file of a position, its lines up to it, and the column, counted from 1 in characters."""
         file = self.file(uri)
         lines = lines_of(self.project.text(file))
-        row, column, units = min(at.line, len(lines) - 1), 0, 0
-        for column, character in enumerate((*lines[row], "")):  # noqa: B007 - the last one is meant
-            units += self.workspace.position_codec.client_num_units(character)
-            if units > at.character:
-                break
+        row, codec = min(at.line, len(lines) - 1), self.workspace.position_codec
+        inside = lsp.Position(row, min(at.character, codec.client_num_units(lines[row])))
+        column = codec.position_from_client_units(lines, inside).character
         return file, (*lines[:row], lines[row][:column]), column + 1
 
     def range(self, place: Location, length: int | None = None) -> lsp.Range:
@@ -125,12 +138,12 @@ class DomainServer(LanguageServer):
         if length is None:
             word = TOKEN.match(line, begin)
             length = word.end() - begin if word else 1
-        return lsp.Range(self.position(line, row, begin), self.position(line, row, begin + length))
+        return self._range(lines, (row, begin), (row, begin + length))
 
     def whole(self, text: str) -> lsp.Range:
         """Return the range of a text."""
         lines = lines_of(text)
-        return lsp.Range(lsp.Position(0, 0), self.position(lines[-1], len(lines) - 1, len(lines[-1])))
+        return self._range(lines, (0, 0), (len(lines) - 1, len(lines[-1])))
 
     def names_at(self, params: Any) -> tuple[Path, list[Occurrence]]:  # noqa: ANN401 - all that have a position
         """Return the file and the names at the position of a request."""
@@ -208,31 +221,15 @@ class DomainServer(LanguageServer):
 
     # ---------------------------------------------------------------- what editors send and ask
 
-    def did_open(self, params: lsp.DidOpenTextDocumentParams | lsp.DidSaveTextDocumentParams) -> None:
-        """Take in a document that was opened or saved: it is as on the disk, unless its text says otherwise."""
+    def taken_in(self, params: _Opened | lsp.DidChangeTextDocumentParams) -> None:
+        """Take in a document; one that was opened or saved is as on the disk, unless its text says otherwise."""
         uri = params.text_document.uri
         file, text = self.file(uri), self.workspace.get_text_document(uri).source
         self._uris[file] = uri
-        if not self.project.is_ours(file, text):
-            return
-        self.project.files[file] = None
-        try:
-            same = file.read_bytes().decode("utf-8-sig") == text
-        except OSError:
-            same = False
-        except UnicodeDecodeError:
-            same = True  # the editor guessed another encoding, which the checker has something to say about
-        self.keep(file, None if same else text)
-
-    def did_change(self, params: lsp.DidChangeTextDocumentParams) -> None:
-        """Take in a change."""
-        file, text = (
-            self.file(params.text_document.uri),
-            self.workspace.get_text_document(params.text_document.uri).source,
-        )
         if file in self.project.files or self.project.is_ours(file, text):
             self.project.files[file] = None
-            self.keep(file, text)
+            same = isinstance(params, _Opened) and _is_on_disk(file, text)
+            self.keep(file, None if same else text)
 
     def did_close(self, params: lsp.DidCloseTextDocumentParams) -> None:
         """Forget a document."""
@@ -328,15 +325,12 @@ class DomainServer(LanguageServer):
     def _fixed(self, file: Path, chosen: lsp.Range) -> dict[str, str | None]:
         """Return the text after each fix for a range, by what the fix does."""
         known = self.found.get(file, [])
-        ranges = [self.range(found.location) for found in known]
-        texts = {
-            f"Fix: {found.hint or found.message}": fix_file(file, [found])
-            for found, place in zip(known, ranges, strict=True)
-            if chosen.start <= place.end and place.start <= chosen.end
-        }
-        return texts | (
-            {"Fix all that is mechanical in this file": fix_file(file, known)} if any(texts.values()) else {}
-        )
+        places = ((found, self.range(found.location)) for found in known)
+        within = [found for found, place in places if chosen.start <= place.end and place.start <= chosen.end]
+        texts = {f"Fix: {found.hint or found.message}": fix_file(file, [found]) for found in within}
+        if any(texts.values()):
+            texts["Fix all that is mechanical in this file"] = fix_file(file, known)
+        return texts
 
     def code_lens(self, params: lsp.CodeLensParams) -> list[lsp.CodeLens]:
         """Return a lens on the first line that is no comment, and one on each comment ``try: REQUEST``."""
@@ -346,23 +340,22 @@ class DomainServer(LanguageServer):
             return []
         lines = lines_of(self.project.text(file))
         top = next((row for row, line in enumerate(lines) if line.strip() and line.lstrip()[0] not in ";#"), 0)
-        lenses = [(top, "try a request here", [uri])]
-        for row, asked in ((row, found) for row, line in enumerate(lines) if (found := _TRY.match(line))):
-            lenses.append((row, f"try: {asked[2]}", [uri, asked[2], *filter(None, [asked[1]])]))
-        ranges = (lsp.Range(lsp.Position(row, 0), lsp.Position(row, 0)) for row, _, _ in lenses)
-        commands = (lsp.Command(title, REQUEST, arguments=arguments) for _, title, arguments in lenses)
-        return list(map(lsp.CodeLens, ranges, commands))
+        asked = [(row, found) for row, line in enumerate(lines) if (found := _TRY.match(line))]
+        tried = ((row, f"try: {found[2]}", [found[2], *filter(None, [found[1]])]) for row, found in asked)
+        return [
+            lsp.CodeLens(self._range(lines, (row, 0), (row, 0)), lsp.Command(title, REQUEST, arguments=[uri, *words]))
+            for row, title, words in ((top, "try a request here", []), *tried)
+        ]
 
     async def request(self, uri: str = "", text: str = "", environment: str = "") -> str:
         """Show what ``tmd ground`` answers to a request in the domain of a file."""
         try:
             answer = await self._grounded(self.file(str(uri)), str(text), str(environment))
         except Exception as error:  # a fault of tmd must not end the server
-            message = str(error) if isinstance(error, TmdError | OSError) else _internal(error)
+            message = _message(error)
             self.tell(message)
             return message
-        window = self.client_capabilities.window
-        if window is not None and window.show_document is not None and window.show_document.support:
+        if get_capability(self.client_capabilities, "window.show_document.support"):
             shown = Path(tempfile.mkdtemp(prefix="tmd-")) / "answer.txt"
             shown.write_text(answer, encoding="utf-8")
             self.window_show_document(lsp.ShowDocumentParams(shown.as_uri(), take_focus=False), lambda _: None)
@@ -399,11 +392,10 @@ class DomainServer(LanguageServer):
             TmdError: One of them is missing.
         """
         domain = self.project.domain_of(file)
-        places = self.project.environments(domain) if domain else []
-        places = [Path(environment)] if environment else [place for place in places if place == file] or places
+        places = [Path(environment)] if environment else self.project.environments(domain) if domain else []
         if domain is None or not places:
             raise TmdError(f"no environment for {file.name} was found; write a problem beside the domain")
-        return domain, str(places[0])
+        return domain, str(file if file in places else places[0])
 
     def stop_request(self) -> None:
         """End the request that still runs."""
@@ -412,9 +404,10 @@ class DomainServer(LanguageServer):
 
 
 _FEATURES: Mapping[str, Callable[[DomainServer], Callable[..., object]]] = {
-    lsp.TEXT_DOCUMENT_DID_OPEN: lambda server: server.did_open,
-    lsp.TEXT_DOCUMENT_DID_SAVE: lambda server: server.did_open,
-    lsp.TEXT_DOCUMENT_DID_CHANGE: lambda server: server.did_change,
+    **dict.fromkeys(
+        (lsp.TEXT_DOCUMENT_DID_OPEN, lsp.TEXT_DOCUMENT_DID_SAVE, lsp.TEXT_DOCUMENT_DID_CHANGE),
+        lambda server: server.taken_in,
+    ),
     lsp.TEXT_DOCUMENT_DID_CLOSE: lambda server: server.did_close,
     lsp.WORKSPACE_DID_CHANGE_WATCHED_FILES: lambda server: server.files_changed,
     lsp.TEXT_DOCUMENT_HOVER: lambda server: server.hover,

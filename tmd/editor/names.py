@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from contextlib import suppress
+from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any
 
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import OBJECT
 from tmd.pddl.reading.formulas import RESERVED, is_variable
-from tmd.pddl.reading.syntax import Document, Group, Node, Word, parse
+from tmd.pddl.reading.syntax import Group, Node, Word, parse
 
 
 class NameKind(StrEnum):
@@ -58,36 +60,35 @@ class Occurrence:
     group: Group | None = field(default=None, compare=False)
     scope: Location | None = None
 
-    def covers(self, line: int, column: int) -> bool:
-        """Return whether a place is on the name or just behind it."""
-        return self.place.line == line and 0 <= column - self.place.column <= len(self.name)
-
 
 def names_in_pddl(text: str, file: str) -> list[Occurrence]:
     """Return the names of a domain or problem, in the order of the text; nothing where it nests too deeply."""
-    document = _parsed(text, file)
-    sections = (part for top in document.groups for part in top.parts[1:] if isinstance(part, Group))
+    sections = (part for top in groups_in(text, file) for part in top.parts[1:] if isinstance(part, Group))
+    return [name for section in sections for name in names_in_section(section)]
+
+
+def names_in_section(section: Group) -> list[Occurrence]:
+    """Return the names of a part of ``(define ...)``."""
     found = _Names()
-    for section in sections:
-        found.section(section)
+    found.section(section)
     return found.names
 
 
 def names_in_conditions(text: str, file: str) -> list[Occurrence]:
     """Return the names of a text that consists of conditions."""
     found = _Names("condition")
-    for group in _parsed(text, file).groups:
+    for group in groups_in(text, file):
         found.formula(group, Role.READ)
     return found.names
 
 
-def _parsed(text: str, file: str) -> Document:
+def groups_in(text: str, file: str) -> tuple[Group, ...]:
+    """Return the outermost groups of a text, as far as it can be read; none where it nests too deeply."""
     document = parse(text, file, lambda _: None)
-    try:
+    with suppress(TmdError):
         document.check_depth()
-    except TmdError:
-        return replace(document, groups=())
-    return document
+        return document.groups
+    return ()
 
 
 @dataclass(slots=True)
@@ -98,9 +99,8 @@ class _Names:
     names: list[Occurrence] = field(default_factory=list)
     bound: list[tuple[Location, set[str]]] = field(default_factory=list)
 
-    def note(self, word: Word, kind: NameKind, role: Role, **more: object) -> None:
-        found = Occurrence(word.text, kind, role, word.location, self.within)
-        self.names.append(replace(found, **more) if more else found)  # type: ignore[arg-type]
+    def note(self, word: Word, kind: NameKind, role: Role, **more: Any) -> None:  # noqa: ANN401 - other attributes
+        self.names.append(Occurrence(word.text, kind, role, word.location, self.within, **more))
 
     def section(self, group: Group) -> None:
         """Note the names of a part of ``(define ...)``."""
@@ -114,6 +114,7 @@ class _Names:
             self.derived(group)
         for part in rest:
             if head in _SIGNATURES:
+                self.bound = [(part.location, set())]
                 self.signature(part, _SIGNATURES[head])
             elif head in _FORMULAS:
                 self.formula(part, _FORMULAS[head])
@@ -123,9 +124,7 @@ class _Names:
         name = _head(node)
         if isinstance(node, Group) and name is not None:
             self.note(name, kind, role, group=node if role is Role.DECLARED else None)
-            self.bound = self.bound or [(node.location, set())]
             self.typed(node.parts[1:], NameKind.VARIABLE)
-            self.bound = []
 
     def action(self, group: Group) -> None:
         name, *parts = group.parts[1:] or (None,)
@@ -145,9 +144,8 @@ class _Names:
     def derived(self, group: Group) -> None:
         head, *conditions = group.parts[1:] or (group,)
         self.within = f"derived {head.head}" if isinstance(head, Group) else ""
-        self.bound = bound = [(group.location, set[str]())]
+        self.bound = [(group.location, set())]
         self.signature(head, NameKind.PREDICATE, Role.ADDED)
-        self.bound = bound
         for part in conditions:
             self.formula(part, Role.READ)
 

@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
-from tmd.check.checker import DATA_FILES
+from tmd.check.checker import DATA_FILES, is_ours
 from tmd.diagnostics import TmdError
 from tmd.editor.names import NameKind, Occurrence, Role, names_in_pddl
 from tmd.editor.yaml_names import names_in_yaml
 from tmd.files import real
-from tmd.language.lexicon.file import BASES
 from tmd.pddl.model import OBJECT, TOTAL_COST
 from tmd.pddl.reading.formulas import RESERVED
-from tmd.pddl.reading.syntax import read_text, split_lines
+from tmd.pddl.reading.syntax import Source, after, read_text, split_lines
 from tmd.world.folder import find_domain, find_problems
 from tmd.world.problem_domain import domain_named_in, find_domain_file, folder_near, kind_and_name
 from tmd.world.roots import Roots
 
-_YAML = (".yaml", ".yml")
+YAML = (".yaml", ".yml")
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 _DOMAIN = re.compile(r"^domain:[ \t]*['\"]?([\w-]+)", re.MULTILINE)
 _ENVIRONMENT = re.compile(r"^objects:", re.MULTILINE)
@@ -39,7 +38,7 @@ lines_of = lru_cache(maxsize=_MOST_FILES)(split_lines)
 
 @lru_cache(maxsize=_MOST_FILES)
 def _names(text: str, file: str) -> tuple[Occurrence, ...]:
-    return tuple((names_in_yaml if Path(file).suffix in _YAML else names_in_pddl)(text, file))
+    return tuple((names_in_yaml if Path(file).suffix in YAML else names_in_pddl)(text, file))
 
 
 @dataclass(slots=True)
@@ -63,24 +62,25 @@ class Project:
 
     def is_ours(self, file: Path, text: str) -> bool:
         """Return whether a file is of a domain: PDDL, YAML of a known name, or an environment."""
-        if file.name in DATA_FILES or file.suffix == ".pddl":
-            return True
-        known = file.parent.name in ("environments", BASES) or (_DOMAIN.search(text) and _ENVIRONMENT.search(text))
-        return file.suffix in _YAML and bool(known)
+        return is_ours(file) or (file.suffix in YAML and bool(_DOMAIN.search(text) and _ENVIRONMENT.search(text)))
 
     def names(self, file: Path) -> tuple[Occurrence, ...]:
         """Return the names in a file."""
         return _names(self.text(file), str(file))
 
     def at(self, file: Path, line: int, column: int) -> list[Occurrence]:
-        """Return the names at a place; several where a word may be of several kinds."""
-        return [name for name in self.names(file) if name.covers(line, column)]
+        """Return the names that stand or end at a place; several where a word may be of several kinds."""
+        names = (name for name in self.names(file) if name.place.line == line)
+        return [name for name in names if 0 <= column - name.place.column <= len(name.name)]
 
     def domain_of(self, file: Path) -> Path | None:
         """Return the file of the domain that a file belongs to."""
         text = self.text(file)
-        if file.suffix in _YAML and file.name not in DATA_FILES:
-            return self._domain_named(file, _DOMAIN.search(text))
+        if file.suffix in YAML and file.name not in DATA_FILES:
+            name = next(iter(_DOMAIN.findall(text)), "")
+            with suppress(TmdError):
+                return real((folder_near(file, name) or find_domain(name, self.roots.domains).path) / "domain.pddl")
+            return None
         if file.suffix != ".pddl" or file.name == "instructions.pddl":
             sources = (file.parent / "domain.pddl", file.parent / "instructions.pddl")
             return real(sources[0]) if any(path.is_file() or path in self.files for path in sources) else None
@@ -88,16 +88,6 @@ class Project:
             return file
         found = find_domain_file(file, domain_named_in(text), self.roots.domains).file
         return real(found) if found else None
-
-    def _domain_named(self, file: Path, named: re.Match[str] | None) -> Path | None:
-        """Return the domain that an environment names."""
-        if named is None:
-            return None
-        try:
-            near = folder_near(file, named[1]) or find_domain(named[1], self.roots.domains).path
-        except TmdError:
-            return None
-        return real(near / "domain.pddl")
 
     def environments(self, domain: Path) -> list[Path]:
         """Return the environments and problems of a domain: those that are open, bundled, or near it."""
@@ -112,7 +102,7 @@ class Project:
         return [file for file in found if self._is_environment(file) and self.domain_of(file) == domain]
 
     def _is_environment(self, file: Path) -> bool:
-        if file.suffix in _YAML:
+        if file.suffix in YAML:
             return file.name not in DATA_FILES
         return file.suffix == ".pddl" and kind_and_name(self.text(file))[0] == "problem"
 
@@ -143,7 +133,7 @@ class Project:
 
     def references(self, file: Path, name: Occurrence, most: int | None = None) -> list[Occurrence]:
         """Return every place of a name, its declarations included; ``most`` is the number of files that are read."""
-        if name.kind is NameKind.VARIABLE or (name.kind is NameKind.OBJECT and self._local(file, name)):
+        if name.kind is NameKind.VARIABLE or self._local(file, name):
             return self._same(file, name)
         same = (other for path in self.related(file)[:most] for other in self._same(path, name))
         return [other for other in same if not self._local(Path(other.place.file), other)]
@@ -166,10 +156,8 @@ class Project:
         """
         if not self.definitions(file, name) or name.name in _BUILT_IN:
             raise TmdError(f"'{name.name}' is not declared in this domain, or is a word of PDDL")
-        _check_name(new)
         places = self.references(file, name)
-        if "-" in new and not {Path(place.place.file).suffix for place in places}.isdisjoint(_YAML):
-            raise TmdError(f"'{new}' is not a name for YAML files: letters, digits and _")
+        _check_name(new, {Path(place.place.file).suffix for place in places})
         taken = self._taken(file, name, new)
         if taken is not None:
             raise TmdError(f"there is a {name.kind} '{taken.name}' already: {taken.place}")
@@ -219,19 +207,19 @@ class Project:
         """Return the text of a declaration, with the comment behind it."""
         assert declared.group is not None
         begin, end = declared.group.location, declared.group.end
-        lines = lines_of(self.text(Path(begin.file)))[begin.line - 1 : end.line]
+        lines = lines_of(self.text(Path(begin.file)))
         if declared.kind is NameKind.ACTION:
-            return "\n".join(lines)
-        behind = lines[-1][end.column :]
-        comment = f"  {behind[behind.index(';') :]}" if ";" in behind else ""
-        lines = (*lines[:-1], lines[-1][: end.column])
-        return "\n".join((lines[0][begin.column - 1 :], *lines[1:])) + comment
+            return "\n".join(lines[begin.line - 1 : end.line])
+        _, mark, comment = lines[end.line - 1][end.column :].partition(";")
+        return Source(begin.file, lines).text(begin, after(declared.group)) + (f"  ;{comment}" if mark else "")
 
 
-def _check_name(name: str) -> None:
-    """Refuse what PDDL does not take for a name, and the names that it has a meaning for."""
+def _check_name(name: str, suffixes: Set[str]) -> None:
+    """Refuse what files with these suffixes do not take for a name, and the names that PDDL has a meaning for."""
     if not _NAME.fullmatch(name.removeprefix("?")) or name in _BUILT_IN:
         raise TmdError(f"'{name}' is not a name: a small letter first, then letters, digits, - and _")
+    if "-" in name and not suffixes.isdisjoint(YAML):
+        raise TmdError(f"'{name}' is not a name for YAML files: letters, digits and _")
 
 
 _TITLES: Mapping[Role, str] = {

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
-from types import UnionType
-from typing import Annotated, TypeAlias, TypeVar, Union, get_args, get_origin
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TypeAlias, TypeVar, get_args, get_origin
 
 import yaml
 from pydantic import BaseModel
@@ -94,23 +94,15 @@ def _meanings(path: KeyPath, number: int, *, is_key: bool) -> list[tuple[NameKin
 
 def lookup(table: Mapping[KeyPath, T], path: KeyPath) -> T | None:
     """Return the entry of ``table`` for the longest end of ``path``."""
-    for length in range(len(path), 0, -1):
-        for pattern, entry in table.items():
-            fits = len(pattern) == length and all(p in ("*", k) for p, k in zip(pattern, path[-length:], strict=True))
-            if fits:
-                return entry
-    return None
+    ends = (path[start:] for start in range(len(path)))
+    tried = ((pattern, end) for end in ends for pattern in table if len(pattern) == len(end))
+    fitting = (p for p, end in tried if all(part in ("*", key) for part, key in zip(p, end, strict=True)))
+    return table.get(next(fitting, ()))
 
 
-def kinds_of_value(path: KeyPath, number: int) -> tuple[NameKind, ...]:
-    """Return the kinds of names that may be word ``number`` of the value at ``path``."""
-    return tuple(kind for kind, _ in _meanings(path, number, is_key=False))
-
-
-def kind_of_keys(path: KeyPath) -> NameKind | None:
-    """Return the kind of the names that are keys at ``path``, where they are not declared by that."""
-    meaning = lookup(_KEYS, path)
-    return meaning[0] if meaning and meaning[1] is not Role.DECLARED else None
+def kinds_at(path: KeyPath, number: int, *, is_key: bool) -> list[NameKind]:
+    """Return the kinds of declared names that may be word ``number`` of a key or value at ``path``."""
+    return [kind for kind, role in _meanings(path, number, is_key=is_key) if role is not Role.DECLARED]
 
 
 def _class_in(value: yaml.Node | None) -> tuple[str, ...]:
@@ -130,39 +122,29 @@ def _only(text: str, pieces: list[tuple[int, int]]) -> str:
     return "".join(kept)
 
 
-def keys_at(model: object, path: KeyPath) -> list[str]:
-    """Return the keys that a file of ``model`` may have in the mapping at ``path``."""
+def keys_in(file: Path, path: KeyPath) -> list[str]:
+    """Return the keys that the model of a file has in the mapping at ``path``."""
+    from tmd.world.classes import ObjectsFile
+    from tmd.world.environment import Environment
+
+    models: Mapping[str, object] = {"objects.yaml": ObjectsFile, "lexicon.yaml": None}
+    fields = _fields(models.get(file.name, Environment))
     for part in path:
-        model = next((inner for kind in _alternatives(model) for inner in _inside(kind, part)), None)
-    fields = [kind.model_fields for kind in _alternatives(model) if _is_model(kind)]  # type: ignore[attr-defined]
-    return [field.alias or name for one in fields for name, field in one.items()]
+        fields = _fields(fields.get(part, fields.get("*")))
+    return [name for name in fields if name != "*"]
 
 
-def _inside(kind: object, key: str) -> Iterator[object]:
-    """Yield the type of the value of ``key`` in a mapping of the type ``kind``."""
-    if _is_model(kind):
-        fields = kind.model_fields  # type: ignore[attr-defined]
-        yield from (field.annotation for name, field in fields.items() if (field.alias or name) == key)
-    elif get_origin(kind) is dict:
-        yield get_args(kind)[1]
+def _fields(kind: object) -> dict[str, object]:
+    """Return the types of the values of a mapping, by key (a star is any); of a list, of its items."""
+    if isinstance(kind, type) and issubclass(kind, BaseModel):
+        return {field.alias or name: field.annotation for name, field in kind.model_fields.items()}
+    if get_origin(kind) is dict:
+        return {"*": get_args(kind)[1]}
+    return {key: value for one in get_args(kind) for key, value in _fields(one).items()}
 
 
-def _alternatives(kind: object) -> Iterator[object]:
-    """Yield the types that a value may have; for a list, those of its items."""
-    if get_origin(kind) in (Union, UnionType, Annotated, list, tuple):
-        for one in get_args(kind):
-            yield from _alternatives(one)
-    else:
-        yield kind
-
-
-def _is_model(kind: object) -> bool:
-    return isinstance(kind, type) and issubclass(kind, BaseModel)
-
-
-def path_at(lines: list[str]) -> KeyPath:
+def path_at(lines: Sequence[str]) -> KeyPath:
     """Return the path of the mapping or value in which a text ends, from its indentation and open brackets."""
-    path: list[str] = []
     *before, last = lines
     flow = re.sub(r"\{[^{}]*\}", "", last)
     opened = re.findall(r"([\w-]+):\s*\{", flow)
