@@ -29,7 +29,7 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
-from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word, after, replaced, shifted
+from tmd.pddl.reading.syntax import CONNECTIVES, Document, Group, Node, Source, Word, after, replaced, shifted
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 # What planners take for a name although PDDL does not.
@@ -38,7 +38,7 @@ _VARIABLE = re.compile(r"\?[a-z][a-z0-9_-]*")
 _ODD_VARIABLE = re.compile(r"\?[a-z0-9_][!-~]*")
 _NUMBER = re.compile(r"([0-9]{1,15})(\.0*)?")
 
-RESERVED = frozenset({"and", "or", "not", "imply", "forall", "exists", "when", "either", "increase"})
+RESERVED = CONNECTIVES | {"either", "increase"}
 
 
 def is_variable(term: str) -> bool:
@@ -103,10 +103,8 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
     strange = next((place for place, letter in enumerate(node.text) if not letter.isascii()), None)
     if strange is not None:
         letter = node.text[strange]
-        place = Location(node.location.file, node.location.line, node.location.column + strange)
-        message = (
-            f'"{node.text}" has a character that PDDL does not: {letter!r} ({unicodedata.name(letter, "unnamed")})'
-        )
+        place, shown = shifted(node.location, strange), f"{letter!r} ({unicodedata.name(letter, 'unnamed')})"
+        message = f'"{node.text}" has a character that PDDL does not: {shown}'
         plain = look_alike(letter)
         edits = [Edit(place, shifted(place, 1), plain)] if plain else []
         raise source.error(message, place, f'write "{plain}"' if plain else hint, "look-alike", edits)
