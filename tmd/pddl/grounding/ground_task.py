@@ -22,9 +22,9 @@ from tmd.pddl.grounding.ground_action import (
     Reachability,
     Tree,
     Work,
-    disjunctive,
     expand,
     grouped,
+    normal_form,
 )
 from tmd.pddl.grounding.instantiate import Instances, instantiate_actions
 from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State, universe
@@ -81,7 +81,7 @@ def ground_condition(task: Task, formula: Formula, binding: Binding | None = Non
     Raises:
         TmdError: The formula has too many cases.
     """
-    cubes = disjunctive(expand_condition(task, formula, binding), "this formula")
+    cubes = normal_form(expand_condition(task, formula, binding), "or", "this formula")
     return tuple(sorted(_cube(literals) for literals in cubes))
 
 

@@ -21,10 +21,9 @@ from tmd.pddl.grounding.ground_action import (
     Tree,
     Work,
     absorb,
-    conjunctive,
-    disjunctive,
     expand,
     grouped,
+    normal_form,
 )
 from tmd.pddl.model import (
     ActionSchema,
@@ -386,7 +385,7 @@ class _Instantiation:
         found: set[Literals] = set()
         for part in conjuncts(precondition):
             try:
-                found.update(conjunctive(expand(part, binding, self.objects, self.lookup), what))
+                found.update(normal_form(expand(part, binding, self.objects, self.lookup), "and", what))
             except TmdError as error:
                 error.location = part.location
                 raise
@@ -410,7 +409,7 @@ class _Instantiation:
         """Return the condition of an effect as cubes; most are plain conjunctions, and quick."""
         if plan.literals is None:
             self.work.spend(size(plan.rest, self.objects), f"an effect of {what}")
-            return disjunctive(expand(plan.rest, binding, self.objects, self.lookup), what)
+            return normal_form(expand(plan.rest, binding, self.objects, self.lookup), "or", what)
         cube: set[int] = set()
         for atom, negated in plan.literals:
             found = self.lookup(instantiate(atom, binding))
