@@ -315,6 +315,7 @@ _ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]|[\u200b-\u200d\u2060\ufeff]"
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 # Words with groups behind them, and the groups in which names stand with their arguments.
 CONNECTIVES = frozenset({"and", "or", "not", "when", "imply", "forall", "exists"})
+# The parts of an action.
 PARTS = (":parameters", ":precondition", ":effect")
 # Keywords that begin a section, and nothing else.
 _SECTIONS = frozenset(
@@ -331,6 +332,7 @@ _OPERATORS = CONNECTIVES | {
     "define", "increase", "decrease", "assign", "scale-up", "scale-down", "preference", "oneof", "probabilistic",
     "=", "<", ">", "<=", ">=", "+", "-", "*", "/", "either", "always", "sometime", "!", "~",
 }  # fmt: skip
+# A plain name as planners take it; in PDDL it begins with a letter.
 NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _WITH_ATOMS = CONNECTIVES | {":init", ":goal", ":predicates", ":precondition", ":effect"}
 
