@@ -443,23 +443,7 @@ def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
     positive, negative = cube
     if positive & negative or negative & operator.add:
         return ()
-    before = Cube(
-        operator.precondition.positive | (positive & ~operator.add),
-        operator.precondition.negative | (negative & ~operator.delete),
-    )
     clauses: list[Sequence[Cube]] = [_opposite(f) for f in operator.forbidden]
-    if operator.conditional:
-        kept_positive, kept_negative, more = _conditional_clauses(positive, negative, operator)
-        before = Cube(operator.precondition.positive | kept_positive, operator.precondition.negative | kept_negative)
-        clauses += more
-    elif positive & ~operator.add & operator.delete:
-        return ()
-    return _conjoin(before, clauses)
-
-
-def _conditional_clauses(positive: Bits, negative: Bits, operator: Operator) -> tuple[Bits, Bits, list[Sequence[Cube]]]:
-    """Return literals that must hold before, and disjunctions of which one must, where effects have conditions."""
-    clauses: list[Sequence[Cube]] = []
     wanted = positive & ~operator.add
     unwanted = negative & ~operator.delete
     may_add = may_delete = 0
@@ -475,7 +459,8 @@ def _conditional_clauses(positive: Bits, negative: Bits, operator: Operator) -> 
         unwanted &= ~bit
         made_false = [c for c, _, delete in operator.conditional if delete & bit]
         clauses.append([*made_false, Cube(0, bit)])
-    return wanted, unwanted, clauses
+    needs = operator.precondition
+    return _conjoin(Cube(needs.positive | wanted, needs.negative | unwanted), clauses)
 
 
 def _made_true(bit: Bits, operator: Operator) -> Sequence[Cube]:
@@ -517,7 +502,7 @@ def _conjoin(start: Cube, clauses: Iterable[Sequence[Cube]]) -> tuple[Cube, ...]
 def minimal(cubes: Iterable[Cube]) -> list[Cube]:
     """Return ``cubes`` without those that another one of them implies, the shortest first."""
     kept: list[Cube] = []
-    for cube in sorted(cubes, key=lambda c: (c.positive.bit_count() + c.negative.bit_count(), c)):
+    for cube in sorted(cubes, key=_size):
         if not any(k.positive & ~cube.positive == 0 and k.negative & ~cube.negative == 0 for k in kept):
             kept.append(cube)
     return kept
