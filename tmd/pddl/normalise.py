@@ -28,8 +28,6 @@ def portable(problem: Problem) -> Problem:
 def _each_object_once(problem: Problem) -> Problem:
     """Remove objects that are constants of the domain as well: some readers refuse them."""
     constants = {constant.name for constant in problem.domain.constants}
-    if not any(named.name in constants for named in problem.objects):
-        return problem
     return replace(problem, objects=tuple(named for named in problem.objects if named.name not in constants))
 
 

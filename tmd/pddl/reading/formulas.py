@@ -178,7 +178,7 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
             source.recover(None, read_name, node, source, "a dash")
             node = Word("-", node.location)
         if isinstance(node, Word) and node.text == "-":
-            types = _types_after(node, rest, source)
+            types = source.recover((OBJECT,), _read_types, rest, node.location, source)
             if not waiting:
                 source.fault_at(f"this type belongs to no {what}", node.location)
             found.extend(TypedName(w.text, types, w.location) for w in waiting)
@@ -208,11 +208,6 @@ def _after_dash(node: Word, source: Source) -> Word:
     return Word(node.text[1:], place)
 
 
-def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...]:
-    node = rest.pop() if rest else None
-    return source.recover((OBJECT,), _read_types, node, dash.location, source)
-
-
 def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list[Word]:
     """Return the name at ``node``; nothing where it is none and faults are collected."""
     if not variables and isinstance(node, Word) and is_variable(node.text) and len(node.text) > 1:
@@ -236,9 +231,10 @@ def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list
     return [node]
 
 
-def _read_types(node: Node | None, dash: Location, source: Source) -> tuple[str, ...]:
-    if node is None:
+def _read_types(rest: list[Node], dash: Location, source: Source) -> tuple[str, ...]:
+    if not rest:
         raise source.error('a type is missing after "-"', dash)
+    node = rest.pop()
     if isinstance(node, Word):
         return (read_name(node, source, "the name of a type").text,)
     if node.head != "either" or len(node.parts) < 2:
