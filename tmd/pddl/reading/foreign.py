@@ -163,12 +163,13 @@ class _Text:
 
     def brackets(self) -> None:
         """Read other brackets as parentheses."""
-        places = [match.start() for match in re.finditer(r"(?<!\x1b)[\[\]{}\uff08\uff09]", self.bare)]
+        spans = [match.span() for match in re.finditer(r"[\[\]{}\uff08\uff09]", self.bare)]
+        places = [start for start, _ in spans if self.bare[max(0, start - 1) : start] != "\x1b"]
         if places:
             edits = [self.edit(place, place + 1, self.bare[place].translate(_ROUND)) for place in places]
             message = f'PDDL has round parentheses only, not "{self.bare[places[0]]}"'
             self.fault(message, places[0], 'write "(" and ")"', "other-notation", edits)
-            self.change([(place, place + 1) for place in places], lambda bracket: bracket.translate(_ROUND))
+            self.change(spans, lambda bracket: bracket.translate(_ROUND))
 
     def commas(self) -> None:
         """Blank commas."""
