@@ -24,7 +24,7 @@ from tmd.pddl.model import (
     Problem,
     TypedName,
 )
-from tmd.pddl.writer import format_domain, format_formula, format_problem
+from tmd.pddl.writer import format_domain, format_formula, format_problem, in_lines
 
 # Between the end of an instruction and the start of the next: the tolerance of VAL where none is given.
 GAP = Decimal("0.01")
@@ -105,8 +105,8 @@ def _action(action: ActionSchema, name: str, typed: bool) -> str:
             f"  (:durative-action {action.name}",
             f"    :parameters ({_parameters(action.parameters, typed)})",
             f"    :duration (= ?duration {DURATION})",
-            f"    :condition {_lines(conditions)}",
-            f"    :effect {_lines(effects)})",
+            f"    :condition {in_lines('and', conditions, 6)}",
+            f"    :effect {in_lines('and', effects, 6)})",
         ]
     )
 
@@ -122,7 +122,3 @@ def _effect(effect: Effect, typed: bool) -> str:
 
 def _parameters(parameters: tuple[TypedName, ...], typed: bool) -> str:
     return " ".join(f"{p.name} - {p.types[0]}" if typed else p.name for p in parameters)
-
-
-def _lines(parts: list[str]) -> str:
-    return "(and\n      " + "\n      ".join(parts) + ")"

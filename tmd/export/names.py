@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 from typing import Any, TypeAlias
 
-from tmd.diagnostics import Location
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -25,6 +24,7 @@ from tmd.pddl.model import (
     Problem,
     TypeDeclaration,
     TypedName,
+    rebuilt,
 )
 
 # Names by the kind of what they name.
@@ -89,18 +89,16 @@ def _declared(problem: Problem) -> Iterator[tuple[str, str]]:
 def renamed(node: Any, names: Renames) -> Any:  # noqa: ANN401 - any part of a problem or plan
     """Return a part of a problem or a plan with ``names`` in place of the old ones."""
 
-    def changed(name: str, value: Any) -> Any:  # noqa: ANN401 - a name, names, or a part
-        kind = _FIELDS.get(type(node), {}).get(name)
-        if kind is None:
-            return renamed(value, names)
-        return names.get((kind, value), value) if isinstance(value, str) else tuple(changed(name, v) for v in value)
+    def name(kind: str, value: Any) -> Any:  # noqa: ANN401 - a name or names
+        if isinstance(value, tuple):
+            return tuple(name(kind, each) for each in value)
+        return names.get((kind, value), value)
 
-    if isinstance(node, GroundAtom | Instruction):
-        return type(node)(*(changed(name, value) for name, value in node._asdict().items()))
-    if isinstance(node, tuple | frozenset):
-        return type(node)(renamed(part, names) for part in node)
-    if isinstance(node, Mapping):
-        return {renamed(key, names): value for key, value in node.items()}
-    if not is_dataclass(node) or isinstance(node, type | Location):
-        return node
-    return replace(node, **{field.name: changed(field.name, getattr(node, field.name)) for field in fields(node)})
+    def change(part: Any) -> Any:  # noqa: ANN401 - any part
+        kinds = _FIELDS.get(type(part), {})
+        new = {field: name(kind, getattr(part, field)) for field, kind in kinds.items()}
+        if isinstance(part, GroundAtom | Instruction):
+            return part._replace(**new)
+        return replace(part, **new) if new else part
+
+    return rebuilt(node, change)

@@ -30,8 +30,9 @@ from tmd.pddl.model import (
     Predicate,
     Problem,
     State,
+    TypedName,
+    rebuilt,
 )
-from tmd.pddl.normalise import map_typed_names
 from tmd.pddl.task import Bits, Cube, Operator, Task
 
 _NOT = "not_"
@@ -80,7 +81,8 @@ def strips(source: Planned, *, typed: bool = False) -> Strips:
 
 
 def _without_types(problem: Problem) -> Problem:
-    bare: Problem = map_typed_names(problem, lambda name: replace(name, types=(OBJECT,)))
+    untyped = (OBJECT,)
+    bare: Problem = rebuilt(problem, lambda part: replace(part, types=untyped) if isinstance(part, TypedName) else part)
     return replace(bare, domain=replace(bare.domain, types=(), requirements=(":strips",)))
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import lru_cache
 from heapq import heappop, heappush
-from typing import NamedTuple, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from tmd.diagnostics import Location
 
@@ -311,6 +311,19 @@ def walk(node: object) -> Iterator[object]:
         elif not isinstance(node, TypedName):
             parts = [getattr(node, name) for name in reversed(getattr(node, "__dataclass_fields__", {}))]
             waiting += [part for part in parts if type(part) not in _LEAVES]
+
+
+def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:  # noqa: ANN401 - any part of a problem or plan
+    """Return a part of a problem or plan with ``change`` applied to it and to all parts in it, inner ones first."""
+    if isinstance(node, GroundAtom | Instruction):
+        return change(node)
+    if isinstance(node, tuple | frozenset):
+        return type(node)(rebuilt(part, change) for part in node)
+    if isinstance(node, Mapping):
+        return {rebuilt(key, change): value for key, value in node.items()}
+    if not is_dataclass(node) or isinstance(node, type | Location):
+        return node
+    return change(replace(node, **{each.name: rebuilt(getattr(node, each.name), change) for each in fields(node)}))
 
 
 def predicates_of(formula: Formula) -> frozenset[str]:

@@ -7,12 +7,10 @@ The ``pddl`` package does not take ``:adl`` for what it stands for, so what is u
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import fields, is_dataclass, replace
-from typing import Any
+from dataclasses import replace
 
-from tmd.diagnostics import Location, TmdError
-from tmd.pddl.model import OBJECT, Problem, TypeDeclaration, TypedName, TypeHierarchy, parents_first, walk
+from tmd.diagnostics import TmdError
+from tmd.pddl.model import OBJECT, Problem, TypeDeclaration, TypedName, TypeHierarchy, parents_first, rebuilt, walk
 from tmd.pddl.reading.checking import used_requirements
 
 
@@ -30,8 +28,6 @@ def portable(problem: Problem) -> Problem:
 def _each_object_once(problem: Problem) -> Problem:
     """Remove objects that are constants of the domain as well: some readers refuse them."""
     constants = {constant.name for constant in problem.domain.constants}
-    if not any(named.name in constants for named in problem.objects):
-        return problem
     return replace(problem, objects=tuple(named for named in problem.objects if named.name not in constants))
 
 
@@ -58,7 +54,7 @@ def without_either(problem: Problem) -> Problem:
         types = _reduced(name.types, hierarchy)
         return replace(name, types=(new.get(types, types[0]),))
 
-    plain: Problem = map_typed_names(problem, one_type)
+    plain: Problem = rebuilt(problem, lambda part: one_type(part) if isinstance(part, TypedName) else part)
     places = {t.name: t.location for t in domain.types}
     declared = [TypeDeclaration(name, parent, places.get(name)) for name, parent in parents.items()]
     return replace(plain, domain=replace(plain.domain, types=parents_first(declared)))
@@ -85,14 +81,3 @@ def _join(types: tuple[str, ...], parents: dict[str, str], example: TypedName) -
     parents[name] = above.pop()
     parents.update(dict.fromkeys(types, name))
     return name
-
-
-def map_typed_names(node: Any, change: Callable[[TypedName], TypedName]) -> Any:  # noqa: ANN401 - any part of a problem
-    """Return a part of a problem with each typed name in it changed."""
-    if isinstance(node, TypedName):
-        return change(node)
-    if isinstance(node, tuple):
-        return tuple(map_typed_names(part, change) for part in node)
-    if not is_dataclass(node) or isinstance(node, type | Location):
-        return node
-    return replace(node, **{field.name: map_typed_names(getattr(node, field.name), change) for field in fields(node)})

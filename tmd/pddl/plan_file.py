@@ -18,9 +18,8 @@ from typing import Any
 
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Instruction, Problem
-from tmd.pddl.reading.syntax import read_text, split_lines
+from tmd.pddl.reading.syntax import NAME, read_text, shifted, split_lines
 
-_NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _CALL = re.compile(r"([^(]*)\((.*)\)\s*", re.DOTALL)
 _TIME = r"([0-9]+(?:\.[0-9]+)?|\.[0-9]+)"
 # Marks of Markdown, quotes and the lines of tables, which stand around steps; each is read as a blank.
@@ -197,15 +196,6 @@ class _Found:
         return TmdError(f"the plan is cut off{counted}", location=last.place, source=last.source, hint=hint)
 
 
-@dataclass(frozen=True, slots=True)
-class _Group:
-    """The words of a group in parentheses, none if it cannot be a step, and its columns from 0."""
-
-    words: list[str]
-    start: int
-    end: int
-
-
 @dataclass(slots=True)
 class _Line:
     """A line of a text: its steps; or words that are a step if the lines around it, written alike, are steps."""
@@ -279,7 +269,7 @@ class _Reader:
             self.vocabulary.has((step.instruction.name, *step.instruction.args)) for step in line.steps
         ):
             line.form = (head[2] or head[4], head[1] is head[3])
-            step = _Step(_instruction(bare), _at(place, head.end()), source, start)
+            step = _Step(_instruction(bare), shifted(place, head.end()), source, start)
             line.steps = [step] if self.vocabulary.has(bare) else line.steps
             line.likely = step if self.vocabulary.resembles(bare) else None
         return line
@@ -302,35 +292,40 @@ class _Reader:
         unclosed = _OPEN.search(code, head.end())
         if unclosed and self.vocabulary.may_begin(unclosed[1].lower()):
             hint = "add the missing ); if the text ends here, give all of it"
-            raise TmdError("this step is not closed", location=_at(place, unclosed.start()), source=source, hint=hint)
+            raise TmdError(
+                "this step is not closed", location=shifted(place, unclosed.start()), source=source, hint=hint
+            )
         found = [self._group(group) for group in _GROUP.finditer(code)]
-        known = any(group.words and self.vocabulary.has(group.words) for group in found)
-        rest = code[head.end() :]
-        for group in reversed(found):
-            rest = rest[: max(0, group.start - head.end())] + rest[max(0, group.end - head.end()) :]
-        pure = not re.search(r"\w", _BRACKETS.sub("", rest))
+        known = any(words and self.vocabulary.has(words) for words, _, _ in found)
+        rest = list(code)
+        for _, begin, end in found:
+            rest[begin:end] = " " * (end - begin)
+        pure = not re.search(r"\w", _BRACKETS.sub("", "".join(rest[head.end() :])))
         steps = []
-        for group in found:
-            words = group.words
+        for words, begin, end in found:
             if words and (pure or self.vocabulary.has(words) or (not known and self.vocabulary.resembles(words))):
+                where = shifted(place, begin)
                 if not self.vocabulary.has(words):  # names of the domain may be odd
-                    _check_names(words, _at(place, group.start), source)
-                length = _DURATION.match(code, group.end)
+                    _check_names(words, where, source)
+                length = _DURATION.match(code, end)
                 stop = start + Decimal(length[1]) if start is not None and length else None
-                steps.append(_Step(_instruction(words), _at(place, group.start), source, start, stop))
+                steps.append(_Step(_instruction(words), where, source, start, stop))
         return steps
 
-    def _group(self, group: re.Match[str]) -> _Group:
-        """Return the words in parentheses, with the name in front if they are a call."""
+    def _group(self, group: re.Match[str]) -> tuple[list[str], int, int]:
+        """Return the words of a group, with a name in front if they are a call, and its columns from 0.
+
+        There are no words if it cannot be a step.
+        """
         inside = [word for word in re.split(r"[\s,]+", group[3].lower()) if word]
         if group[1]:
             call = [group[1].lower(), *inside]
             known = bool(inside) and self.vocabulary.has(inside)
             if self.vocabulary.has(call) or (not group[2] and not known):
-                return _Group(call, group.start(), group.end())
+                return call, group.start(), group.end()
         # numbers, keywords and variables are no actions
         step = bool(inside) and not re.match(r"[:?]|[0-9.]*$", inside[0])
-        return _Group(inside if step else [], group.start(3) - 1, group.end())
+        return inside if step else [], group.start(3) - 1, group.end()
 
 
 def _confirm(lines: Sequence[_Line]) -> None:
@@ -371,19 +366,15 @@ def _code(line: str) -> str:
     return found[0] if found else ""
 
 
-def _at(place: Location, column: int) -> Location:
-    return replace(place, column=column + 1)
-
-
 def _instruction(words: Sequence[str]) -> Instruction:
     return Instruction(words[0], tuple(words[1:]))
 
 
 def _check_names(words: Sequence[str], place: Location, source: str) -> None:
     for word in words:
-        if not _NAME.fullmatch(word):
-            found = source.lower().find(word, (place.column or 1) - 1)
-            where = _at(place, found) if found >= 0 else place
+        if not NAME.fullmatch(word):
+            found = source.lower().find(word, place.column - 1)
+            where = replace(place, column=found + 1) if found >= 0 else place
             hint = "a name has letters, digits, _ and -, a letter first"
             raise TmdError(f'"{_shown(word)}" is not a name', location=where, source=source, hint=hint)
 
@@ -430,15 +421,13 @@ class _JsonReader:
             return []
         found = [plan for plan in self._reader.plans_of_text("\n".join(lines)) if plan.steps]
         for plan in found:
-            plan.steps = [replace(step, place=places[(step.place.line or 1) - 1]) for step in plan.steps]
+            plan.steps = [replace(step, place=places[step.place.line - 1]) for step in plan.steps]
         return found
 
     def _place(self, value: Any) -> Location:  # noqa: ANN401 - any JSON
         """Return where ``value`` stands, which is behind all that was looked for before."""
-        for text in _texts(value):
-            found = self._text.find(json.dumps(text)[1:-1], self._position)
-            self._position = found if found >= 0 else self._position
-            break
+        for text in _texts(value)[:1]:
+            self._position = max(self._position, self._text.find(json.dumps(text)[1:-1], self._position))
         line = self._text.count("\n", 0, self._position) + 1
         return Location(self._reader.file, line, self._position - self._text.rfind("\n", 0, self._position))
 
@@ -451,7 +440,7 @@ class _JsonReader:
         if isinstance(value, dict) and len(steps) == 1:
             return steps[0]
         names = self._reader.vocabulary
-        words = [text.lower() for text in _texts(value, 2) if _NAME.fullmatch(text.lower())]
+        words = [text.lower() for text in _texts(value, 2) if NAME.fullmatch(text.lower())]
         arguments = [word for word in words if word in names.objects]
         known = [word for word in words if word in names.arities]
         action = known or [word for word in words if arguments and word not in names.objects][:1]
@@ -523,9 +512,9 @@ def parse_instruction(text: str) -> Instruction:
     arguments = call[2].split(",") if call[2].strip() else []
     words = [word.strip().lower() for word in (call[1], *arguments)]
     for word in words:
-        if not _NAME.fullmatch(word):
+        if not NAME.fullmatch(word):
             raise TmdError(f'"{_shown(word)}" is not a name' if word else "a name is missing", hint=hint)
-    return Instruction(words[0], tuple(words[1:]))
+    return _instruction(words)
 
 
 def _shown(text: str) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
@@ -36,6 +36,7 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.pddl.writer import format_formula
 
+Row: TypeAlias = tuple[str, ...]
 Binding: TypeAlias = Mapping[str, str]
 """The object that each variable stands for."""
 
@@ -221,34 +222,45 @@ def _alternatives(formula: Formula, wanted: bool) -> list[_Signed]:
     return []
 
 
-class _Facts:
-    """The atoms of a state, found by their predicate and one of their arguments."""
+class JoinRelation:
+    """The known atoms of one predicate, with an index for each set of argument places asked for."""
 
-    def __init__(self, state: State) -> None:
-        self.rows: dict[str, list[GroundAtom]] = {}
-        for atom in state:
-            self.rows.setdefault(atom.predicate, []).append(atom)
-        self._with: dict[tuple[str, int], dict[str, list[GroundAtom]]] = {}
+    def __init__(self) -> None:
+        self.rows: dict[Row, None] = {}
+        self._indexes: dict[tuple[int, ...], dict[Row, list[Row]]] = {}
 
-    def matching(self, atom: Atom, binding: Binding) -> Sequence[GroundAtom]:
-        """Return the atoms that agree with one of the bound arguments of ``atom``: the fewest."""
-        found: Sequence[GroundAtom] = self.rows.get(atom.predicate, ())
-        for place, term in enumerate(atom.terms):
-            value = binding.get(term, term)
-            if found and not value.startswith("?"):
-                found = min(found, self._column(atom.predicate, place).get(value, ()), key=len)
-        return found
+    def add(self, row: Row) -> None:
+        """Make ``row`` known; it must not be already."""
+        self.rows[row] = None
+        for places, index in self._indexes.items():
+            index.setdefault(tuple(row[p] for p in places), []).append(row)
 
-    def _column(self, predicate: str, place: int) -> Mapping[str, Sequence[GroundAtom]]:
-        column = self._with.get((predicate, place))
-        if column is None:
-            column = self._with[predicate, place] = {}
-            for atom in self.rows[predicate]:
-                column.setdefault(atom.args[place], []).append(atom)
-        return column
+    def matching(self, places: tuple[int, ...], key: Row) -> Collection[Row]:
+        """Return the rows that hold ``key`` at ``places``, in the order in which they were added."""
+        if not places:
+            return self.rows
+        index = self._indexes.get(places)
+        if index is None:
+            index = self._indexes[places] = {}
+            for row in self.rows:
+                index.setdefault(tuple(row[p] for p in places), []).append(row)
+        return index.get(key, ())
 
 
-_facts = lru_cache(maxsize=8)(_Facts)
+@lru_cache(maxsize=8)
+def _relations(state: State) -> Mapping[str, JoinRelation]:
+    found: dict[str, JoinRelation] = {}
+    for atom in state:
+        found.setdefault(atom.predicate, JoinRelation()).add(atom.args)
+    return found
+
+
+def _matching(atom: Atom, state: State, binding: Binding) -> Collection[Row]:
+    """Return the arguments of the atoms of ``state`` that agree with what is bound in ``atom``."""
+    relation = _relations(state).get(atom.predicate)
+    values = [binding.get(term, term) for term in atom.terms]
+    places = tuple(place for place, value in enumerate(values) if not value.startswith("?"))
+    return relation.matching(places, tuple(values[place] for place in places)) if relation else ()
 
 
 def _some(parameters: Sequence[TypedName], parts: _Signed, state: State, objects: Universe, binding: Binding) -> bool:
@@ -310,18 +322,17 @@ def _extended(
     if not atoms:
         yield from bindings((parameters[0],), objects, binding)
         return
-    facts = _facts(state)
-    rows, atom = min(((facts.matching(atom, binding), atom) for atom in atoms), key=lambda pair: len(pair[0]))
+    rows, atom = min(((_matching(atom, state, binding), atom) for atom in atoms), key=lambda pair: len(pair[0]))
     for row in rows:
-        found = _unified(atom, row, binding)
+        found = unified(atom, row, binding)
         if found and all(objects.is_a(found[term], types[term]) for term in atom.terms if term in types):
             yield found
 
 
-def _unified(atom: Atom, fact: GroundAtom, binding: Binding) -> Binding | None:
-    """Return ``binding`` extended so that ``atom`` is ``fact``; ``None`` where that contradicts it."""
+def unified(atom: Atom, row: Row, binding: Binding) -> Binding | None:
+    """Return ``binding`` extended so that ``atom`` has the arguments ``row``; ``None`` where that contradicts it."""
     found = dict(binding)
-    for term, value in zip(atom.terms, fact.args, strict=True):
+    for term, value in zip(atom.terms, row, strict=True):
         if (found.setdefault(term, value) if term.startswith("?") else term) != value:
             return None
     return found
@@ -432,23 +443,7 @@ def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
     positive, negative = cube
     if positive & negative or negative & operator.add:
         return ()
-    before = Cube(
-        operator.precondition.positive | (positive & ~operator.add),
-        operator.precondition.negative | (negative & ~operator.delete),
-    )
     clauses: list[Sequence[Cube]] = [_opposite(f) for f in operator.forbidden]
-    if operator.conditional:
-        kept_positive, kept_negative, more = _conditional_clauses(positive, negative, operator)
-        before = Cube(operator.precondition.positive | kept_positive, operator.precondition.negative | kept_negative)
-        clauses += more
-    elif positive & ~operator.add & operator.delete:
-        return ()
-    return _conjoin(before, clauses)
-
-
-def _conditional_clauses(positive: Bits, negative: Bits, operator: Operator) -> tuple[Bits, Bits, list[Sequence[Cube]]]:
-    """Return literals that must hold before, and disjunctions of which one must, where effects have conditions."""
-    clauses: list[Sequence[Cube]] = []
     wanted = positive & ~operator.add
     unwanted = negative & ~operator.delete
     may_add = may_delete = 0
@@ -464,7 +459,8 @@ def _conditional_clauses(positive: Bits, negative: Bits, operator: Operator) -> 
         unwanted &= ~bit
         made_false = [c for c, _, delete in operator.conditional if delete & bit]
         clauses.append([*made_false, Cube(0, bit)])
-    return wanted, unwanted, clauses
+    needs = operator.precondition
+    return _conjoin(Cube(needs.positive | wanted, needs.negative | unwanted), clauses)
 
 
 def _made_true(bit: Bits, operator: Operator) -> Sequence[Cube]:
@@ -506,7 +502,7 @@ def _conjoin(start: Cube, clauses: Iterable[Sequence[Cube]]) -> tuple[Cube, ...]
 def minimal(cubes: Iterable[Cube]) -> list[Cube]:
     """Return ``cubes`` without those that another one of them implies, the shortest first."""
     kept: list[Cube] = []
-    for cube in sorted(cubes, key=lambda c: (c.positive.bit_count() + c.negative.bit_count(), c)):
+    for cube in sorted(cubes, key=_size):
         if not any(k.positive & ~cube.positive == 0 and k.negative & ~cube.negative == 0 for k in kept):
             kept.append(cube)
     return kept

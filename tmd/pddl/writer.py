@@ -154,7 +154,7 @@ def _action(action: ActionSchema, typed: bool) -> str:
         f"  (:action {action.name}",
         f"    :parameters ({_typed(action.parameters, typed)})",
         f"    :precondition {_laid_out(action.precondition, 6, typed)}",
-        f"    :effect {_lines('and', effects, 6)})",
+        f"    :effect {in_lines('and', effects, 6)})",
     ]
     return "\n".join(lines)
 
@@ -164,10 +164,11 @@ def _laid_out(formula: Formula, indent: int, typed: bool) -> str:
     line = format_formula(formula, typed=typed)
     if len(line) + indent <= _WIDTH or not isinstance(formula, And):
         return line
-    return _lines("and", [format_formula(p, typed=typed) for p in formula.parts], indent)
+    return in_lines("and", [format_formula(p, typed=typed) for p in formula.parts], indent)
 
 
-def _lines(word: str, parts: Sequence[str], indent: int) -> str:
+def in_lines(word: str, parts: Sequence[str], indent: int) -> str:
+    """Return a group of ``parts`` behind ``word``, each on a line."""
     if not parts:
         return f"({word})"
     pad = "\n" + " " * indent

@@ -93,36 +93,29 @@ def _combine(word: str, parts: Iterable[Tree]) -> Tree:
     return kept[0] if len(kept) == 1 else (word, tuple(kept))
 
 
-def conjunctive(tree: Tree, what: str) -> list[Literals]:
-    """Return ``tree`` as clauses, all of which must hold; an empty clause is false.
+def normal_form(tree: Tree, outer: str, what: str) -> list[Literals]:
+    """Return ``tree`` in normal form.
+
+    Args:
+        tree: The condition.
+        outer: ``"and"`` for clauses, all of which must hold (an empty one is false); ``"or"`` for cubes, one of which
+            must hold (an empty one is true).
+        what: Says whose condition it is.
 
     Raises:
-        TmdError: It has too many clauses; ``what`` says whose condition it is.
+        TmdError: It has too many of them.
     """
-    return _normal(tree, "and", what)
-
-
-def disjunctive(tree: Tree, what: str) -> list[Literals]:
-    """Return ``tree`` as cubes, one of which must hold; an empty cube is true.
-
-    Raises:
-        TmdError: It has too many cubes; ``what`` says whose condition it is.
-    """
-    return _normal(tree, "or", what)
-
-
-def _normal(tree: Tree, outer: str, what: str) -> list[Literals]:
     if isinstance(tree, int):
         return [frozenset((tree,))]
     word, parts = tree
     if word == outer:
-        return absorb({clause for part in parts for clause in _normal(part, outer, what)})
+        return absorb({clause for part in parts for clause in normal_form(part, outer, what)})
     if all(isinstance(p, int) for p in parts):
         literals = frozenset(p for p in parts if isinstance(p, int))
         return [] if any(p ^ 1 in literals for p in literals) else [literals]
     found: list[Literals] = [frozenset()]
     for part in parts:
-        choices = _normal(part, outer, what)
+        choices = normal_form(part, outer, what)
         if len(found) * len(choices) > _MOST:
             raise TmdError(
                 f"a condition of {what} has more than {_MOST} cases when written out",

@@ -19,12 +19,11 @@ from tmd.pddl.grounding.ground_action import (
     Conditional,
     GroundAction,
     Literals,
-    Reachability,
     Tree,
     Work,
-    disjunctive,
     expand,
     grouped,
+    normal_form,
 )
 from tmd.pddl.grounding.instantiate import Instances, instantiate_actions
 from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State, universe
@@ -57,8 +56,7 @@ def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Seque
     problem = unfolded(problem)
     with _collector_paused():
         instances = instantiate_actions(problem, (problem.init, *initial_states), frozenset(forced))
-        pruned = prune(instances.actions, instances.reachability)
-        return _number(problem, instances, pruned)
+        return _number(problem, instances)
 
 
 @contextmanager
@@ -81,7 +79,7 @@ def ground_condition(task: Task, formula: Formula, binding: Binding | None = Non
     Raises:
         TmdError: The formula has too many cases.
     """
-    cubes = disjunctive(expand_condition(task, formula, binding), "this formula")
+    cubes = normal_form(expand_condition(task, formula, binding), "or", "this formula")
     return tuple(sorted(_cube(literals) for literals in cubes))
 
 
@@ -104,14 +102,15 @@ def expand_condition(task: Task, formula: Formula, binding: Binding | None = Non
     return expand(formula, binding or {}, objects, lookup)
 
 
-def _number(problem: Problem, instances: Instances, pruned: Pruned) -> Task:
+def _number(problem: Problem, instances: Instances) -> Task:
     """Return the task over the fluent atoms, which are numbered in sorted order."""
+    actions, known = _prune(instances)
     names = instances.atoms
-    fluent = sorted(pruned.fluent, key=lambda number: names[number])
+    fluent = sorted(known.fluent, key=lambda number: names[number])
     bit = {number: place for place, number in enumerate(fluent)}
     atoms = tuple(names[number] for number in fluent)
-    operators = tuple(sorted((_operator(a, bit) for a in pruned.actions), key=lambda o: o.instruction))
-    static = frozenset(names[number] for number in pruned.always) | instances.static
+    operators = tuple(sorted((_operator(a, bit) for a in actions), key=lambda o: o.instruction))
+    static = frozenset(names[number] for number in known.always) | instances.static
     index = {atom: place for place, atom in enumerate(atoms)}
     draft = Task(problem, atoms, static, 0, (), operators, index, {o.instruction: o for o in operators})
     return replace(draft, init=draft.encode(problem.init), goal=ground_condition(draft, problem.goal))
@@ -164,26 +163,18 @@ def _bits(atoms: Iterable[int], bit: dict[int, int]) -> Bits:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class Pruned:
-    """The remaining actions, the atoms that change, and those that hold always."""
-
-    actions: tuple[GroundAction, ...]
-    fluent: frozenset[int]
-    always: frozenset[int]
-
-
-def prune(actions: Sequence[GroundAction], reachability: Reachability) -> Pruned:
-    """Drop actions, effects and conditions that can play no part."""
+def _prune(instances: Instances) -> tuple[tuple[GroundAction, ...], _Known]:
+    """Drop actions, effects and conditions that can play no part; return the other actions, and what is known."""
+    reachability = instances.reachability
     atoms = [literal >> 1 for literal in reachability.reached if not literal & 1]
     fluent = frozenset(atom for atom in atoms if reachability.holds(2 * atom + 1))
     known = _Known(fluent, frozenset(atoms) - fluent)
     left = tuple(
         known.action(action, [e for k, e in enumerate(action.effects) if (number, k) in reachability.fired])
-        for number, action in enumerate(actions)
+        for number, action in enumerate(instances.actions)
         if (number, -1) in reachability.fired
     )
-    return Pruned(left, fluent, known.always)
+    return left, known
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ first (semi-naive evaluation), so no binding is tried that could not apply.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -21,10 +21,9 @@ from tmd.pddl.grounding.ground_action import (
     Tree,
     Work,
     absorb,
-    conjunctive,
-    disjunctive,
     expand,
     grouped,
+    normal_form,
 )
 from tmd.pddl.model import (
     ActionSchema,
@@ -43,9 +42,8 @@ from tmd.pddl.model import (
     signed_atoms,
     universe,
 )
-from tmd.pddl.semantics import Binding, action_cost, holds, instantiate, size
+from tmd.pddl.semantics import Binding, JoinRelation, Row, action_cost, holds, instantiate, size, unified
 
-Row: TypeAlias = tuple[str, ...]
 Variables: TypeAlias = Mapping[str, Sequence[str]]
 """The objects that each variable may stand for."""
 
@@ -54,31 +52,6 @@ _MOST_ROWS = 500_000
 _MOST_CHECKED = 50_000_000
 # The size a relation is taken to have that is still to grow.
 _UNKNOWN = 1_000_000
-
-
-class JoinRelation:
-    """The known atoms of one predicate, with an index for each set of argument places asked for."""
-
-    def __init__(self) -> None:
-        self.rows: dict[Row, None] = {}
-        self._indexes: dict[tuple[int, ...], dict[Row, list[Row]]] = {}
-
-    def add(self, row: Row) -> None:
-        """Make ``row`` known; it must not be already."""
-        self.rows[row] = None
-        for places, index in self._indexes.items():
-            index.setdefault(tuple(row[p] for p in places), []).append(row)
-
-    def matching(self, places: tuple[int, ...], key: Row) -> Collection[Row]:
-        """Return the rows that hold ``key`` at ``places``, in the order in which they were added."""
-        if not places:
-            return self.rows
-        index = self._indexes.get(places)
-        if index is None:
-            index = self._indexes[places] = {}
-            for row in self.rows:
-                index.setdefault(tuple(row[p] for p in places), []).append(row)
-        return index.get(key, ())
 
 
 @dataclass(frozen=True, slots=True)
@@ -280,16 +253,12 @@ class _Instantiation:
     def unify(self, plan: _ActionPlan, atom: Atom, rows: Iterable[Row]) -> list[Row]:
         """Return the values that matching ``atom`` with each of ``rows`` gives to its variables."""
         types = {p.name: p.types for p in plan.action.parameters}
-        found: list[Row] = []
-        for row in rows:
-            values: dict[str, str] = {}
-            for term, value in zip(atom.terms, row, strict=True):
-                known = values.setdefault(term, value) if term.startswith("?") else term
-                if known != value or (term in types and not self.objects.is_a(value, types[term])):
-                    break
-            else:
-                found.append(tuple(values.values()))
-        return found
+        found = (unified(atom, row, {}) for row in rows)
+        return [
+            tuple(values.values())
+            for values in found
+            if values is not None and all(self.objects.is_a(v, types[t]) for t, v in values.items() if t in types)
+        ]
 
     def is_static(self, formula: Formula) -> bool:
         return not predicates_of(formula) & self.changing
@@ -416,7 +385,7 @@ class _Instantiation:
         found: set[Literals] = set()
         for part in conjuncts(precondition):
             try:
-                found.update(conjunctive(expand(part, binding, self.objects, self.lookup), what))
+                found.update(normal_form(expand(part, binding, self.objects, self.lookup), "and", what))
             except TmdError as error:
                 error.location = part.location
                 raise
@@ -440,7 +409,7 @@ class _Instantiation:
         """Return the condition of an effect as cubes; most are plain conjunctions, and quick."""
         if plan.literals is None:
             self.work.spend(size(plan.rest, self.objects), f"an effect of {what}")
-            return disjunctive(expand(plan.rest, binding, self.objects, self.lookup), what)
+            return normal_form(expand(plan.rest, binding, self.objects, self.lookup), "or", what)
         cube: set[int] = set()
         for atom, negated in plan.literals:
             found = self.lookup(instantiate(atom, binding))

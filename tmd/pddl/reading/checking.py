@@ -108,6 +108,7 @@ class _Check:
         self.predicates = {p.name: p for p in domain.predicates}
         self.functions = {f.name: f for f in domain.functions}
         self.derived = {axiom.head.predicate for axiom in domain.derived}
+        self.declared = objects
         self.known_objects: dict[str, tuple[str, ...] | None] = {
             o.name: o.types if len(o.types) == 1 else None for o in objects
         }
@@ -377,14 +378,7 @@ class _Check:
 
     def typed_far_below(self, name: str) -> str | None:
         """Return a hint where the type of an object stands in a line below it: that of a list which it ends."""
-        declared = next(
-            (
-                o
-                for o in (self.of_problem.all_objects() if self.of_problem else self.domain.constants)
-                if o.name == name
-            ),
-            None,
-        )
+        declared = next((o for o in self.declared if o.name == name), None)
         place = declared.location if declared else None
         dash = self.dash(place)
         if declared is None or place is None or dash is None or dash.line == place.line:

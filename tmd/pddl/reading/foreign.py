@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import accumulate
 from pathlib import Path
 
@@ -34,6 +34,7 @@ _DEFINITION = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\b\s*([^\s()]*)", 
 _STRUCTURE = re.compile(r"\A\s*[():]|\(\s*:|^\s*:", re.MULTILINE)
 _ROUND = str.maketrans("[]{}\uff08\uff09", "()()()")
 _LINE = re.compile(r"[^\n]+")
+_PARENTHESIS = re.compile(r"[()]")
 
 
 def pddl_lines(lines: Sequence[str], file: str) -> tuple[tuple[str, ...], list[TmdError]]:
@@ -76,9 +77,12 @@ class _Text:
             return self.edit(first, last + 1)
         return self.edit(start, end)
 
-    def blank(self, spans: Sequence[tuple[int, int]]) -> None:
-        """Blank parts of the text, in the order in which they stand."""
-        self.kept, self.bare = (_without(text, spans) for text in (self.kept, self.bare))
+    def change(self, spans: Iterable[tuple[int, int]], how: Callable[[str], str]) -> None:
+        """Change parts of the text, each to one of its length."""
+        kept, bare = list(self.kept), list(self.bare)
+        for start, end in spans:
+            kept[start:end], bare[start:end] = how(self.kept[start:end]), how(self.bare[start:end])
+        self.kept, self.bare = "".join(kept), "".join(bare)
 
     def marks(self) -> None:
         """Blank the marks of Markdown and comments of other languages; comments of PDDL are no part of ``bare``."""
@@ -86,7 +90,7 @@ class _Text:
         for match in _MARKS.finditer(self.bare):
             if match.lastgroup and match.lastgroup != "comment":
                 found.setdefault(match.lastgroup, []).append(match)
-        self.blank(sorted(match.span() for matches in found.values() for match in matches))
+        self.change((match.span() for matches in found.values() for match in matches), _blanks)
         self.bare = re.sub(r";[^\n]*", lambda comment: _blanks(comment[0]), self.bare)
         for kind, matches in found.items():
             message, hint = _TOLD[kind]
@@ -99,15 +103,14 @@ class _Text:
         elif kind == "escape":
             yield self.edit(*match.span(), {"n": "\n", '"': '"'}.get(match[0][1], " "))
         elif kind == "remark":
-            mark = match[0].lstrip(" \t").partition(" ")[0].partition("\t")[0]
+            mark = match[0].split()[0]
             start = match.start() + _indent(match[0])
             yield self.edit(start, start + (2 if mark.startswith("//") else len(mark)), ";")
         else:
             for line in _LINE.finditer(match[0]):
                 start = match.start() + line.start() + _indent(line[0])
                 yield self.edit(start, start, "; ")
-            after = self.kept.partition("\n")[0] if match.end() == 0 else self.kept[match.end() :].partition("\n")[0]
-            if after.strip():
+            if self.kept[match.end() :].partition("\n")[0].strip():
                 yield self.edit(match.end(), match.end(), "\n")
 
     def around(self) -> None:
@@ -134,7 +137,7 @@ class _Text:
             message = '"(in-package ...)" is Lisp, not PDDL'
         edits = [self.removal(*span) for span in spans]
         self.fault(message, spans[0][0], 'remove it, or write ";" before each of its lines', "foreign-text", edits)
-        self.blank(spans)
+        self.change(spans, _blanks)
 
     def _definitions(self, others: Sequence[re.Match[str]]) -> None:
         """Report and blank further definitions."""
@@ -149,7 +152,7 @@ class _Text:
         message = f'this file has {len(others) + 1} definitions: here begins the {kind.lower()} "{name}"'
         hint = f"put it into a file of its own, such as {Path(edits[0].start.file).name}"
         self.fault(message, others[0].start(), hint, "two-definitions", edits)
-        self.blank([(others[0].start(), len(self.kept))])
+        self.change([(others[0].start(), len(self.kept))], _blanks)
 
     def _file_for(self, match: re.Match[str]) -> Path:
         """Return the file that a definition may be put into."""
@@ -160,15 +163,13 @@ class _Text:
 
     def brackets(self) -> None:
         """Read other brackets as parentheses."""
-        places = [match.start() for match in re.finditer(r"(?<!\x1b)[\[\]{}\uff08\uff09]", self.bare)]
+        spans = [match.span() for match in re.finditer(r"[\[\]{}\uff08\uff09]", self.bare)]
+        places = [start for start, _ in spans if self.bare[max(0, start - 1) : start] != "\x1b"]
         if places:
             edits = [self.edit(place, place + 1, self.bare[place].translate(_ROUND)) for place in places]
             message = f'PDDL has round parentheses only, not "{self.bare[places[0]]}"'
             self.fault(message, places[0], 'write "(" and ")"', "other-notation", edits)
-            self.kept = "".join(
-                b.translate(_ROUND) if b != " " else k for k, b in zip(self.kept, self.bare, strict=True)
-            )
-            self.bare = self.bare.translate(_ROUND)
+            self.change(spans, lambda bracket: bracket.translate(_ROUND))
 
     def commas(self) -> None:
         """Blank commas."""
@@ -181,17 +182,7 @@ class _Text:
             edits.append(self.edit(place, place + 1, "" if re.search(r"[\s()]", around) or len(around) < 2 else " "))
         more = f" ({len(places)} of them)" if len(places) > 1 else ""
         self.fault(f"PDDL has no commas{more}", places[0], "separate words by blanks", "other-notation", edits)
-        self.blank([(place, place + 1) for place in places])
-
-
-def _without(text: str, spans: Sequence[tuple[int, int]]) -> str:
-    """Return ``text`` with ``spans`` blanked, as long as before."""
-    kept: list[str] = []
-    done = 0
-    for start, end in spans:
-        kept += (text[done:start], _blanks(text[start:end]))
-        done = end
-    return "".join((*kept, text[done:]))
+        self.change([(place, place + 1) for place in places], _blanks)
 
 
 def _blanks(text: str) -> str:
@@ -205,7 +196,7 @@ def _indent(text: str) -> int:
 def _end_of_group(text: str, begin: int, end: int) -> int:
     """Return the place behind the group that begins at ``begin``; ``end`` where it is not closed before that."""
     depth = 0
-    for match in re.compile(r"[()]").finditer(text, begin, end):
+    for match in _PARENTHESIS.finditer(text, begin, end):
         depth += 1 if match[0] == "(" else -1
         if not depth:
             return match.end()

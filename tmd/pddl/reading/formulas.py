@@ -29,7 +29,7 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
-from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word, after, replaced, shifted
+from tmd.pddl.reading.syntax import CONNECTIVES, Document, Group, Node, Source, Word, after, replaced, shifted
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 # What planners take for a name although PDDL does not.
@@ -38,7 +38,7 @@ _VARIABLE = re.compile(r"\?[a-z][a-z0-9_-]*")
 _ODD_VARIABLE = re.compile(r"\?[a-z0-9_][!-~]*")
 _NUMBER = re.compile(r"([0-9]{1,15})(\.0*)?")
 
-RESERVED = frozenset({"and", "or", "not", "imply", "forall", "exists", "when", "either", "increase"})
+RESERVED = CONNECTIVES | {"either", "increase"}
 
 
 def is_variable(term: str) -> bool:
@@ -103,10 +103,8 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
     strange = next((place for place, letter in enumerate(node.text) if not letter.isascii()), None)
     if strange is not None:
         letter = node.text[strange]
-        place = Location(node.location.file, node.location.line, node.location.column + strange)
-        message = (
-            f'"{node.text}" has a character that PDDL does not: {letter!r} ({unicodedata.name(letter, "unnamed")})'
-        )
+        place, shown = shifted(node.location, strange), f"{letter!r} ({unicodedata.name(letter, 'unnamed')})"
+        message = f'"{node.text}" has a character that PDDL does not: {shown}'
         plain = look_alike(letter)
         edits = [Edit(place, shifted(place, 1), plain)] if plain else []
         raise source.error(message, place, f'write "{plain}"' if plain else hint, "look-alike", edits)
@@ -180,7 +178,7 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
             source.recover(None, read_name, node, source, "a dash")
             node = Word("-", node.location)
         if isinstance(node, Word) and node.text == "-":
-            types = _types_after(node, rest, source)
+            types = source.recover((OBJECT,), _read_types, rest, node.location, source)
             if not waiting:
                 source.fault_at(f"this type belongs to no {what}", node.location)
             found.extend(TypedName(w.text, types, w.location) for w in waiting)
@@ -210,11 +208,6 @@ def _after_dash(node: Word, source: Source) -> Word:
     return Word(node.text[1:], place)
 
 
-def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...]:
-    node = rest.pop() if rest else None
-    return source.recover((OBJECT,), _read_types, node, dash.location, source)
-
-
 def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list[Word]:
     """Return the name at ``node``; nothing where it is none and faults are collected."""
     if not variables and isinstance(node, Word) and is_variable(node.text) and len(node.text) > 1:
@@ -238,9 +231,10 @@ def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list
     return [node]
 
 
-def _read_types(node: Node | None, dash: Location, source: Source) -> tuple[str, ...]:
-    if node is None:
+def _read_types(rest: list[Node], dash: Location, source: Source) -> tuple[str, ...]:
+    if not rest:
         raise source.error('a type is missing after "-"', dash)
+    node = rest.pop()
     if isinstance(node, Word):
         return (read_name(node, source, "the name of a type").text,)
     if node.head != "either" or len(node.parts) < 2:

@@ -46,6 +46,7 @@ from tmd.pddl.reading.formulas import (
     unsupported,
 )
 from tmd.pddl.reading.syntax import (
+    PARTS,
     Document,
     Group,
     Node,
@@ -53,6 +54,7 @@ from tmd.pddl.reading.syntax import (
     Source,
     Word,
     after,
+    enclosed,
     nearest,
     parse,
     read_text,
@@ -75,9 +77,8 @@ def only_part(group: Group, source: Source) -> Node:
 
 def _joined(message: str, parts: Sequence[Node], source: Source) -> TmdError:
     """Return the error for several conditions or effects where one should be."""
-    start, end = parts[0].location, after(parts[-1])
-    edits = [Edit(start, start, "(and "), Edit(end, end, ")")]
-    return source.error(message, start, "use (and (...) (...)) for several", "syntax", edits)
+    edits = enclosed(parts[0], parts[-1], "(and ")
+    return source.error(message, parts[0].location, "use (and (...) (...)) for several", "syntax", edits)
 
 
 def read_title(nodes: Sequence[Node], place: Location, source: Source, what: str) -> Word:
@@ -328,9 +329,6 @@ def _with_declared_types(axiom: Axiom, predicates: Mapping[str, Predicate]) -> A
     return replace(axiom, parameters=named)
 
 
-_PARTS_OF_ACTIONS = (":parameters", ":precondition", ":effect")
-
-
 def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> dict[str, Node]:
     """Return the node after each keyword of an action, whose parts begin with number ``begin``."""
     parts: dict[str, Node] = {}
@@ -349,10 +347,10 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
             value = nodes[0] = _in_parentheses(nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
         # the value of a misspelt keyword is not reported as missing as well
-        meant = [] if keyword.text in _PARTS_OF_ACTIONS else get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)
+        meant = [] if keyword.text in PARTS else get_close_matches(keyword.text, PARTS, n=1)
         parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
-        if keyword.text in _PARTS_OF_ACTIONS:
-            found.append((_PARTS_OF_ACTIONS.index(keyword.text), keyword.text, keyword.location, after(value)))
+        if keyword.text in PARTS:
+            found.append((PARTS.index(keyword.text), keyword.text, keyword.location, after(value)))
     warn_of_order(found, source)
     return parts
 
@@ -361,10 +359,9 @@ def _in_parentheses(nodes: list[Node], source: Source) -> Group:
     """Return the parameters that ``nodes`` begin with, which lack their parentheses, and keep one of them."""
     words = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
     del nodes[1 : len(words)]
-    start, end = words[0].location, after(words[-1])
-    edits = [Edit(start, start, "("), Edit(end, end, ")")]
+    start, edits = words[0].location, enclosed(words[0], words[-1])
     source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
-    return Group(tuple(words), start, end, 2)
+    return Group(tuple(words), start, after(words[-1]), 2)
 
 
 def _without_keyword(group: Group, nodes: list[Node], parts: dict[str, Node], source: Source) -> None:
@@ -407,10 +404,10 @@ def _meant(word: Word, names: Sequence[str]) -> list[Edit]:
 def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Source) -> None:
     if keyword.text in UNSUPPORTED:
         raise unsupported(source, UNSUPPORTED[keyword.text], keyword.text, keyword.location)
-    if keyword.text not in _PARTS_OF_ACTIONS:
-        hint = nearest(keyword.text, _PARTS_OF_ACTIONS, what="parts of an action")
+    if keyword.text not in PARTS:
+        hint = nearest(keyword.text, PARTS, what="parts of an action")
         message = f'"{keyword.text}" is not a part of an action'
-        raise source.error(message, keyword.location, hint, "unknown-keyword", _meant(keyword, _PARTS_OF_ACTIONS))
+        raise source.error(message, keyword.location, hint, "unknown-keyword", _meant(keyword, PARTS))
     if keyword.text in seen:
         message = f'"{keyword.text}" appears twice in action "{action}"'
         raise source.error(message, keyword.location, code="duplicate-section")
@@ -621,10 +618,9 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
 def _title_in_parentheses(kind: Word, name: Node, source: Source) -> Group:
     """Return the title of a definition that lacks its parentheses, which is reported."""
     start, end = kind.location, after(name)
-    title = Group((kind, name), start, end, 1)
     message, hint = f"the name of the {kind.text} stands in parentheses", f"write ({source.text(start, end)})"
-    source.fault_at(message, start, hint, "syntax", [Edit(start, start, "("), Edit(end, end, ")")])
-    return title
+    source.fault_at(message, start, hint, "syntax", enclosed(kind, name))
+    return Group((kind, name), start, end, 1)
 
 
 def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source: Source) -> str:

@@ -170,7 +170,6 @@ class Source(Reporting):
 
     def word(self, location: Location | None, number: int) -> Location | None:
         """Return the place of word ``number`` (0 for the head) of the group at ``location``; groups count as one."""
-        place = None
         depth = count = 0
         for token, place in self.tokens(location):
             if depth == 1 and token != ")":
@@ -212,6 +211,12 @@ def shifted(place: Location, columns: int) -> Location:
 def replaced(node: Node, text: str) -> Edit:
     """Return the edit that puts ``text`` in the place of ``node``."""
     return Edit(node.location, after(node), text)
+
+
+def enclosed(first: Node, last: Node, opening: str = "(") -> list[Edit]:
+    """Return the edits that put the nodes from ``first`` to ``last`` in parentheses."""
+    start, end = first.location, after(last)
+    return [Edit(start, start, opening), Edit(end, end, ")")]
 
 
 @dataclass(frozen=True, slots=True)
@@ -305,11 +310,13 @@ def split_lines(text: str) -> tuple[str, ...]:
     return tuple(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n").split("\n"))
 
 
-ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]|[\u200b-\u200d\u2060\ufeff]")
+_ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]|[\u200b-\u200d\u2060\ufeff]")
 """Blanks that only look like one: the no-break space, the ideographic space and the like."""
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
-_CONNECTIVES = frozenset({"and", "or", "not", "imply", "forall", "exists", "when"})
-_PARTS = frozenset({":parameters", ":precondition", ":effect"})
+# Words with groups behind them, and the groups in which names stand with their arguments.
+CONNECTIVES = frozenset({"and", "or", "not", "when", "imply", "forall", "exists"})
+# The parts of an action.
+PARTS = (":parameters", ":precondition", ":effect")
 # Keywords that begin a section, and nothing else.
 _SECTIONS = frozenset(
     {
@@ -321,14 +328,13 @@ _SECTIONS = frozenset(
 _MOST_FAULTS = 100
 
 
-# Words with groups behind them, and the groups in which names stand with their arguments.
-_CONNECTING = frozenset({"and", "or", "not", "when", "imply", "forall", "exists"})
-_OPERATORS = _CONNECTING | {
+_OPERATORS = CONNECTIVES | {
     "define", "increase", "decrease", "assign", "scale-up", "scale-down", "preference", "oneof", "probabilistic",
     "=", "<", ">", "<=", ">=", "+", "-", "*", "/", "either", "always", "sometime", "!", "~",
 }  # fmt: skip
-_CALLED = re.compile(r"[a-z0-9_][a-z0-9_-]*")
-_WITH_ATOMS = _CONNECTING | {":init", ":goal", ":predicates", ":precondition", ":effect"}
+# A plain name as planners take it; in PDDL it begins with a letter.
+NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
+_WITH_ATOMS = CONNECTIVES | {":init", ":goal", ":predicates", ":precondition", ":effect"}
 
 
 @dataclass(slots=True)
@@ -349,9 +355,13 @@ class _Open:
         return self.parts[0].text if self.parts and isinstance(self.parts[0], Word) else ""
 
 
+def _reopened(group: Group) -> _Open:
+    return _Open(group.location, list(group.parts), False)
+
+
 def _may_be_name(word: str) -> bool:
     """Return whether a word before a parenthesis may be the name of a call."""
-    return bool(_CALLED.fullmatch(word)) and word not in _OPERATORS - {"not"} and word not in ("minimize", "maximize")
+    return bool(NAME.fullmatch(word)) and word not in _OPERATORS - {"not"} and word not in ("minimize", "maximize")
 
 
 def _keyword_before(around: _Open) -> bool:
@@ -412,27 +422,25 @@ class _Parser:
 
     def read_line(self, number: int, line: str) -> None:
         code, mark, comment = line.partition(";")
+        start = Location(self.source.file, number, 1)
         control = _CONTROL.search(code)
         if control:
-            place = Location(self.source.file, number, control.start() + 1)
-            self.fault(
-                f"control character 0x{ord(control[0]):02x}", place, "save it as plain text", "control-character"
-            )
+            message = f"control character 0x{ord(control[0]):02x}"
+            self.fault(message, shifted(start, control.start()), "save it as plain text", "control-character")
             code = _CONTROL.sub(" ", code)
-        blank = ODD_BLANK.search(code)
+        blank = _ODD_BLANK.search(code)
         if blank:
-            place = Location(self.source.file, number, blank.start() + 1)
             message = f"this is no blank of PDDL: {blank[0]!r} ({unicodedata.name(blank[0], 'unnamed')})"
-            places = [Location(self.source.file, number, m.start() + 1) for m in ODD_BLANK.finditer(code)]
+            places = [shifted(start, odd.start()) for odd in _ODD_BLANK.finditer(code)]
             edits = [Edit(odd, shifted(odd, 1), " ") for odd in places]
-            self.fault(message, place, 'write " "', "look-alike", edits)
-            code = ODD_BLANK.sub(" ", code)
+            self.fault(message, places[0], 'write " "', "look-alike", edits)
+            code = _ODD_BLANK.sub(" ", code)
         if mark:
             self.comments[number] = comment.lstrip(";").strip()
         first = True
         ended = -1
         for match in TOKEN.finditer(code):
-            location = Location(self.source.file, number, match.start() + 1)
+            location = shifted(start, match.start())
             token = match[0].lower()
             if match.start() == ended and token[0] == "?":
                 message = f'some tools want a blank before "{token}"'
@@ -513,16 +521,12 @@ class _Parser:
         self.called += (Edit(place, place, "("), Edit(end, end, ")"))
         opened.parts = [head, Group(tuple(atom), place, end, len(self.stack) + 1)]
 
-    def reopen(self, group: Group) -> _Open:
-        """Open a group again that was closed too early."""
-        return _Open(group.location, list(group.parts), False)
-
     def add_word(self, word: Word) -> None:
         if not self.stack and not self.reopen_last(word):
             return
         if word.text.startswith(":"):
             self.fix_misplaced(word)
-        elif word.text in _CONNECTIVES:
+        elif word.text in CONNECTIVES:
             self.fix_unopened(word)
         self.stack[-1].parts.append(word)
 
@@ -530,7 +534,7 @@ class _Parser:
         """Repair ``:precondition and (...)``, which lacks the parenthesis that its end closes."""
         opened = self.stack[-1]
         last = opened.parts[-1] if opened.parts else None
-        if isinstance(last, Word) and (last.text in _PARTS - {":parameters"} or last.text == opened.head == ":goal"):
+        if isinstance(last, Word) and (last.text in PARTS[1:] or last.text == opened.head == ":goal"):
             message = f'a parenthesis is missing before "{word.text}"'
             self.fault(message, word.location, f'write "({word.text}"', "extra-parenthesis")
             self.stack.append(_Open(word.location, [], False))
@@ -539,7 +543,7 @@ class _Parser:
         """Reopen the last group for a word outside all parentheses; return whether there is one."""
         if self.groups:
             self.closed_too_early(self.groups[-1])
-            self.stack.append(self.reopen(self.groups.pop()))
+            self.stack.append(_reopened(self.groups.pop()))
             return True
         if not self.outside:
             self.fault(f'"{word.text}" stands outside all parentheses', word.location, None, "syntax")
@@ -559,14 +563,14 @@ class _Parser:
             while len(self.stack) > 1:
                 self.pop(word.location)
             self.stack.append(opened)
-        elif word.text in _PARTS and opened.parts and opened.head[:1] != ":" and f":{opened.head}" not in _SECTIONS:
+        elif word.text in PARTS and opened.parts and opened.head[:1] != ":" and f":{opened.head}" not in _SECTIONS:
             self.fix_part(word)
 
     def outermost(self, group: Group) -> _Open:
         """Open the definition around sections: ``group``, which ended too early, or one of which only the title is."""
         if group.head not in ("domain", "problem"):
             self.closed_too_early(group)
-            return self.reopen(group)
+            return _reopened(group)
         place = group.location
         edits = [Edit(place, place, "(define ")]
         self.undefined = self.source.error(f'"(define" is missing before "({group.head}"', place, None, "syntax", edits)
@@ -584,7 +588,7 @@ class _Parser:
             last = opened.parts[-1]
             if isinstance(last, Group):
                 opened.parts.pop()
-                self.stack.append(self.reopen(last))
+                self.stack.append(_reopened(last))
             return
         self.never_closed(opened)
         while len(self.stack) > 2 and not self.stack[-1].head.startswith(":"):
@@ -602,14 +606,13 @@ class _Parser:
                 self.source.fault(fault)
         if not self.stack:
             return
-        last = len(self.source.lines)
+        end = Location(self.source.file, len(self.source.lines), len(self.source.lines[-1]) + 1)
         if self.undefined and len(self.stack) == 1:
-            end = Location(self.source.file, last, len(self.source.lines[-1]) + 1)
             self.undefined.edits += (Edit(end, end, ")\n"),)
         else:
             self.never_closed(self.stack[-1], len(self.stack))
         while self.stack:
-            self.pop(Location(self.source.file, last, len(self.source.lines[-1]) + 1))
+            self.pop(end)
 
     def never_closed(self, opened: _Open, count: int = 1) -> None:
         name = f' "({opened.head}"' if opened.head else ""
