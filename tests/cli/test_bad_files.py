@@ -55,7 +55,7 @@ SLIPS = {
     "not a domain": (DOMAIN, "(define (domain", "(define (problem", None),
     "empty domain": (DOMAIN, DOMAIN, "", None),
     "other domain": (PROBLEM, "(:domain lamps)", "(:domain lamp)", None),
-    "unknown object": (PROBLEM, "(wired s1 l1)", "(wired s1 l2)", "declare \"l2 - lamp\" under (:objects ...)"),
+    "unknown object": (PROBLEM, "(wired s1 l1)", "(wired s1 l2)", 'declare "l2 - lamp" under (:objects ...)'),
     "object of another type": (PROBLEM, "(wired s1 l1)", "(wired l1 l1)", None),
     "atom without parentheses": (PROBLEM, "(wired s1 l1)", "wired s1 l1", None),
     "variable in the goal": (PROBLEM, "(lit l1)", "(lit ?l)", None),
