@@ -64,16 +64,8 @@ def learned(fits: Sequence[Fit], model: str) -> dict[str, Any]:
     """
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
-    names = list(dict.fromkeys(name for fit in own for found in fit.worlds.values() for name in found.weights))
-    weights = {}
-    for name in names:
-        cells: list[tuple[float, float, float] | None] = []
-        for world in worlds:
-            values = [
-                f.worlds[world].weights[name] for f in own if world in f.worlds and name in f.worlds[world].weights
-            ]
-            cells.append((sum(values) / len(values), min(values), max(values)) if values else None)
-        weights[name] = cells
+    names = dict.fromkeys(name for fit in own for found in fit.worlds.values() for name in found.weights)
+    weights = {name: [_spread(own, world, name) for world in worlds] for name in names}
     order = sorted(weights, key=lambda name: -max(abs(cell[0]) for cell in weights[name] if cell))[:_WEIGHTS]
     kept = [(name, cells) for name, cells in weights.items() if name in order]
     curves = [[p.loss for p in found.curve if p.loss is not None] for fit in own for found in fit.worlds.values()]
@@ -83,6 +75,14 @@ def learned(fits: Sequence[Fit], model: str) -> dict[str, Any]:
     return {
         "model": model, "sets": len(own), "losses": losses, "worlds": worlds, "weights": kept, "smaller": smaller
     }  # fmt: skip
+
+
+def _spread(fits: Sequence[Fit], world: str, name: str) -> tuple[float, float, float] | None:
+    """Return mean, least and largest weight of a factor over the training sets; ``None`` where no set has it."""
+    values = [
+        fit.worlds[world].weights[name] for fit in fits if world in fit.worlds and name in fit.worlds[world].weights
+    ]
+    return (sum(values) / len(values), min(values), max(values)) if values else None
 
 
 def errors(run: Run, model: str) -> dict[str, Any]:

@@ -537,19 +537,7 @@ def _handle(model: UrdfModel, source: _Source, index: int, entry: HandleEntry, p
         raise ModelFault((*path, "kind"), f"'{entry.joint}' {does}, and a {entry.kind} does not")
     if entry.kind == "knob" and not entry.settings:
         raise ModelFault(path, "a knob has settings", "say `settings: {off: 0.0, high: 1.5}`")
-    opened = entry.open
-    if opened is None:
-        if not math.isfinite(link.upper):
-            raise ModelFault(path, f"'{entry.joint}' has no limits", "say the position that is `open`")
-        opened = link.upper if abs(link.upper - entry.closed) >= abs(link.lower - entry.closed) else link.lower
-    for key, value in (
-        ("closed", entry.closed),
-        ("open", opened),
-        *((f"settings.{k}", v) for k, v in entry.settings.items()),
-    ):
-        if not link.lower - 1e-6 <= value <= link.upper + 1e-6:
-            message = f"{key}: {value:g} is beyond the limits of '{entry.joint}', {link.lower:g} to {link.upper:g}"
-            raise ModelFault((*path, *key.split(".")), message)
+    opened = _opened(link, path, entry)
     force = entry.friction if entry.friction is not None else _FRICTION[entry.kind]
     if entry.kind == "button":
         link.spring = force
@@ -561,6 +549,28 @@ def _handle(model: UrdfModel, source: _Source, index: int, entry: HandleEntry, p
         model.link_parts[link.name] = part
     opening = 0.0 if entry.kind in ("flap", "button") else min(entry.width + 2 * CLEARANCE, WIDEST)
     tool = _frame(path, entry.at, entry.approach, entry.across)
+    _check_near(link, source, path, entry)
+    settings = tuple(entry.settings.items())
+    model.grips.append(Grip(part, entry.kind, link.name, tool, opening, entry.closed, opened, settings))
+
+
+def _opened(link: UrdfLink, path: tuple[str | int, ...], entry: HandleEntry) -> float:
+    """Return the position of a joint at which it is open; it and all others that are given are within its limits."""
+    opened = entry.open
+    if opened is None:
+        if not math.isfinite(link.upper):
+            raise ModelFault(path, f"'{entry.joint}' has no limits", "say the position that is `open`")
+        opened = link.upper if abs(link.upper - entry.closed) >= abs(link.lower - entry.closed) else link.lower
+    settings = ((f"settings.{name}", value) for name, value in entry.settings.items())
+    for key, value in (("closed", entry.closed), ("open", opened), *settings):
+        if not link.lower - 1e-6 <= value <= link.upper + 1e-6:
+            message = f"{key}: {value:g} is beyond the limits of '{entry.joint}', {link.lower:g} to {link.upper:g}"
+            raise ModelFault((*path, *key.split(".")), message)
+    return opened
+
+
+def _check_near(link: UrdfLink, source: _Source, path: tuple[str | int, ...], entry: HandleEntry) -> None:
+    """Check that a handle is at its link."""
     away = [
         np.maximum(np.maximum(low - np.array(entry.at), entry.at - np.array(high)), 0.0) for low, high in link.boxes
     ]
@@ -569,8 +579,6 @@ def _handle(model: UrdfModel, source: _Source, index: int, entry: HandleEntry, p
         message = f"the hand would be {100 * beside:.1f} cm beside '{link.name or source.first}'"
         hint = "`at` is the middle of the bar or the button, in the frame of the link that moves"
         raise ModelFault((*path, "at"), message if math.isfinite(beside) else f"'{link.name}' has no <collision>", hint)
-    settings = tuple(entry.settings.items())
-    model.grips.append(Grip(part, entry.kind, link.name, tool, opening, entry.closed, opened, settings))
 
 
 def _renamed(model: UrdfModel, source: _Source) -> ET.Element:
