@@ -134,7 +134,10 @@ def reader_of(config: InferenceConfig, library: Library, goals: GoalTable | None
 
 @lru_cache(maxsize=16)
 def restored_in(
-    world: World, lexicon: Lexicon, learned: frozenset[PutBack] = frozenset(), left: frozenset[PutBack] = frozenset()
+    world: World,
+    lexicon: Lexicon,
+    learned: frozenset[PutBack] = frozenset(),
+    unrestored: frozenset[PutBack] = frozenset(),
 ) -> tuple[tuple[Cube, ...], ...]:
     """Return what no plan leaves behind in an environment: each condition for each object, as cubes.
 
@@ -142,13 +145,13 @@ def restored_in(
         world: The environment.
         lexicon: The words of its domain, which may declare such conditions.
         learned: What demonstrations undo; it counts where the lexicon declares nothing.
-        left: What demonstrations leave as it came about, whatever the lexicon declares.
+        unrestored: What demonstrations leave as it came about, whatever the lexicon declares.
     """
     task, kinds = world.task, world.mentions.kinds
     declared = declared_goals(lexicon, task.problem.domain).restored
     found: list[tuple[Formula, str]] = []
     if declared or lexicon.restored is not None:
-        kept = {(p.predicate, p.kind) for p in left}
+        kept = {(p.predicate, p.kind) for p in unrestored}
         found = [(c, name) for c in declared for name in sorted(kinds) if (_state_named(c), kinds[name]) not in kept]
     else:
         for name in sorted(kinds):
@@ -173,7 +176,7 @@ def restored_of(
         lexicon = replace(lexicon, restored=None, base=replace(lexicon.base, restored=()))
     if goals is None or LEARNED not in config.sources:
         return restored_in(world, lexicon)
-    return restored_in(world, lexicon, goals.put_back, goals.left)
+    return restored_in(world, lexicon, goals.put_back, goals.unrestored)
 
 
 def _asked(

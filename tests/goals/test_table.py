@@ -110,14 +110,14 @@ def test_learned_rows_survive_json() -> None:
         {"pattern": "open X", "condition": "(opened ?x)", "evidence": "9 of 10", "probability": 0.9},
         {"pattern": "put X in|on Y", "condition": "(at ?x ?y ?rel)", "evidence": "all", "probability": 1.0},
     ]
-    data = {"rows": entries, "put_back": [["opened", "drawer"]], "left": [["opened", "packet"]]}
+    data = {"rows": entries, "put_back": [["opened", "drawer"]], "unrestored": [["opened", "packet"]]}
     table = table_from_json(data, DRAWER)
     assert {r.source for r in table.rows} == {"learned"}
     assert table.put_back == {PutBack("opened", "drawer")}
-    assert table.left == {PutBack("opened", "packet")}
+    assert table.unrestored == {PutBack("opened", "packet")}
     assert table_to_json(table) == data
     assert table_from_json(table_to_json(table), DRAWER) == table
-    assert table_to_json(GoalTable()) == {"rows": [], "put_back": [], "left": []}
+    assert table_to_json(GoalTable()) == {"rows": [], "put_back": [], "unrestored": []}
     with pytest.raises(TmdError, match="no predicate"):
         table_from_json({**data, "rows": [{**entries[0], "condition": "(opend ?x)"}]}, DRAWER)
     with pytest.raises(KeyError):

@@ -40,6 +40,8 @@ from tmd.world.verb_clause import VerbClause
 
 # Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it.
 _MOST_FURTHER_STEPS = 8
+# Plans that are improved beyond those that are wanted, since some may become equal.
+_SPARE = 2
 # Maximum number of different readings of a request that are followed at a time, each with its own beam.
 _MOST_READINGS = 4
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
@@ -102,7 +104,8 @@ class GoalPass(ForwardPass):
             ways = found
         refusal = self._without_effect(ways)
         if refusal is None:
-            ways = [w for way in ways if self._respects_constraints(w := self._finished(way, state), state)]
+            ways = sorted((w for w in ways if self._respects_constraints(w, state)), key=lambda way: way.order)
+            ways = [self._finished(way, state) for way in ways[: self.top + _SPARE]]
             refusal = None if ways else _FORBIDDEN
         if refusal is not None:
             return Inferred((), tuple(self.rejected), (0, refusal))

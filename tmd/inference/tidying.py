@@ -9,20 +9,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import TypeAlias
 
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube, Operator, Task
-from tmd.planning.backends import IN_PROCESS, make
-from tmd.planning.result import Filled, Planner
+from tmd.planning.gap_filler import GapFiller
+from tmd.planning.result import Answer, Filled, GaveUp, Planner
 
 # Cost of letting something fall rather than putting it down, in instructions.
 _CARE = 3
-# Generated states after which the search for a short part gives up.
-_CAP = 3_000
+# Generated states after which the search for a part gives up, and that for what is restored at the end.
+_CAP = 200
+_END_CAP = 3_000
 # Maximum length of a part that is planned anew: a search for so few instructions takes milliseconds.
-_WINDOW = 6
+_WINDOW = 5
 Condition: TypeAlias = tuple[Cube, ...]
 """A disjunction of conjunctions."""
 Key: TypeAlias = tuple[int, int, int]
@@ -78,20 +78,15 @@ class Tidying:
     ) -> None:
         self.task = task
         self.planner = planner
-        self.careless = frozenset(o.instruction for o in task.operators if _careless(o, task))
         self.restored = restored
         self.lasting = lasting
         self.contents = contents
         self.allowed = allowed
 
-    @cached_property
-    def careful(self) -> Planner:
-        """The planner without careless instructions."""
-        operators = tuple(o for o in self.task.operators if o.instruction not in self.careless)
-        if len(operators) == len(self.task.operators):
-            return self.planner
-        known = {o.instruction: o for o in operators}
-        return make(IN_PROCESS, replace(self.task, operators=operators, by_instruction=known), cap=_CAP)
+    def is_careless(self, instruction: Instruction) -> bool:
+        """Return whether an instruction lets something fall."""
+        planner = self.planner
+        return isinstance(planner, GapFiller) and instruction not in planner.careful.task.by_instruction
 
     def improved(self, start: Bits, plan: Plan, kept: Condition) -> Plan:
         """Return a plan that is at least as good.
@@ -102,16 +97,6 @@ class Tidying:
             kept: What must hold at the end, beside the needs of the segments.
         """
         return _Improvement(self, start, plan, kept).improved(plan)
-
-
-def _careless(operator: Operator, task: Task) -> bool:
-    """Return whether an instruction puts something in a place that it does not name: it lets it fall."""
-    own = set(operator.instruction.args)
-    named = own | {c.name for c in task.problem.domain.constants}
-    add = operator.add
-    for _, also_add, _ in operator.conditional:
-        add |= also_add
-    return any(len(a.args) > 1 and a.args[0] in own and not named.issuperset(a.args) for a in task.names(add))
 
 
 class _Improvement:
@@ -174,7 +159,7 @@ class _Improvement:
                 operator = self.task.by_instruction.get(instruction)
                 if operator is None or not operator.applicable(trace[-1]):
                     return None
-                cost += operator.cost + _CARE * (instruction in self.setup.careless)
+                cost += operator.cost + _CARE * self.setup.is_careless(instruction)
                 trace.append(operator.apply(trace[-1]))
             need = segment.need
             if (need.end and not _any_holds(need.end, trace[-1])) or not _passes(need.via, trace):
@@ -239,7 +224,7 @@ class _Improvement:
         goal = self._tidier(end, untidy, self.kept)
         last = len(plan[-1].instructions)
         return self._better(
-            plan, (self._with(plan, len(plan) - 1, last, last, own) for own in self._planned(end, goal))
+            plan, (self._with(plan, len(plan) - 1, last, last, own) for own in self._planned(end, goal, _END_CAP))
         )
 
     def _tidier(self, state: Bits, numbers: Sequence[int], goal: Condition) -> Condition:
@@ -251,19 +236,25 @@ class _Improvement:
                 goal = tuple(c for cube in goal for c in _denied(condition, cube))
         return goal
 
-    def _planned(self, state: Bits, goal: Condition) -> Iterator[tuple[Instruction, ...]]:
+    def _planned(self, state: Bits, goal: Condition, cap: int = _CAP) -> Iterator[tuple[Instruction, ...]]:
         """Yield the planner's instructions from a state to a goal, if it has any."""
         if any(cube.holds(state) for cube in goal):
             yield ()
             return
-        for planner in (self.setup.careful, self.setup.planner) if goal else ():
-            answer = planner.fill(state, goal)
-            if isinstance(answer, Filled):
-                home = self._home(state)
-                back = planner.fill(state, [Cube(c.positive | home, c.negative) for c in goal]) if home else answer
-                near = isinstance(back, Filled) and len(back.plan) <= len(answer.plan) + 1
-                yield back.plan if isinstance(back, Filled) and near else answer.plan
-                return
+        answer = self._soon(state, goal, cap) if goal else GaveUp("")
+        if isinstance(answer, Filled):
+            home = self._home(state)
+            back = self._soon(state, [Cube(c.positive | home, c.negative) for c in goal], cap) if home else answer
+            near = isinstance(back, Filled) and len(back.plan) <= len(answer.plan) + 1
+            yield back.plan if isinstance(back, Filled) and near else answer.plan
+
+    def _soon(self, state: Bits, goal: Sequence[Cube], cap: int) -> Answer:
+        """Return what a short search finds, without careless instructions if there is a way without."""
+        planner = self.setup.planner
+        if not isinstance(planner, GapFiller):
+            return planner.fill(state, goal)
+        answer = planner.careful.soon(state, goal, cap)
+        return answer if isinstance(answer, Filled) or cap == _CAP else planner.soon(state, goal, cap)
 
     def _home(self, state: Bits) -> Bits:
         """Return where things were at the start that are in a hand now, and that the request does not name."""

@@ -8,10 +8,11 @@ search.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cache
+from dataclasses import replace
+from functools import cache, cached_property
 
 from tmd.pddl.model import Instruction
-from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search.in_process import DEFAULT_CAP, Backend, OptimalSearch
 from tmd.planning.unsolvable import Impossible
@@ -43,6 +44,14 @@ class GapFiller:
         self._impossible = Impossible(task)
         self._remembered = cache(self._searched)
 
+    @cached_property
+    def careful(self) -> GapFiller:
+        """The filler without careless instructions."""
+        task = self.task
+        operators = tuple(operator for operator in task.operators if not _careless(operator, task))
+        known = {operator.instruction: operator for operator in operators}
+        return GapFiller(replace(task, operators=operators, by_instruction=known))
+
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
         """Return the missing instructions from ``state`` to any cube of ``goal``."""
         cubes = tuple(goal)
@@ -50,9 +59,15 @@ class GapFiller:
             return Filled((), state, 0)
         return self._remembered(state, cubes)
 
+    def soon(self, state: Bits, goal: Sequence[Cube], cap: int) -> Answer:
+        """Return what a short search finds, without any proof that there is nothing."""
+        return self._search.fill(state, goal, cap)
+
     def forget(self) -> None:
         """Forget the remembered answers."""
         self._remembered.cache_clear()
+        if "careful" in self.__dict__:
+            self.careful.forget()
 
     def _searched(self, state: Bits, goal: tuple[Cube, ...]) -> Answer:
         search = self._search
@@ -65,6 +80,16 @@ class GapFiller:
         if reason is None and isinstance(answer, GaveUp) and search.cap > QUICK:
             reason = self._impossible.reason_from(state, goal)
         return answer if reason is None else Unreachable(reason)
+
+
+def _careless(operator: Operator, task: Task) -> bool:
+    """Return whether an instruction puts something in a place that it does not name: it lets it fall."""
+    own = set(operator.instruction.args)
+    named = own | {constant.name for constant in task.problem.domain.constants}
+    add = operator.add
+    for _, also_add, _ in operator.conditional:
+        add |= also_add
+    return any(len(a.args) > 1 and a.args[0] in own and not named.issuperset(a.args) for a in task.names(add))
 
 
 def eliminate(plan: Sequence[Instruction], task: Task, state: Bits, goal: Sequence[Cube]) -> tuple[Instruction, ...]:

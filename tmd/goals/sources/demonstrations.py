@@ -100,7 +100,7 @@ def learn_goals(
     learner = _Learner(shown, world_of, lexicon)
     for demonstration in shown:
         learner.take(demonstration)
-    return GoalTable(tuple(learner.rows()), put_back=learner.put_back(), left=learner.left())
+    return GoalTable(tuple(learner.rows()), put_back=learner.put_back(), unrestored=learner.unrestored())
 
 
 def table_to_json(table: GoalTable) -> dict[str, object]:
@@ -114,8 +114,15 @@ def table_to_json(table: GoalTable) -> dict[str, object]:
         }
         for row in table.rows
     ]
-    states = {name: [[p.predicate, p.kind] for p in sorted(getattr(table, name))] for name in ("put_back", "left")}
-    return {"rows": rows, **states}
+    return {"rows": rows, "put_back": _pairs(table.put_back), "unrestored": _pairs(table.unrestored)}
+
+
+def _pairs(states: Iterable[PutBack]) -> list[list[str]]:
+    return [[state.predicate, state.kind] for state in sorted(states)]
+
+
+def _states(pairs: Iterable[Sequence[str]]) -> frozenset[PutBack]:
+    return frozenset(PutBack(str(predicate), str(kind)) for predicate, kind in pairs)
 
 
 def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
@@ -128,8 +135,7 @@ def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
     for entry in data["rows"]:
         row = read_row(Declared(str(entry["pattern"]), str(entry["condition"])), domain, LEARNED)
         rows.append(replace(row, evidence=str(entry["evidence"]), probability=float(str(entry["probability"]))))
-    put_back, left = (frozenset(PutBack(str(p), str(kind)) for p, kind in data[name]) for name in ("put_back", "left"))
-    return GoalTable(tuple(rows), put_back=put_back, left=left)
+    return GoalTable(tuple(rows), put_back=_states(data["put_back"]), unrestored=_states(data["unrestored"]))
 
 
 def _said(text: str) -> int:
@@ -225,7 +231,7 @@ class _Learner:
                 count.possible += 1
                 count.held += not state >> world.task.index[atom] & 1
 
-    def left(self) -> frozenset[PutBack]:
+    def unrestored(self) -> frozenset[PutBack]:
         """Return the literals that are hardly ever undone."""
         left = (p for p, c in self.started.items() if c.possible >= FEWEST_LEFT and c.held <= (1 - LEFT) * c.possible)
         return frozenset(left)

@@ -143,7 +143,7 @@ class GoalTable:
         attributes: For an adjective the condition of ``?x``.
         groups: For a noun that means many things the classes of all of them.
         put_back: What people undo by themselves, as demonstrations show it.
-        left: What people nearly always leave as it came about: an opened packet.
+        unrestored: What people nearly always leave as it came about: an opened packet.
         restored: Conditions of ``?x`` that no plan leaves behind, as they are declared.
     """
 
@@ -151,7 +151,7 @@ class GoalTable:
     attributes: Mapping[str, Formula] = field(default_factory=dict)
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     put_back: frozenset[PutBack] = frozenset()
-    left: frozenset[PutBack] = frozenset()
+    unrestored: frozenset[PutBack] = frozenset()
     restored: tuple[Formula, ...] = ()
 
     @cached_property
