@@ -27,13 +27,14 @@ from tmd.inference.energy import Factors
 from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
 from tmd.inference.ranking import Choice, Inferred, LostGoal, PlanStep, StepGoal, Way
-from tmd.inference.tidying import Need, PlanPart, Tidying
+from tmd.inference.tidying import Need, PlanPart, Tidying, moved, passes
 from tmd.library.library import tidy
+from tmd.pddl.domain_traits import single_valued
 from tmd.pddl.ground_formula import TRUE, goal_cubes
 from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube
-from tmd.planning.gap_filler import eliminate, untouched
+from tmd.planning.gap_filler import eliminate
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 from tmd.world.verb_clause import VerbClause
@@ -345,14 +346,14 @@ class GoalPass(ForwardPass):
 
     def _undisturbing(self, found: Sequence[tuple[Choice, Bits]], state: Bits) -> list[tuple[Choice, Bits]]:
         """Return the choices but for those that move more than another one: all that it moves, and something else."""
-        moved = [self._moved(state, end) for _, end in found]
-        return [choice for choice, own in zip(found, moved, strict=True) if not any(other < own for other in moved)]
+        all_moved = [self._moved(state, end) for _, end in found]
+        pairs = zip(found, all_moved, strict=True)
+        return [choice for choice, own in pairs if not any(other < own for other in all_moved)]
 
     def _moved(self, state: Bits, end: Bits) -> frozenset[str]:
-        """Return the objects that are somewhere else, or have other contents, in ``end``, and what they contain now."""
-        changed = self.task.names((state ^ end) & self.lasting)
-        gained = self.task.names(end & ~state & self._contents)
-        return frozenset(atom.args[0] for atom in changed if len(atom.args) > 1) | frozenset(map(str, gained))
+        """Return the objects that are somewhere else, or have other contents, in ``end``, and the changed contents."""
+        changed = state ^ end
+        return moved(self.task, changed & self.lasting) | frozenset(map(str, self.task.names(changed & self._contents)))
 
     def _on_the_way(self, target: Target, state: Bits) -> tuple[Instructions, Bits] | Refusal:
         """Return instructions through the conditions on the way to a goal, and the state they end in.
@@ -372,11 +373,7 @@ class GoalPass(ForwardPass):
 
     def _passes(self, target: Target, state: Bits, instructions: Sequence[Instruction]) -> bool:
         """Return whether instructions meet the conditions on the way to a goal, in their order."""
-        trace = list(self._trace(state, instructions))
-        for ways in target.ways:
-            while trace and not any(cube.holds(trace[0]) for cube in ways):
-                del trace[0]
-        return bool(trace)
+        return passes(target.ways, list(self._trace(state, instructions)))
 
     def _far_if_needed(self, quick: Answer, state: Bits, aim: tuple[Cube, ...], target: Target) -> Answer:
         """Return the far planner's answer where the quick one gave up, unless its plan keeps too much at any price.
@@ -478,11 +475,6 @@ class GoalPass(ForwardPass):
         """
         candidate, latent, own = proposal
         state = way.state
-
-        def reached(instructions: Sequence[Instruction]) -> bool:
-            end = self.simulated(state, instructions)
-            return any(cube.holds(end) for cube in aim) and self._passes(target, state, instructions)
-
         whole = (*latent, *own)
         if not self._passes(target, state, whole):
             return None
@@ -490,7 +482,7 @@ class GoalPass(ForwardPass):
         if not isinstance(answer, Filled):
             return None
         whole = tidy((*whole, *answer.plan), self.world, state)
-        kept = list(untouched(whole, self.task, state, reached, self.lasting, self._contents))
+        kept = list(self._tidying.pruned(state, PlanPart(whole, Need(aim, target.ways))))
         first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
         return self._weighed(target.step, way, candidate.source, tuple(first), tuple(kept), candidate.raw, aim)
 
@@ -515,8 +507,9 @@ class GoalPass(ForwardPass):
     @cached_property
     def _contents(self) -> Bits:
         """The atoms that say what is in what: food may be cooked by waiting, but it does not leave."""
-        constants = set(self.world.profiles.constants)
-        inside = (len(a.args) == 2 and a.args[0] not in constants and a.args[1] in constants for a in self.task.atoms)
+        constants, values = set(self.world.profiles.constants), single_valued(self.task.problem.domain)
+        pairs = ((a.args if len(a.args) == 2 and a.predicate not in values else ("", "")) for a in self.task.atoms)
+        inside = (thing not in constants and content in constants for thing, content in pairs)
         return sum(1 << bit for bit, found in enumerate(inside) if found)
 
     def _trace(self, state: Bits, instructions: Sequence[Instruction]) -> Iterator[Bits]:

@@ -2,7 +2,7 @@
 
 Not in the paper. A plan is cut into segments, one for each step of the request. What it opened, switched on or still
 holds without being asked to is restored, as early as the rest of the plan allows. Then instructions are removed, and
-short parts are planned anew, as long as every segment still ends in its goal.
+short parts are planned again, as long as every segment still ends in its goal.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _CARE = 3
 # Generated states after which the search for a part gives up, and that for what is restored at the end.
 _CAP = 200
 _END_CAP = 3_000
-# Maximum length of a part that is planned anew: a search for so few instructions takes milliseconds.
+# Maximum length of a part that is planned again: a search for so few instructions takes milliseconds.
 _WINDOW = 5
 Condition: TypeAlias = tuple[Cube, ...]
 """A disjunction of conjunctions."""
@@ -98,6 +98,10 @@ class Tidying:
         """
         return _Improvement(self, start, plan, kept).improved(plan)
 
+    def pruned(self, start: Bits, part: PlanPart) -> tuple[Instruction, ...]:
+        """Return the instructions of a part of a plan that starts in ``start``, without those that are for nothing."""
+        return _Improvement(self, start, (part,), (Cube(),)).pruned((part,))[0].instructions
+
 
 class _Improvement:
     """The improvement of one plan, with what any other plan must not change."""
@@ -110,7 +114,7 @@ class _Improvement:
         states = self._states(plan)
         end = states[-1][-1] if states else start
         self.moved = self._moved(end)
-        self.fresh = ~end & ~start & setup.contents
+        self.absent = ~end & setup.contents  # what was poured away was in the way
         asked_true = asked_false = 0
         for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
             cube = next((c for c in cubes if c.holds(state)), Cube())
@@ -132,9 +136,12 @@ class _Improvement:
         before = None
         while plan != before:
             before = plan
-            for shorter in (self._without_objects, self._without_instructions, self._with_windows):
-                plan = shorter(plan)
+            plan = self._with_windows(self.pruned(plan))
         return plan
+
+    def pruned(self, plan: Plan) -> Plan:
+        """Return the plan without objects and instructions that are there for nothing."""
+        return plan if self._key(plan) is None else self._without_instructions(self._without_objects(plan))
 
     # ------------------------------------------------------------------ the measure
 
@@ -162,11 +169,11 @@ class _Improvement:
                 cost += operator.cost + _CARE * self.setup.is_careless(instruction)
                 trace.append(operator.apply(trace[-1]))
             need = segment.need
-            if (need.end and not _any_holds(need.end, trace[-1])) or not _passes(need.via, trace):
+            if (need.end and not _any_holds(need.end, trace[-1])) or not passes(need.via, trace):
                 return None
             states += trace[1:]
         end = states[-1]
-        other = end & self.fresh or not self._moved(end) <= self.moved
+        other = end & self.absent or not self._moved(end) <= self.moved
         if other or not _any_holds(self.kept, end) or not self.setup.allowed(states):
             return None
         return len(self._untidy(end)), cost, ((end ^ self.start) & self.setup.lasting).bit_count()
@@ -177,8 +184,7 @@ class _Improvement:
 
     def _moved(self, state: Bits) -> frozenset[str]:
         """Return the objects that are somewhere else, or have other contents, than at the start."""
-        changed = self.task.names((state ^ self.start) & self.setup.lasting)
-        return frozenset(atom.args[0] for atom in changed if len(atom.args) > 1)
+        return moved(self.task, (state ^ self.start) & self.setup.lasting)
 
     def _better(self, plan: Plan, others: Iterable[Plan]) -> Plan:
         """Return the best of a plan and others; the first among equals."""
@@ -372,7 +378,12 @@ def _any_holds(condition: Condition, state: Bits) -> bool:
     return any(cube.holds(state) for cube in condition)
 
 
-def _passes(via: Sequence[Condition], trace: Sequence[Bits]) -> bool:
+def moved(task: Task, changed: Bits) -> frozenset[str]:
+    """Return the objects of which changed atoms say that they are somewhere else, or have other contents."""
+    return frozenset(atom.args[0] for atom in task.names(changed) if len(atom.args) > 1)
+
+
+def passes(via: Sequence[Condition], trace: Sequence[Bits]) -> bool:
     """Return whether states meet conditions in their order."""
     at = 0
     for condition in via:

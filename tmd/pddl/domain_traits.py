@@ -55,3 +55,17 @@ def passing_predicates(domain: Domain) -> frozenset[str]:
             if not any(set(atom.terms) & quantified and set(atom.terms) & given for atom in related):
                 found.add(effect.atom.predicate)
     return frozenset(found)
+
+
+@lru_cache(maxsize=16)
+def single_valued(domain: Domain) -> frozenset[str]:
+    """Return the predicates that are true of one value of a thing at a time: adding one value deletes another."""
+    found: set[str] = set()
+    others: set[str] = set()
+    for action in domain.actions:
+        deleted = {(e.atom.predicate, e.atom.terms[:1]) for e in action.effects if not e.positive}
+        for effect in action.effects:
+            if effect.positive and len(effect.atom.terms) > 1:
+                replaced = (effect.atom.predicate, effect.atom.terms[:1]) in deleted
+                (found if replaced else others).add(effect.atom.predicate)
+    return frozenset(found - others)

@@ -7,7 +7,7 @@ search.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache, cached_property
 
@@ -102,46 +102,6 @@ def eliminate(plan: Sequence[Instruction], task: Task, state: Bits, goal: Sequen
             kept = shorter
         else:
             place += 1
-    return kept
-
-
-def untouched(
-    plan: Sequence[Instruction],
-    task: Task,
-    state: Bits,
-    reached: Callable[[Sequence[Instruction]], bool],
-    counted: Bits,
-    contents: Bits = 0,
-) -> tuple[Instruction, ...]:
-    """Remove the objects that a plan handles for nothing, and the instructions that change something for nothing.
-
-    Args:
-        plan: The plan.
-        task: The instantiated problem.
-        state: The state in which it starts.
-        reached: Returns whether a plan achieves its purpose.
-        counted: The atoms that count as changes; a shorter plan must not leave more of them changed.
-        contents: Atoms that count in addition, if they become true, where a single instruction is left out: a substance
-            that is poured somewhere for nothing. One that was poured away was in the way.
-    """
-    kept = tuple(plan)
-    for name in dict.fromkeys(a for i in plan for a in i.args):
-        rest = [i for i in kept if name not in i.args]
-        shorter, end = _executable(rest, task, state)
-        before = _executable(kept, task, state)[1]
-        fewer = ((end ^ state) & counted).bit_count() <= ((before ^ state) & counted).bit_count()
-        if len(rest) < len(kept) and fewer and reached(shorter):
-            kept = shorter
-
-    def changes(end: Bits) -> int:
-        return ((end ^ state) & counted | end & ~state & contents).bit_count()
-
-    at = len(kept)
-    while at:
-        at -= 1
-        shorter, end = _executable((*kept[:at], *kept[at + 1 :]), task, state)
-        if changes(end) < changes(_executable(kept, task, state)[1]) and reached(shorter):
-            kept, at = shorter, min(at, len(shorter))
     return kept
 
 

@@ -95,8 +95,10 @@ def _as_state(clause: Clause) -> Clause | None:
     result = clause.result or next(iter(phrase.attributes if clause.implied else ()), None)
     if result is None:
         return None
-    plain = replace(phrase, quantifier=Quantifier.PLAIN, attributes=() if not clause.result else phrase.attributes)
-    phrases = {**clause.phrases, phrase.name: plain}
+    # "any gate", "a gate" and "no gate" are all of them
+    quantifier = Quantifier.PLAIN if phrase.definite else Quantifier.ALL
+    said = replace(phrase, quantifier=quantifier, attributes=phrase.attributes if clause.result else ())
+    phrases = {**clause.phrases, phrase.name: said}
     return replace(clause, verb=BE, mood=Mood.DO, implied=False, result=f"{NEGATED}{result}", phrases=phrases)
 
 
