@@ -19,7 +19,7 @@ from tmd.goals.grounder import Grounder
 from tmd.goals.reading.noun_phrases import Nouns
 from tmd.goals.words import is_relation, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
-from tmd.language.lexicon.nouns import split_name
+from tmd.language.lexicon.names import split_name
 from tmd.world.world import World
 
 Names: TypeAlias = tuple[str, ...]

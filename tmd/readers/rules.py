@@ -23,6 +23,7 @@ from tmd.goals.text_constraints import ConstraintReader
 from tmd.goals.words import BE, is_condition, is_noun, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, PUT, Clause, Condition, Mood, Parsed, Quantifier, Skipped
 from tmd.language.lexicon.lexicon import Lexicon, singular
+from tmd.language.lexicon.names import with_names
 from tmd.language.parser import NO_VERB, parse
 from tmd.language.syntax.brackets import REMINDER
 from tmd.pddl.ground_formula import TRUE
@@ -70,7 +71,8 @@ class RuleReader:
         Raises:
             TmdError: The lexicon declares something that is wrong; with its place.
         """
-        parsed = parse(request, _with_names(self._lexicon, world.profiles.objects))
+        actions = tuple(action.name for action in world.task.problem.domain.actions)
+        parsed = parse(request, _with_names(self._lexicon, world.profiles.objects, actions))
         if self._sources is None:
             return Dialogue(parsed)
         tables = goal_tables(self._lexicon, world.task.problem.domain, self._learned, self._sources)
@@ -86,8 +88,8 @@ class RuleReader:
 
 
 @lru_cache(maxsize=16)
-def _with_names(lexicon: Lexicon, names: tuple[str, ...]) -> Lexicon:
-    return lexicon.with_names(names)
+def _with_names(lexicon: Lexicon, objects: tuple[str, ...], actions: tuple[str, ...]) -> Lexicon:
+    return with_names(lexicon, objects, actions)
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ from tmd.goals.words import (
     words_of,
 )
 from tmd.language.lexicon.lexicon import section
-from tmd.language.lexicon.nouns import words_in_name
+from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
 from tmd.pddl.model import OBJECT, Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
@@ -146,6 +146,8 @@ class Facts:
         """Return that ``name`` is in a relation to ``target``: as the table says it, or as the facts themselves do."""
         if is_relation(relation, "part") and self.world.profiles.wholes.get(name) == target:
             return TRUE  # "the button on the microwave"
+        if is_relation(relation, "partitive") and _called_after(name, target):
+            return TRUE  # racing_front, "the front wheel of the racing bike"
         rows = [(row, row.direct, row.places[0]) for row in self.table.of(BE) if row.direct and len(row.places) == 1]
         inverse = table("inverse").get(relation)
         if inverse and not any(relations_said(relation, place.prepositions) for _, _, place in rows):
@@ -225,7 +227,13 @@ class _Says:
             return self.anywhere or bool(self.words & words_of("relations", "resting"))
         if parts & _KNOWN:
             return self.anywhere
-        if self.inside:
-            return not self.things and alone
+        if self.inside and not self.things:
+            return alone
         joins = bool(self.words & words_of("relations", "joining")) and self.things  # "the door to the hall"
         return self.anywhere and (changes or joins)
+
+
+def _called_after(name: str, target: str) -> bool:
+    """Return whether a name has the words that tell another thing from those of its class."""
+    modifiers = [word for word in split_name(target) if not word.isdigit()][:-1]
+    return bool(modifiers) and set(modifiers) <= set(split_name(name))

@@ -19,7 +19,7 @@ from tmd.goals.sources.table import ACTIONS, GoalTable
 from tmd.goals.words import BE, PREPOSITIONS, family, is_relation, is_verb, ranked, relations_said, the_word, words_of
 from tmd.language.clause import BRING, TO, Clause, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
-from tmd.language.lexicon.nouns import split_name
+from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE
 from tmd.pddl.task import Bits
 from tmd.world.world import World

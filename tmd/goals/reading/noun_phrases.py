@@ -14,7 +14,8 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.words import ends_as, is_idle, is_noun, is_relation, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section, singular
-from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, number_in_name, same, split_name, words_in_name
+from tmd.language.lexicon.names import split_name, words_in_name
+from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, number_in_name, same
 from tmd.pddl.ground_formula import FALSE, TRUE
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits

@@ -30,7 +30,8 @@ from tmd.goals.words import (
 )
 from tmd.language.clause import PERSONS, TO, Clause, Mood, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
-from tmd.language.lexicon.nouns import ALIAS, split_name
+from tmd.language.lexicon.names import split_name
+from tmd.language.lexicon.nouns import ALIAS
 from tmd.pddl.model import OBJECT
 from tmd.pddl.task import Bits
 from tmd.world.world import World
@@ -687,7 +688,8 @@ class Referents:
         things = self.nouns.things(noun, reading.state)
         if bound is not None and set(bound.names) & set(things):
             return tuple(n for n in things if n in bound.names)
-        names = tuple(dict.fromkeys((*things, *self.nouns.constants(noun, ANY_TYPE, reading.state))))
+        alike, _ = self.nouns.narrowed(things, reading.clause.phrase(noun), reading.moments)  # "with the bent wheel"
+        names = tuple(dict.fromkeys((*(alike or things), *self.nouns.constants(noun, ANY_TYPE, reading.state))))
         relations = self.relations_of(noun, reading.clause) if noun not in reading.clause.direct else []
         said = [(r, t) for r, t in relations if is_relation(r, "accompanying")]  # "the table with the ramen on it"
         referent = Referent(noun, names)

@@ -19,7 +19,7 @@ from itertools import chain, permutations, product
 from tmd.goals.sources.table import ACTIONS, FIRST, MARK, WAS, GoalRow, GoalTable, Slot
 from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, words_of
 from tmd.language.lexicon.lexicon import builtin, section, singular
-from tmd.language.lexicon.nouns import split_name, words_in_name
+from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import conjunction, disjunction
 from tmd.pddl.model import (
@@ -536,8 +536,6 @@ def _verbs_of(name: str) -> Iterator[str]:
     yield name
     words = name.split("_")
     if len(words) == 1:
-        ends = (ending for ending in table("names")["joined"] if len(name) > len(ending) + 2)
-        yield from (name.removesuffix(ending) for ending in ends if name.endswith(ending))
         return
     if _is_preposition(words[-1]):
         yield "_".join(words[:-1])

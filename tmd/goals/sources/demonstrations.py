@@ -31,7 +31,8 @@ from tmd.goals.sources.table import (
 from tmd.goals.words import CONTRARY, is_noun, is_pronoun, is_verb, results, table, the_word, words_of
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon.lexicon import Declared, Lexicon
-from tmd.language.lexicon.nouns import NAME, Match, words_in_name
+from tmd.language.lexicon.names import words_in_name
+from tmd.language.lexicon.nouns import NAME, Match
 from tmd.library.library import lessons
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import FALSE

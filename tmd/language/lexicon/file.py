@@ -27,6 +27,7 @@ from tmd.language.lexicon.lexicon import (
     section,
     singular,
 )
+from tmd.language.lexicon.names import split_name
 from tmd.yaml_nodes import compose
 
 KEYS = (
@@ -116,7 +117,7 @@ def read_lexicon(path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
         TmdError: The file cannot be read, is not valid YAML, has an unknown key or a value of the wrong kind.
     """
     lexicon = Lexicon() if path is None else _read(Path(path))
-    named = [tuple(name.lower().replace("-", "_").split("_")) for name in kinds]
+    named = [split_name(name) for name in kinds]
     between = section("particles") | section("prepositions")
     return replace(
         lexicon,

@@ -9,7 +9,7 @@ import difflib
 import gzip
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from importlib.resources import files
 
@@ -21,8 +21,6 @@ _TYPO_RATIO = 0.83
 """Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
 _NOUN_TYPO_RATIO = 0.8
 """The same where a noun of the domain may be meant: one wrong letter of five."""
-_SURE = 3
-"""The strength of a word that is an instruction rather than the first word of a name."""
 _DOER_TYPO_RATIO = 0.9
 """The same where the word could be made of a known one with -er: one letter more or less, of six."""
 
@@ -163,16 +161,6 @@ class Lexicon:
     compounds: frozenset[tuple[str, ...]] = frozenset()
     phrases: tuple[PhraseRow, ...] = ()
 
-    def with_names(self, names: Iterable[str]) -> Lexicon:
-        """Return the lexicon with names of objects: all words of a name are one noun ("blood sample 1")."""
-        words = [name.lower().replace("-", "_").rstrip("0123456789").split("_") for name in names]
-        parts = [tuple(word for word in name if word.isalpha()) for name in words]
-        compounds = {words for words in parts if len(words) > 1 and (self.verb(words[0]) or ("", "", 0))[2] < _SURE}
-        counted = {part[-1] for name, part in zip(names, parts, strict=True) if part and name[-1].isdigit()}
-        if compounds <= self.compounds and counted <= self.kinds:
-            return self
-        return replace(self, compounds=self.compounds | compounds, kinds=self.kinds | counted)
-
     def canonical_verb(self, verb: str) -> str:
         """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""
         return self.verb_synonyms.get(verb, self.phrasal.get(verb, verb))
@@ -266,6 +254,12 @@ class Lexicon:
             or not section("drop_adjectives").isdisjoint(comparative_root(word))
             or self._is_doer(word)
         )
+
+    def is_part(self, word: str) -> bool:
+        """Return whether a word may be part of a joined name: of two letters, only function words are."""
+        if word in section("affixes"):
+            return False
+        return word in _closed_words() or (len(word) > 2 and self.knows(word) and (len(word) > 3 or word in _english()))
 
     def _is_doer(self, word: str) -> bool:
         """Return whether a word is made of a known one with -er."""

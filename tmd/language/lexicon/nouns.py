@@ -15,6 +15,7 @@ from functools import cache, lru_cache
 from typing import NamedTuple
 
 from tmd.language.lexicon.lexicon import Lexicon, builtin, data_text, pairs, sections, singular
+from tmd.language.lexicon.names import split_name
 
 NAME, ALIAS, WORDNET = "name", "alias", "wordnet"
 """What :attr:`Match.how` can say, strongest first."""
@@ -22,7 +23,6 @@ NAME, ALIAS, WORDNET = "name", "alias", "wordnet"
 SIMILAR = 0.85
 """Least Wu-Palmer similarity that counts (the value of the original system)."""
 
-_CAMEL = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 _LOOSEST = 0.5
 """Score of a name match by head alone, all modifiers unmatched."""
 _ANCESTOR_DECAY = 0.05
@@ -65,19 +65,6 @@ class _Noun:
     @property
     def words(self) -> tuple[str, ...]:
         return (*self.modifiers, self.head)
-
-
-@lru_cache(maxsize=4096)
-def split_name(name: str) -> tuple[str, ...]:
-    """Return the words of a name: ``TvRemote_1`` gives ``("tv", "remote", "1")``; of what has none, itself."""
-    return tuple(part.lower() for part in _CAMEL.findall(name)) or (name.lower(),)
-
-
-def words_in_name(name: str) -> frozenset[str]:
-    """Return the words of a name and every run of them: ``switched-on`` has *switched*, *on* and *switched_on*."""
-    parts = split_name(name)
-    ends = range(1, len(parts) + 1)
-    return frozenset({name, *("_".join(parts[begin:end]) for end in ends for begin in range(end))})
 
 
 def rank(

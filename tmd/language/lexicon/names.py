@@ -1,0 +1,71 @@
+"""Words in the names of objects, types, predicates and actions."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+from tmd.language.lexicon.lexicon import Lexicon, builtin, section
+
+_CAMEL = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+# A shorter name is a word or an abbreviation; a word in it has two letters or more ("robotat").
+_JOINED_LENGTH = 6
+_SHORTEST_WORD = 2
+# A word of this strength (:meth:`Lexicon.verb`) is an instruction rather than the first word of a name.
+_SURE = 3
+
+
+@lru_cache(maxsize=4096)
+def split_name(name: str) -> tuple[str, ...]:
+    """Return the words of a name: ``TvRemote_1`` gives ``("tv", "remote", "1")``; of what has none, itself.
+
+    PDDL ignores case, so that a name written ``RedBike`` arrives as ``redbike``: it is taken apart into known words.
+    """
+    parts = (part.lower() for part in _CAMEL.findall(name))
+    return tuple(word for part in parts for word in _joined_words(part)) or (name.lower(),)
+
+
+@lru_cache(maxsize=4096)
+def _joined_words(name: str) -> tuple[str, ...]:
+    """Return the two or three words that a name without separators is made of, or the name itself.
+
+    Of several ways, the fewest words win, and among those the one whose shortest word is the longest.
+    """
+    words = builtin()
+    if len(name) < _JOINED_LENGTH or not name.isalpha() or words.knows(name):
+        return (name,)
+    cuts = range(_SHORTEST_WORD, len(name) - _SHORTEST_WORD + 1)
+    begun = [(name[:cut], name[cut:]) for cut in cuts if words.is_part(name[:cut])]
+    whole = [pair for pair in begun if words.is_part(pair[1])]
+    longer = [(first, *rest) for first, last in begun if len(rest := _joined_words(last)) == 2]
+    return max(whole or longer, key=lambda found: (min(map(len, found)), len(found[0])), default=(name,))
+
+
+def words_in_name(name: str) -> frozenset[str]:
+    """Return the words of a name and every run of them: ``switched-on`` has *switched*, *on* and *switched_on*."""
+    parts = split_name(name)
+    ends = range(1, len(parts) + 1)
+    return frozenset({name, *("_".join(parts[begin:end]) for end in ends for begin in range(end))})
+
+
+def with_names(lexicon: Lexicon, objects: Sequence[str], actions: Sequence[str]) -> Lexicon:
+    """Return a lexicon with the names of a world.
+
+    All words of an object's name are one noun ("blood sample 1"). The first word of an action's name is a verb, with
+    its particle ("pump up").
+    """
+    parts = {name: tuple(word for word in split_name(name) if word.isalpha()) for name in objects}
+    known = {word: lexicon.verb(word) or ("", "", 0) for name in (*objects, *actions) for word in split_name(name)[:1]}
+    compounds = {words for words in parts.values() if len(words) > 1 and known[words[0]][2] < _SURE}
+    counted = {words[-1] for name, words in parts.items() if words and name[-1].isdigit()}
+    doing = [split_name(name) for name in actions if known[split_name(name)[0]][:2] == (split_name(name)[0], "base")]
+    phrasal = ("_".join(words[:2]) for words in doing if not section("particles").isdisjoint(words[1:2]))
+    return replace(
+        lexicon,
+        compounds=lexicon.compounds | compounds,
+        kinds=lexicon.kinds | counted,
+        verbs=lexicon.verbs | {words[0] for words in doing},
+        phrasal={name: name for name in sorted(phrasal)} | dict(lexicon.phrasal),
+    )
