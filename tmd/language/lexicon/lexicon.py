@@ -106,6 +106,7 @@ class PhraseRow:
         triggers: Words of which the sentence must have one; empty if it must have none.
         replacement: The elements of the replacement, each with the name that it says again, if it does.
         verbs: Names of kept words of which the verb is wanted.
+        deeds: Those of them that must be something to be done here.
         note: Why the words that disappear ask for nothing; empty where they do.
         examples: Sentences on which it must fire, each with its place.
     """
@@ -115,6 +116,7 @@ class PhraseRow:
     triggers: frozenset[str]
     replacement: tuple[tuple[str, str], ...]
     verbs: frozenset[str]
+    deeds: frozenset[str]
     note: str
     examples: tuple[tuple[str, Location], ...]
 
@@ -174,6 +176,11 @@ class Lexicon:
         """The verbs that have a declared meaning."""
         rows = (*self.goals, *self.base.goals)
         return frozenset(verb for row in rows for verb in row.pattern.partition(" ")[0].split("|"))
+
+    def is_deed(self, verb: str) -> bool:
+        """Return whether a noun means what is done to a thing ("a wash"): as a verb it is known, and as a thing not."""
+        doable = verb in section("treatments") or verb in self.verbs or verb in self.goal_verbs
+        return doable and not self.names_thing(verb)
 
     def own(self, section: str, word: str) -> bool:
         """Return whether the file itself, and no base lexicon, declares a word of a section."""

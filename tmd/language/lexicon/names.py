@@ -59,13 +59,13 @@ def with_names(lexicon: Lexicon, objects: Sequence[str], actions: Sequence[str])
     parts = {name: tuple(word for word in split_name(name) if word.isalpha()) for name in objects}
     known = {word: lexicon.verb(word) or ("", "", 0) for name in (*objects, *actions) for word in split_name(name)[:1]}
     compounds = {words for words in parts.values() if len(words) > 1 and known[words[0]][2] < _SURE}
-    counted = {words[-1] for name, words in parts.items() if words and name[-1].isdigit()}
+    nouns = {words[-1] for words in parts.values() if words} - section("static")
     doing = [split_name(name) for name in actions if known[split_name(name)[0]][:2] == (split_name(name)[0], "base")]
     phrasal = ("_".join(words[:2]) for words in doing if not section("particles").isdisjoint(words[1:2]))
     return replace(
         lexicon,
         compounds=lexicon.compounds | compounds,
-        kinds=lexicon.kinds | counted,
+        kinds=lexicon.kinds | nouns,
         verbs=lexicon.verbs | {words[0] for words in doing},
         phrasal={name: name for name in sorted(phrasal)} | dict(lexicon.phrasal),
     )

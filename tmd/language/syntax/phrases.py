@@ -39,7 +39,7 @@ _MARKS = {
 _GIVEN = {"ANY": rf"[^\t ]+\t(?!{Kind.STOP} )[A-Z]+ ", "ASKS": rf"[^\t ]*\?[^\t ]*\t{Kind.STOP} "}
 """Macros that patterns cannot express: any word, and a question mark."""
 _ELEMENT = re.compile(r"(?:(?P<slot>[a-z]):)?(?P<core>[^?*+]+)(?P<times>[?*+]?)\Z")
-_SLOT = re.compile(r"\{([a-z])(\.stem)?\}\Z")
+_SLOT = re.compile(r"\{([a-z])(\.stem|\.deed)?\}\Z")
 _MOST = 4
 """Times that one row may fire in a sentence."""
 _LONGEST = 200
@@ -85,9 +85,10 @@ def _row(entry: Entry, macros: Mapping[str, str]) -> PhraseRow:
     for slot in (slot for _, slot in slots if slot and slot[1] not in pattern.groupindex):
         entry.fail("as", f"the pattern keeps nothing under '{slot[1]}'")
     verbs = frozenset(slot[1] for _, slot in slots if slot and slot[2])
+    deeds = frozenset(slot[1] for _, slot in slots if slot and slot[2] == ".deed")
     replacement = tuple((element, slot[1] if slot else "") for element, slot in slots)
     examples = tuple((entry[key], entry.places[key]) for key in ("example", "paraphrase"))
-    return PhraseRow(entry["id"], pattern, triggers, replacement, verbs, entry["note"], examples)
+    return PhraseRow(entry["id"], pattern, triggers, replacement, verbs, deeds, entry["note"], examples)
 
 
 def _regex(text: str, macros: Mapping[str, str]) -> tuple[str, frozenset[str]]:
@@ -167,12 +168,13 @@ def _applied(
         if match is None or not match[0]:
             break
         slots = _slots(match, sentence)
-        if not all(name in slots and slots[name][0].stem for name in row.verbs):
+        stems = {name: slots[name][0].stem if name in slots else "" for name in row.verbs}
+        if not all(stem and (name not in row.deeds or lexicon.is_deed(stem)) for name, stem in stems.items()):
             break
         if trace is not None:
             trace.append(row.id)
         begin, end = (text.count(" ", 0, place) for place in match.span())
-        used = {id(token) for _, name in row.replacement for token in slots.get(name, ())}
+        used = {id(token) for _, name in row.replacement if name not in row.verbs for token in slots.get(name, ())}
         gone = [t for t in sentence[begin:end] if id(t) not in used and t.kind is not Kind.ADV]
         new = _new(row, slots, sentence[begin].span.start, gone, dropped)
         sentence = _decided([*sentence[:begin], *new, *sentence[end:]], lexicon, trace)
@@ -204,7 +206,7 @@ def _new(
         dropped += noted(gone, row.note)
     new: list[Token] = []
     for element, name in row.replacement:
-        if name and not element.endswith(".stem}"):
+        if name and name not in row.verbs:
             again = any(token is other for token in slots.get(name, ()) for other in new)
             new += [replace(token) if again else token for token in slots.get(name, ())]
             continue
