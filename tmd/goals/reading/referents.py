@@ -228,12 +228,30 @@ class Referents:
 
     def tells_which(self, noun: str | None, relation: str, target: str, reading: ClauseReading) -> bool:
         """Return whether a relation of what is acted on holds now of one of its candidates."""
-        if not noun or relation in section("arrivals") - section("static"):
-            return False  # "into the bowl" says where something goes
+        if not noun:
+            return False
         if is_one(noun) and self._is_pronoun(noun):  # "the one in the sink goes on the shelf", of mugs
-            noun = next(iter(reading.clause.antecedents.get(noun, ())), noun)
-        referent = Referent(noun, self.nouns.things(noun, reading.state))
-        return bool(self.described(referent, relation, self.targets(target, reading), reading))
+            antecedent = next(iter(reading.clause.antecedents.get(noun, ())), noun)
+            noun = self._kind_of_one(antecedent, [(relation, target)], reading)
+        return self._tells(noun, relation, target, reading)
+
+    def _tells(self, noun: str, relation: str, target: str, reading: ClauseReading) -> bool:
+        said, referent = (relation, target), Referent(noun, self.nouns.things(noun, reading.state))
+        if relation in section("arrivals") - section("static"):  # "into the bowl" says where something goes
+            return bool(self._called_by(referent, said, reading))
+        return bool(self._described(referent, said, reading))
+
+    def _described(self, referent: Referent, said: tuple[str, str], reading: ClauseReading) -> tuple[str, ...]:
+        """Return the candidates that stand in a relation, or else those whose names have its target."""
+        found = self.described(referent, said[0], self.targets(said[1], reading), reading)
+        return found or self._called_by(referent, said, reading)
+
+    def _called_by(self, referent: Referent, said: tuple[str, str], reading: ClauseReading) -> tuple[str, ...]:
+        """Return the candidates whose names have the target: ``letter-smith`` for "the letter to Smith"."""
+        relation, target = said
+        names = self.targets(target, reading)
+        alone = set(names) < set(referent.names) and not self._is_kind(split_name(target)[-1], names)
+        return names if alone and not is_relation(relation, "excepting") else ()
 
     def described(
         self, referent: Referent, relation: str, targets: Sequence[str], reading: ClauseReading
@@ -379,8 +397,15 @@ class Referents:
             return other
         if pronoun == ONE and plain and antecedent in reading.memory.bound:  # "… the other plate. Wash that one."
             return self._antecedent(antecedent, IT, types, reading)
+        kind = self._kind_of_one(antecedent, relations, reading)
         relations += self.relations_of(antecedent, reading.clause) if antecedent not in reading.clause.objects else []
-        return self._named(antecedent, replace(said, name=antecedent), types, relations, reading)
+        return self._named(kind, replace(said, name=kind), types, relations, reading)
+
+    def _kind_of_one(self, noun: str, relations: Sequence[tuple[str, str]], reading: ClauseReading) -> str:
+        """Return what *one* stands for: after "the roof vent", *the one on the side* is another vent."""
+        kind = split_name(noun)[-1]
+        told = any(self._tells(kind, *said, reading) and not self._tells(noun, *said, reading) for said in relations)
+        return kind if told else noun
 
     def _other_one(
         self, antecedent: str, said: NounPhrase, types: tuple[str, ...], reading: ClauseReading
@@ -590,7 +615,7 @@ class Referents:
                 referent = referent.only(n for n in referent.names if n not in left)
             elif names and not is_relation(relation, "untelling"):
                 stated = Relation(relation, referent.noun, target) in reading.clause.stated
-                referent = self._where(referent, relation, names, reading, whole, stated=stated)
+                referent = self._where(referent, (relation, target), reading, whole, stated=stated)
         return referent
 
     def _taken_away(
@@ -609,20 +634,19 @@ class Referents:
     def _where(
         self,
         referent: Referent,
-        relation: str,
-        names: tuple[str, ...],
+        said: tuple[str, str],
         reading: ClauseReading,
         whole: Referent,
         *,
         stated: bool,
     ) -> Referent:
-        now = self.described(referent, relation, names, reading)
+        now, relation = self._described(referent, said, reading), said[0]
         if relation in table("inverse"):  # "the stove under the kettle" is a burner of it
             parts = [part for name in now for part in self.grounder.relatives(name, 0)]
-            now = self.nouns.related_now(parts, relation, names, reading.moments) or now
+            now = self.nouns.related_now(parts, relation, self.targets(said[1], reading), reading.moments) or now
         # what stands on nothing has no burner under it
         tells = stated or relation in table("inverse") or is_relation(relation, "locating") or referent.mode is Mode.ALL
-        return referent.only(now) if now or tells or self.described(whole, relation, names, reading) else referent
+        return referent.only(now) if now or tells or self._described(whole, said, reading) else referent
 
     def _any_one(self, noun: str, reading: ClauseReading) -> bool:
         """Return whether any one will do: nothing was said that tells which."""
