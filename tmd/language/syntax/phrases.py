@@ -212,6 +212,8 @@ def _new(
             continue
         place = new[-1].span.end if new else place
         fresh = _fresh(element, slots[name][0].stem if name else "", Span(place, place))
+        if name in row.deeds:  # "needs a wash" is "needs washing"
+            fresh.kind, fresh.form = fresh.first = Kind.ING, "ing"
         if spans and fresh.kind is not Kind.STOP:
             fresh.span, fresh.parts, spans = spans[0], spans[1:], []
         new.append(fresh)

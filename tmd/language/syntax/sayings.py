@@ -75,12 +75,22 @@ class Saying:
         if self._only_states():
             return self._states(attach)
         verbs = [] if self._is_left() else self.verbs
-        if verbs and verbs[-1].kind is Kind.PARTICIPLE and self._passive():
-            return [self._done(verb, attach) for verb in verbs if verb.kind is Kind.PARTICIPLE]
+        done = self._deeds(verbs)
+        if done and done[-1] is verbs[-1] and self._passive():
+            return [self._done(verb, attach) for verb in done]
         owned = self._owns(verbs)
         if verbs and not owned:
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
         return [self._owned(attach)] if owned else self._states(attach)
+
+    def _deeds(self, verbs: Sequence[Token]) -> list[Token]:
+        """Return the verbs that say what is done to the subject: "must be washed", "needs washing and drying"."""
+        done = []
+        for verb in verbs:
+            before = [t.text for t in self.helpers if t.span.start < verb.span.start][-1:]
+            needed = verb.kind is Kind.ING and not section("needing").isdisjoint(before)
+            done += [verb] if needed or verb.kind is Kind.PARTICIPLE else []
+        return done
 
     def _is_left(self) -> bool:
         """Return whether it says only where or how something is: "left lying on the table"."""
