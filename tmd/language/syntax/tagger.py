@@ -276,7 +276,8 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
 def _is_name(tokens: Sequence[Token], at: int) -> bool:
     """Return whether a word beside an arrow is not a state ("rope -> shed"), or is a letter ("aisle A")."""
     word, beside = tokens[at], tokens[max(at - 1, 0) : at + 2]
-    if len(word.text) == 1 and word.capital and beside[-1].kind is not Kind.WORD:
+    ends = beside[-1].kind is not Kind.WORD or beside[-1].text in section("joints")
+    if len(word.text) == 1 and word.capital and ends:
         return True
     return not word.arrow and any(t.arrow for t in beside) and word.text not in section("noted_states")
 

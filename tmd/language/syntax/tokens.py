@@ -261,7 +261,7 @@ def _capitals(tokens: list[Token], text: str) -> None:
     """Mark names: capitals inside a sentence."""
     words = [t for t in tokens if t.kind is Kind.WORD]
     capitals = [t for t in words if text[t.span.start].isupper()]
-    if len(capitals) > _TITLE_SHARE * len(words):
+    if sum(len(t.text) > 1 for t in capitals) > _TITLE_SHARE * len(words):  # "box A and box B" is no title
         return
     starts = {id(after) for before, after in pairwise(tokens) if before.kind is Kind.STOP}
     for token in capitals:
