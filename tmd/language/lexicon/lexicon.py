@@ -236,11 +236,18 @@ class Lexicon:
 
     def _undoing(self, word: str) -> tuple[str, str, int] | None:
         """Return a verb with a prefix that undoes it: "unmute"; "unwashed" is an adjective."""
+        return next(((prefix + stem, form, 2) for prefix, stem, form in self._undone(word) if form != "ed"), None)
+
+    def is_undone(self, word: str) -> bool:
+        """Return whether a word says that something has not been done, or is not so any more: "unweighed"."""
+        return any(form == "ed" for _, _, form in self._undone(word))
+
+    def _undone(self, word: str) -> Iterator[tuple[str, str, str]]:
+        """Yield prefixes that undo what the rest of a word says, with the stem and the form of that verb."""
         for prefix in filter(word.startswith, sorted(section("undoing"))):
             found = self._stem(word.removeprefix(prefix))
-            if found is not None and found[1] != "ed":
-                return prefix + found[0], found[1], 2
-        return None
+            if found is not None:
+                yield prefix, *found
 
     def particle(self, stem: str, particle: str) -> bool | None:
         """Return whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
