@@ -100,7 +100,8 @@ class Saying:
     def _owns(self, verbs: Sequence[Token]) -> bool:
         """Return whether a thing has, or should have, something: "the cup gets some milk"."""
         received = bool(verbs) and verbs[-1].stem in section("receiving") and about_things(self.subject)
-        return bool(trees(self.rest, "group")) and (received or (self._helped("having") and not verbs))
+        needed = self._helped("needing") and about_things(self.subject)  # "the cup needs some sugar"
+        return bool(trees(self.rest, "group")) and (received or ((needed or self._helped("having")) and not verbs))
 
     def _only_states(self) -> bool:
         """Return whether its verb adds nothing to a state: "stays open", "you see a cup"."""
