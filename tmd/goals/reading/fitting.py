@@ -20,6 +20,8 @@ from tmd.goals.words import (
     words_of,
 )
 from tmd.language.clause import PERSONS, Quantifier, Relation
+from tmd.language.lexicon.names import split_name, words_in_name
+from tmd.pddl.model import predicates_of
 
 
 class Fitting:
@@ -113,10 +115,23 @@ class Fitting:
             return f"it is for '{words(row.noun)}'"
         if row.noun is None and row.direct is None and unit.direct is not None:
             return f"no slot takes '{words(unit.direct)}'"
+        if (
+            row.source == ACTIONS
+            and row.noun is None
+            and unit.direct is not None
+            and not self._speaks_of(row, unit.direct)
+        ):
+            return f"no predicate of the row speaks of '{words(unit.direct)}'"
         empty = [slot for slot in row.places if not self.fillers(slot, unit, reading)]
         if row.noun is None and row.direct is not None and unit.direct is None:
             empty.insert(0, row.direct)
         return "; ".join(f"nothing fills slot {slot.variable.removeprefix('?').upper()}" for slot in empty)
+
+    def _speaks_of(self, row: GoalRow, noun: str) -> bool:
+        """Return whether a row may be meant by what is acted on: a door is not lowered like a load at its dock."""
+        if not self.nouns.is_only_told_of(noun):
+            return True
+        return any(split_name(noun)[-1] in words_in_name(name) for name in predicates_of(row.condition))
 
     def _same(self, noun: str, said: str | None, reading: ClauseReading) -> bool:
         """Return whether two nouns are the same, or name the same things here: *kettle*, *kettel*."""

@@ -168,6 +168,10 @@ class Nouns(Facts):
             having = tuple(m.name for m in self.mentions.ranked(owner) if m.name in self._with_part(part))
         return having
 
+    def is_only_told_of(self, noun: str) -> bool:
+        """Return whether a noun names nothing itself, but a part that facts about other things speak of."""
+        return all(m.how == WORDNET for m in self.mentions.ranked(noun)) and bool(self._with_part(noun))
+
     def _all_that_are(self, adjectives: Sequence[str], moments: Moments) -> tuple[str, ...]:
         objects = self.world.profiles.objects
         return tuple(n for n in objects if all(self.is_so(word, n, moments) for word in adjectives))
@@ -251,7 +255,8 @@ class Nouns(Facts):
         it belongs to, a state that it is in, or the room.
         """
         modifiers = [word for word in split_name(noun)[:-1] if not _says_nothing(word)]
-        if not modifiers or noun in self.mentions.classes or self._is_declared(noun):
+        whole = singular("".join(split_name(noun))) == singular("".join(split_name(name)))  # "Mr Smith" is mrsmith
+        if not modifiers or whole or noun in self.mentions.classes or self._is_declared(noun):
             return []
         called = self._words_about(name)
         left = [w for w in modifiers if called.isdisjoint(state_words(w)) and not _is_slip(w, sorted(called))]

@@ -122,6 +122,8 @@ class Referents:
             unit.relations += [(without, name) for name in none]
             self._make_room(unit, clause)
             unit.relations = [p for pair in unit.relations for p in self._whereabouts(*pair, reading)]
+            if unit.direct and not unit.relations and self.nouns.is_only_told_of(unit.direct):
+                unit.relations = [(the_word("relations", "partitive"), unit.direct)]  # "the dock doors": those of docks
         if clause.implied:
             # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
             for unit, following in reversed(list(pairwise(units))):
@@ -238,20 +240,26 @@ class Referents:
     def _tells(self, noun: str, relation: str, target: str, reading: ClauseReading) -> bool:
         said, referent = (relation, target), Referent(noun, self.nouns.things(noun, reading.state))
         if relation in section("arrivals") - section("static"):  # "into the bowl" says where something goes
-            return bool(self._called_by(referent, said, reading))
+            return bool(self.called_by(referent, said, reading))
         return bool(self._described(referent, said, reading))
 
     def _described(self, referent: Referent, said: tuple[str, str], reading: ClauseReading) -> tuple[str, ...]:
         """Return the candidates that stand in a relation, or else those whose names have its target."""
         found = self.described(referent, said[0], self.targets(said[1], reading), reading)
-        return found or self._called_by(referent, said, reading)
+        return found or self.called_by(referent, said, reading)
 
-    def _called_by(self, referent: Referent, said: tuple[str, str], reading: ClauseReading) -> tuple[str, ...]:
-        """Return the candidates whose names have the target: ``letter-smith`` for "the letter to Smith"."""
+    def called_by(self, referent: Referent, said: tuple[str, str], reading: ClauseReading) -> tuple[str, ...]:
+        """Return the candidates that are the target: by a word of their names, or because only they have such a part.
+
+        *The letter to Smith* is ``letter-smith``.
+        """
         relation, target = said
         names = self.targets(target, reading)
-        alone = set(names) < set(referent.names) and not self._is_kind(split_name(target)[-1], names)
-        return names if alone and not is_relation(relation, "excepting") else ()
+        if is_relation(relation, "excepting") or not set(names) <= set(referent.names):
+            return ()
+        told_of = self.nouns.is_only_told_of(referent.noun)  # "the lamps in all rooms", of which facts say `lamp_on`
+        alone = len(names) < len(referent.names) and not self._is_kind(split_name(target)[-1], names)
+        return names if told_of or alone else ()
 
     def described(
         self, referent: Referent, relation: str, targets: Sequence[str], reading: ClauseReading

@@ -101,6 +101,9 @@ class States:
     ) -> Formula | Refusal:
         if not referent.names:
             return self.referents.missing(referent, reading)
+        for said in relations:
+            if called := self.referents.called_by(referent, said, reading):  # "if the window in room 3 is open"
+                referent, relations = referent.only(called), [pair for pair in relations if pair != said]
         result = reading.clause.result
         alive: list[Formula] = []
         for name in referent.names:
