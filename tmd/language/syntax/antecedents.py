@@ -166,7 +166,10 @@ def _one(
     goes = not section("arrivals").isdisjoint(before)
     left = [r.target for r in clause.relations if goes and r.relation in section("origins")]
     plain = pronoun in section("one_words")
-    names = tuple(dict.fromkeys((*left[:1], *(own[:1] if plain else own), *ranked)))
+    own = own[:1] if plain else own
+    # "put the pillow from the floor on the sofa, and do the same with the other one": that is no floor
+    alone = clause.direct == (pronoun,)
+    names = tuple(dict.fromkeys((*left[:1], *((*ranked, *own) if alone else (*own, *ranked)))))
     return names if plain else tuple(dict.fromkeys(name.rpartition("_")[2] for name in names))
 
 
