@@ -9,7 +9,21 @@ from itertools import islice, zip_longest
 
 from lark import Tree
 
-from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mood, Quantifier, Relation, Span, hull
+from tmd.language.clause import (
+    BE,
+    EXCEPT,
+    HAVE,
+    TO,
+    WHERE,
+    WITH,
+    Clause,
+    Condition,
+    Mood,
+    Quantifier,
+    Relation,
+    Span,
+    hull,
+)
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft, as_one
@@ -38,6 +52,7 @@ class TextReading:
         skipped: What asks for nothing, as tokens that carry the reason.
         alone: The text has one unit.
         polite: The text asks politely.
+        conditioned: What the last condition says.
     """
 
     text: str
@@ -47,6 +62,7 @@ class TextReading:
     skipped: list[Token] = field(default_factory=list)
     alone: bool = False
     polite: bool = False
+    conditioned: tuple[Clause, ...] = ()
 
     def read(self, tree: Tree[Leaf]) -> TextReading:
         """Read the tree of a text."""
@@ -228,6 +244,9 @@ class TextReading:
                 draft.direct.append(Phrase(first_of("singular_pronouns"), draft.verb.span.start, False, True))
         clauses = tuple(replace(draft.clause(self.text), text=text) for draft in drafts)
         aimed = purpose and opener.text not in section("reasons")  # "so that it dries" only says what for
+        if self.conditioned and not purpose and all(_says_nothing(clause) for clause in clauses):
+            clauses = tuple(replace(clause, text=text) for clause in self.conditioned)  # "but if it isn't, …"
+        self.conditioned = self.conditioned if purpose else clauses
         return Condition(TO if aimed else opener.text, clauses, opener.negated, text)
 
     def _relative(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
@@ -569,3 +588,10 @@ def _repeat(draft: ClauseDraft, before: ClauseDraft) -> None:
     draft.relations = [*draft.stated, *before.unmoved()]
     draft.take_places(before)
     draft.folds += before.folds
+
+
+def _says_nothing(clause: Clause) -> bool:
+    """Return whether a clause says of a pronoun only that it is, or is not: "if it isn't"."""
+    said = clause.result or clause.setting or clause.relations
+    about = section("pronouns") | section("subjects")
+    return clause.verb == BE and not said and about.issuperset(clause.objects)

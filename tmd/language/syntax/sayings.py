@@ -13,7 +13,7 @@ from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WITH, Mood, Quant
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
-from tmd.language.syntax.noun_phrases import Phrase, about_things, named_in
+from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in
 from tmd.language.syntax.tokens import IMPLIED, VERBAL, Kind, Token
 
 EXISTS = "exists"
@@ -186,6 +186,9 @@ def empty_draft(stem: str, nodes: Sequence[Node]) -> ClauseDraft:
 def demand(draft: ClauseDraft, *, denied: bool) -> None:
     """Turn a clause that demands a state into one that brings it about."""
     verb, none = draft.verb, draft.none()
+    for phrase in draft.direct:  # "any bottle that is empty belongs in the bin"
+        if phrase.lead and phrase.lead[0] in section("any_words") and not any(map(is_number, phrase.lead)):
+            phrase.lead = (first_of("all_words"), *phrase.lead[1:])
     verb.stem = pairs("demand_verbs").get(verb.stem, verb.stem)
     if verb.stem in section("wishing") or draft.result in section("welcome"):
         verb.stem, verb.form, draft.result = HAVE, IMPLIED, None
