@@ -15,6 +15,7 @@ from tmd.goals.words import (
     relations_said,
     state_words,
     table,
+    the_word,
     words_of,
 )
 from tmd.language.lexicon.lexicon import section
@@ -187,9 +188,12 @@ class Facts:
         self, names: Iterable[str], relation: str, targets: Sequence[str], moments: Moments
     ) -> tuple[str, ...]:
         """Return those of ``names`` that are in a relation to one of ``targets`` when the clause begins."""
+        partitive = the_word("relations", "partitive")
+        also = [partitive] if is_relation(relation, "accompanying") else []  # "the bike with the flat wheel"
 
         def holds(name: str, target: str) -> bool:
-            return name != target and self.grounder.truth(self.related(relation, name, target, moments), moments.now)
+            said = (self.related(one, name, target, moments) for one in (relation, *also))
+            return name != target and any(self.grounder.truth(formula, moments.now) for formula in said)
 
         return tuple(name for name in names if any(holds(name, target) for target in targets))
 
@@ -227,8 +231,8 @@ class _Says:
             return self.anywhere or bool(self.words & words_of("relations", "resting"))
         if parts & _KNOWN:
             return self.anywhere
-        if self.inside and not self.things:
-            return alone
+        if self.inside and not (self.things and self.words & words_of("relations", "partitive")):
+            return not self.things and alone
         joins = bool(self.words & words_of("relations", "joining")) and self.things  # "the door to the hall"
         return self.anywhere and (changes or joins)
 
