@@ -210,7 +210,8 @@ class _Says:
     def __init__(self, words: set[str], *, things: bool, inside: bool) -> None:
         self.words = words
         self.named = {w for word in words for w in PREPOSITIONS.get(word, ())} | words
-        self.anywhere = bool(words & words_of("relations", "anchored")) or (inside and things)
+        belongs = inside and things and bool(words & words_of("relations", "partitive"))
+        self.anywhere = belongs or bool(words & words_of("relations", "anchored"))
         self.things = things
         self.inside = inside
 
