@@ -111,16 +111,12 @@ class Fitting:
         """Return why a row does not fit the clause; empty where it does."""
         if row.result is not None and row.result != reading.clause.result:
             return f"it is for '{words(row.result)}'"
-        if row.noun is not None and not self._same(row.noun, unit.direct, reading):
-            return f"it is for '{words(row.noun)}'"
-        if row.noun is None and row.direct is None and unit.direct is not None:
+        if row.noun is not None:
+            if not self._same(row.noun, unit.direct, reading):
+                return f"it is for '{words(row.noun)}'"
+        elif row.direct is None and unit.direct is not None:
             return f"no slot takes '{words(unit.direct)}'"
-        if (
-            row.source == ACTIONS
-            and row.noun is None
-            and unit.direct is not None
-            and not self._speaks_of(row, unit.direct)
-        ):
+        if unit.direct and not self._speaks_of(row, unit.direct):
             return f"no predicate of the row speaks of '{words(unit.direct)}'"
         empty = [slot for slot in row.places if not self.fillers(slot, unit, reading)]
         if row.noun is None and row.direct is not None and unit.direct is None:
@@ -129,7 +125,7 @@ class Fitting:
 
     def _speaks_of(self, row: GoalRow, noun: str) -> bool:
         """Return whether a row may be meant by what is acted on: a door is not lowered like a load at its dock."""
-        if not self.nouns.is_only_told_of(noun):
+        if row.source != ACTIONS or row.noun is not None or not self.nouns.is_only_told_of(noun):
             return True
         return any(split_name(noun)[-1] in words_in_name(name) for name in predicates_of(row.condition))
 

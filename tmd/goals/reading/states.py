@@ -101,9 +101,7 @@ class States:
     ) -> Formula | Refusal:
         if not referent.names:
             return self.referents.missing(referent, reading)
-        for said in relations:
-            if called := self.referents.called_by(referent, said, reading):  # "if the window in room 3 is open"
-                referent, relations = referent.only(called), [pair for pair in relations if pair != said]
+        referent, relations = self._called_by(referent, relations, reading)
         result = reading.clause.result
         alive: list[Formula] = []
         for name in referent.names:
@@ -118,6 +116,17 @@ class States:
         if not alive:
             return self._unsaid(referent, reading)
         return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)
+
+    def _called_by(
+        self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading
+    ) -> tuple[Referent, list[tuple[str, str]]]:
+        """Return the candidates that relations single out, and the others: "if the window in room 3 is open"."""
+        left = []
+        for said in relations:
+            called = self.referents.called_by(referent, said, reading)
+            referent = referent.only(called) if called else referent
+            left += [] if called else [said]
+        return referent, left
 
     def _ends(self, thing: str, relation: str, target: str, reading: ClauseReading) -> tuple[str, ...]:
         """Return what a thing is related to: of what a pronoun may mean, the first that it can be related to."""

@@ -56,16 +56,19 @@ def with_names(lexicon: Lexicon, objects: Sequence[str], actions: Sequence[str])
     All words of an object's name are one noun ("blood sample 1"). The first word of an action's name is a verb, with
     its particle ("pump up").
     """
-    parts = {name: tuple(word for word in split_name(name) if word.isalpha()) for name in objects}
-    known = {word: lexicon.verb(word) or ("", "", 0) for name in (*objects, *actions) for word in split_name(name)[:1]}
-    compounds = {words for words in parts.values() if len(words) > 1 and known[words[0]][2] < _SURE}
-    nouns = {words[-1] for words in parts.values() if words} - section("static")
-    doing = [split_name(name) for name in actions if known[split_name(name)[0]][:2] == (split_name(name)[0], "base")]
+    parts = [words for name in objects if (words := tuple(word for word in split_name(name) if word.isalpha()))]
+    doing = [words for words in map(split_name, actions) if _reading(lexicon, words)[:2] == (words[0], "base")]
     phrasal = ("_".join(words[:2]) for words in doing if not section("particles").isdisjoint(words[1:2]))
+    compounds = {words for words in parts if len(words) > 1 and _reading(lexicon, words)[2] < _SURE}
     return replace(
         lexicon,
         compounds=lexicon.compounds | compounds,
-        kinds=lexicon.kinds | nouns,
+        kinds=lexicon.kinds | ({words[-1] for words in parts} - section("static")),
         verbs=lexicon.verbs | {words[0] for words in doing},
         phrasal={name: name for name in sorted(phrasal)} | dict(lexicon.phrasal),
     )
+
+
+def _reading(lexicon: Lexicon, words: Sequence[str]) -> tuple[str, str, int]:
+    """Return the first of some words as a verb; no stem where it is none."""
+    return lexicon.verb(words[0]) or ("", "", 0)

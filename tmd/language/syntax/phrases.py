@@ -168,8 +168,7 @@ def _applied(
         if match is None or not match[0]:
             break
         slots = _slots(match, sentence)
-        stems = {name: slots[name][0].stem if name in slots else "" for name in row.verbs}
-        if not all(stem and (name not in row.deeds or lexicon.is_deed(stem)) for name, stem in stems.items()):
+        if not _has_verbs(row, slots, lexicon):
             break
         if trace is not None:
             trace.append(row.id)
@@ -179,6 +178,12 @@ def _applied(
         new = _new(row, slots, sentence[begin].span.start, gone, dropped)
         sentence = _decided([*sentence[:begin], *new, *sentence[end:]], lexicon, trace)
     return sentence
+
+
+def _has_verbs(row: PhraseRow, slots: Mapping[str, list[Token]], lexicon: Lexicon) -> bool:
+    """Return whether the words of which a row wants the verb are verbs, and those that are deeds can be done."""
+    stems = {name: slots[name][0].stem if name in slots else "" for name in row.verbs}
+    return all(stems.values()) and all(lexicon.is_deed(stems[name]) for name in row.deeds)
 
 
 def _sentences(tokens: list[Token]) -> Iterator[list[Token]]:
@@ -211,20 +216,19 @@ def _new(
             new += [replace(token) if again else token for token in slots.get(name, ())]
             continue
         place = new[-1].span.end if new else place
-        fresh = _fresh(element, slots[name][0].stem if name else "", Span(place, place))
-        if name in row.deeds:  # "needs a wash" is "needs washing"
-            fresh.kind, fresh.form = fresh.first = Kind.ING, "ing"
+        fresh = _fresh(element, slots[name][0].stem if name else "", name in row.deeds, Span(place, place))
         if spans and fresh.kind is not Kind.STOP:
             fresh.span, fresh.parts, spans = spans[0], spans[1:], []
         new.append(fresh)
     return new
 
 
-def _fresh(element: str, stem: str, span: Span) -> Token:
+def _fresh(element: str, stem: str, needed: bool, span: Span) -> Token:
     """Return a new token: a verb of a kept word, a word of a given class, or a word still to be tagged."""
-    word, _, kind = (stem, "", Kind.V) if stem else element.partition("/")
+    form = "ing" if needed else "base"  # "needs a wash" is "needs washing"
+    word, _, kind = (stem, "", Kind.ING if needed else Kind.V) if stem else element.partition("/")
     if kind:
-        stem, first = word if kind == Kind.V else "", (Kind(kind), "base")
+        stem, first = word if kind in (Kind.V, Kind.ING) else "", (Kind(kind), form)
         return Token(first[0], word, span, stem=stem, form=first[1], strength=3, first=first)
     token = tokenise(word)[0]
     token.span = span

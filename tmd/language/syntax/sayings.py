@@ -186,9 +186,7 @@ def empty_draft(stem: str, nodes: Sequence[Node]) -> ClauseDraft:
 def demand(draft: ClauseDraft, *, denied: bool) -> None:
     """Turn a clause that demands a state into one that brings it about."""
     verb, none = draft.verb, draft.none()
-    for phrase in draft.direct:  # "any bottle that is empty belongs in the bin"
-        if phrase.lead and phrase.lead[0] in section("any_words") and not any(map(is_number, phrase.lead)):
-            phrase.lead = (first_of("all_words"), *phrase.lead[1:])
+    _each_of_any(draft)
     verb.stem = pairs("demand_verbs").get(verb.stem, verb.stem)
     if verb.stem in section("wishing") or draft.result in section("welcome"):
         verb.stem, verb.form, draft.result = HAVE, IMPLIED, None
@@ -204,6 +202,13 @@ def demand(draft: ClauseDraft, *, denied: bool) -> None:
             verb.stem = BE if none else BRING if whither else PUT
     elif denied:
         draft.mood = Mood.AVOID
+
+
+def _each_of_any(draft: ClauseDraft) -> None:
+    """Demand of each one what is demanded of any: "any bottle that is empty belongs in the bin"."""
+    for phrase in draft.direct:
+        if phrase.lead and phrase.lead[0] in section("any_words") and not any(map(is_number, phrase.lead)):
+            phrase.lead = (first_of("all_words"), *phrase.lead[1:])
 
 
 def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
