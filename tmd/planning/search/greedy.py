@@ -126,7 +126,7 @@ class Round(NamedTuple):
     cap: int
 
 
-class Seen(NamedTuple):
+class Visited(NamedTuple):
     """The states of all rounds, with what does not depend on the round.
 
     ``table.first`` has the lower bound of each state, ``table.bound`` the number of the last round that came to it.
@@ -141,34 +141,36 @@ class Seen(NamedTuple):
     used: Ints
 
 
-def new_seen(words: int) -> Seen:
+def new_visited(words: int) -> Visited:
     """Return no states."""
-    return Seen(new_table(words, 64), zeros(64), zeros(1024), zeros(1))
+    return Visited(new_table(words, 64), zeros(64), zeros(1024), zeros(1))
 
 
-def with_successors(t: Tables, s: Scratch, usable: Ints, seen: Seen, node: int) -> Seen:
+def with_successors(t: Tables, s: Scratch, usable: Ints, visited: Visited, node: int) -> Visited:
     """Keep the operators that apply in a state whose cuts ``s`` has; returns the states, which may have more room."""
-    first = seen.used[0]
-    if first + len(usable) + 1 > len(seen.pool):
-        seen = Seen(seen.table, seen.begin, grown(seen.pool, 2 * len(seen.pool) + len(usable)), seen.used)
-    pool, at = seen.pool, first + 1
+    first = visited.used[0]
+    if first + len(usable) + 1 > len(visited.pool):
+        visited = Visited(
+            visited.table, visited.begin, grown(visited.pool, 2 * len(visited.pool) + len(usable)), visited.used
+        )
+    pool, at = visited.pool, first + 1
     for i in range(len(usable)):
         operator = usable[i]
-        if applicable(t, operator, seen.table.word, node * t.words):
+        if applicable(t, operator, visited.table.word, node * t.words):
             preferred = s.in_cut[operator] | s.in_cut[t.operators + 1 + operator]
             pool[at] = 2 * operator + (1 if preferred != 0 else 0)
             at += 1
     pool[first] = at - first - 1
-    seen.used[0] = at
-    seen.begin[node] = first + 1
-    return seen
+    visited.used[0] = at
+    visited.begin[node] = first + 1
+    return visited
 
 
-def put_successors(seen: Seen, node: int, key: int, every: Line, preferred: Line) -> tuple[Line, Line]:
+def put_successors(visited: Visited, node: int, key: int, every: Line, preferred: Line) -> tuple[Line, Line]:
     """Add the operators that apply in a state to both lines, those of a cut to the preferred one; returns the lines."""
-    first = seen.begin[node]
-    for at in range(first, first + seen.pool[first - 1]):
-        entry = seen.pool[at]
+    first = visited.begin[node]
+    for at in range(first, first + visited.pool[first - 1]):
+        entry = visited.pool[at]
         every = put(every, key, node, entry // 2)
         if entry % 2 != 0:
             preferred = put(preferred, key, node, entry // 2)
@@ -181,63 +183,65 @@ def weighed(rule: Round, cost: int, value: int) -> int:
 
 
 class Looked(NamedTuple):
-    """The end of a round: its status, the cost of the plan, its operators, and all states seen so far."""
+    """The end of a round: its status, the cost of the plan, its operators, and all states visited so far."""
 
     status: int
     cost: int
     plan: Ints
-    seen: Seen
+    visited: Visited
 
 
-def look(t: Tables, g: Goal, s: Scratch, usable: Ints, start: Ints, rule: Round, counter: Ints, seen: Seen) -> Looked:
+def look(
+    t: Tables, g: Goal, s: Scratch, usable: Ints, start: Ints, rule: Round, counter: Ints, visited: Visited
+) -> Looked:
     """Search for a plan that costs less than ``rule.below``.
 
     ``counter`` counts generated states. ``DEAD_END`` proves that there is no plan that is so cheap.
     """
     words, cubes = t.words, len(g.fact_start) - 1
     child, gone = grown(start, words), zeros(words)
-    room = len(seen.table.bound)
+    room = len(visited.table.bound)
     parent, via, spent = zeros(room), zeros(room), zeros(room)
     every, preferred = Line(zeros(64 * ENTRY), zeros(2)), Line(zeros(64 * ENTRY), zeros(2))
     lead, best, cost = 0, FAR, 0
     before, operator = -1, -1
     while True:
-        at = find(seen.table, words, child)
-        new = seen.table.slot[at] == 0
+        at = find(visited.table, words, child)
+        new = visited.table.slot[at] == 0
         if new:
-            if seen.table.size[0] == len(seen.table.bound):
-                table = enlarged(seen.table, words)
+            if visited.table.size[0] == len(visited.table.bound):
+                table = enlarged(visited.table, words)
                 room = len(table.bound)
-                seen = Seen(table, grown(seen.begin, room), seen.pool, seen.used)
+                visited = Visited(table, grown(visited.begin, room), visited.pool, visited.used)
                 parent, via, spent = grown(parent, room), grown(via, room), grown(spent, room)
-                at = find(seen.table, words, child)
-            seen.table.first[insert(seen.table, words, at, child)] = landmark_cut(t, g.tight, s, child, 0)
-        node = seen.table.slot[at] - 1
-        value = seen.table.first[node]
-        fresh = seen.table.bound[node] != rule.number
-        seen.table.bound[node] = rule.number
+                at = find(visited.table, words, child)
+            visited.table.first[insert(visited.table, words, at, child)] = landmark_cut(t, g.tight, s, child, 0)
+        node = visited.table.slot[at] - 1
+        value = visited.table.first[node]
+        fresh = visited.table.bound[node] != rule.number
+        visited.table.bound[node] = rule.number
         again = rule.weight > 0 and cost < spent[node]
         if (fresh or again) and cost + value < rule.below:
             parent[node], via[node], spent[node] = before, operator, cost
             if reached_goal(child, 0, g.positive, g.negative, cubes, words):
-                return Looked(FOUND, cost, traced(parent, via, node), seen)
-            if seen.begin[node] == 0:
+                return Looked(FOUND, cost, traced(parent, via, node), visited)
+            if visited.begin[node] == 0:
                 if not new:
                     landmark_cut(t, g.tight, s, child, 0)
-                seen = with_successors(t, s, usable, seen, node)
+                visited = with_successors(t, s, usable, visited, node)
             if value < best:
                 best, lead = value, lead + BOOST
-            every, preferred = put_successors(seen, node, weighed(rule, cost, value), every, preferred)
+            every, preferred = put_successors(visited, node, weighed(rule, cost, value), every, preferred)
         elif fresh:
             spent[node] = cost
         if every.number[0] == 0:
-            return Looked(DEAD_END, FAR, zeros(0), seen)
+            return Looked(DEAD_END, FAR, zeros(0), visited)
         counter[0] += 1
         if counter[0] > rule.cap:
-            return Looked(CAPPED, best, zeros(0), seen)
+            return Looked(CAPPED, best, zeros(0), visited)
         before, operator, lead = take_next(every, preferred, lead, counter[0])
         cost = spent[before] + t.cost[operator]
-        successor(t, operator, seen.table.word, before * words, g.mask, child, gone)
+        successor(t, operator, visited.table.word, before * words, g.mask, child, gone)
 
 
 def search_any(t: Tables, g: Goal, start: Ints, cap: int) -> tuple[int, int, int, Ints]:
@@ -256,7 +260,7 @@ def search_any(t: Tables, g: Goal, start: Ints, cap: int) -> tuple[int, int, int
     for w in range(t.words):
         begin[w] = start[w] & g.mask[w]
     usable, s, number = usable[:width], scratch(t, g.tight), 1
-    last = look(t, g, s, usable, begin, Round(number, 0, FAR, cap), counter, new_seen(t.words))
+    last = look(t, g, s, usable, begin, Round(number, 0, FAR, cap), counter, new_visited(t.words))
     if last.status != FOUND:
         return last.status, last.cost, counter[0], last.plan
     cost, plan = last.cost, last.plan
@@ -264,7 +268,7 @@ def search_any(t: Tables, g: Goal, start: Ints, cap: int) -> tuple[int, int, int
     weight = HEAVIEST
     while weight > 0 and counter[0] < most:
         number += 1
-        last = look(t, g, s, usable, begin, Round(number, weight, cost, most), counter, last.seen)
+        last = look(t, g, s, usable, begin, Round(number, weight, cost, most), counter, last.visited)
         if last.status == FOUND:
             cost, plan = last.cost, last.plan
         else:
