@@ -55,6 +55,10 @@ class Grounder:
     Args:
         world: The environment.
         exact: Nothing stands in for what was named.
+
+    Attributes:
+        known: Atoms that were ground without exceptions, by predicate, objects and the places of slots: how many atoms
+            may hold, and the formula.
     """
 
     def __init__(self, world: World, *, exact: bool = False) -> None:
@@ -63,6 +67,7 @@ class Grounder:
         self.exact = exact
         self.objects = universe(world.task.problem)
         self._relatives: dict[str, tuple[tuple[str, ...], ...]] = {}
+        self.known: dict[tuple[str, tuple[str, ...], tuple[int, ...]], tuple[int, Formula]] = {}
 
     @cached_property
     def exactly(self) -> Grounder:
@@ -229,16 +234,25 @@ class _Grounding:
         return disjunction(self.of(part, binding) for part in parts)
 
     def _atom(self, formula: Atom, binding: Mapping[str, str]) -> Formula:
-        predicate, operator = split_predicate(formula.predicate)
-        atom = GroundAtom(predicate, tuple(binding.get(term, term) for term in formula.terms))
-        places = [place for place, term in enumerate(formula.terms) if term in self.slots]
+        args = tuple([binding.get(term, term) for term in formula.terms])
+        places = tuple([place for place, term in enumerate(formula.terms) if term in self.slots])
+        key = formula.predicate, args, places
+        known = self.grounder.known.get(key)
+        if known is None or self.moments.excepted:
+            predicate, operator = split_predicate(formula.predicate)
+            known = self._new_atom(GroundAtom(predicate, args), operator, places)
+            if not operator and not self.moments.excepted:
+                self.grounder.known[key] = known
+        self.live += known[0]
+        return known[1]
+
+    def _new_atom(self, atom: GroundAtom, operator: str, places: Sequence[int]) -> tuple[int, Formula]:
         spared = self.moments.excepted
         meant = [a for a in self.grounder.standing_in(atom, places) if a == atom or spared.isdisjoint(a.args)]
-        self.live += len(meant)
         if operator:
             state = self.moments.now if operator == WAS else self.moments.first
-            return TRUE if any(self.grounder.holds(one, state) for one in meant) else FALSE
+            return len(meant), TRUE if any(self.grounder.holds(one, state) for one in meant) else FALSE
         task = self.grounder.task
         if any(one in task.static and one not in task.index for one in meant):
-            return TRUE
-        return disjunction(Atom(one.predicate, one.args) for one in meant)
+            return len(meant), TRUE
+        return len(meant), disjunction(Atom(one.predicate, one.args) for one in meant)

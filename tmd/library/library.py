@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from weakref import WeakKeyDictionary
 
 from tmd.language import parse
@@ -16,6 +17,9 @@ from tmd.pddl.task import Bits
 from tmd.world.demonstration import Demonstration, Segment
 from tmd.world.verb_clause import VerbClause
 from tmd.world.world import Profile, World, run
+
+# Texts whose clauses are kept: more than a corpus has.
+_TEXTS = 1_000
 
 
 @dataclass(slots=True, eq=False, weakref_slot=True)
@@ -191,7 +195,7 @@ class Lesson:
 def lessons(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Iterator[Lesson]:
     """Yield the lessons of a demonstration, clause by clause, in order."""
     state = world.task.init
-    for clauses, segments in align(parse(demonstration.text, lexicon).clauses, demonstration.segments):
+    for clauses, segments in align(_clauses(demonstration.text, lexicon), demonstration.segments):
         instructions = tuple(i for segment in segments for i in segment.instructions)
         text = demonstration.text[segments[0].start : segments[-1].end]
         parts = split(clauses, instructions, world.profiles, world.mentions, state) if clauses else [instructions]
@@ -203,6 +207,12 @@ def lessons(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Ite
                 if useful:
                     yield Lesson(clause, text, useful, (state, end))
                 state = end
+
+
+# Library, goals and policy are learned from the same texts, one after the other.
+@lru_cache(maxsize=_TEXTS)
+def _clauses(text: str, lexicon: Lexicon) -> tuple[Clause, ...]:
+    return parse(text, lexicon).clauses
 
 
 def align(clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[tuple[list[Clause], list[Segment]]]:

@@ -72,9 +72,12 @@ def conjunction(parts: Iterable[Formula]) -> Formula:
     """Conjoin formulas, flattened and without those that always hold."""
     kept: dict[Formula, None] = {}
     for part in parts:
-        if part == FALSE:
+        if isinstance(part, And):
+            kept.update(dict.fromkeys(part.parts))
+        elif part == FALSE:
             return FALSE
-        kept.update(dict.fromkeys(part.parts if isinstance(part, And) else (part,)))
+        else:
+            kept[part] = None
     return next(iter(kept)) if len(kept) == 1 else And(tuple(kept))
 
 
@@ -82,9 +85,12 @@ def disjunction(parts: Iterable[Formula]) -> Formula:
     """Disjoin formulas, flattened and without those that never hold."""
     kept: dict[Formula, None] = {}
     for part in parts:
-        if part == TRUE:
+        if isinstance(part, Or):
+            kept.update(dict.fromkeys(part.parts))
+        elif part == TRUE:
             return TRUE
-        kept.update(dict.fromkeys(part.parts if isinstance(part, Or) else (part,)))
+        else:
+            kept[part] = None
     return next(iter(kept)) if len(kept) == 1 else Or(tuple(kept))
 
 

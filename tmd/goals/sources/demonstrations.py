@@ -36,7 +36,7 @@ from tmd.language.lexicon.nouns import NAME, Match
 from tmd.library.library import lessons
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import FALSE
-from tmd.pddl.model import OBJECT, Domain, GroundAtom, Instruction, Predicate
+from tmd.pddl.model import OBJECT, Domain, Formula, GroundAtom, Instruction, Predicate
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_formula
 from tmd.world.demonstration import Demonstration
@@ -166,6 +166,7 @@ class _Learner:
         self.startable = {p.name for p in self.domain.predicates if words & words_in_name(p.name)}
         self._grounders: dict[str, tuple[Grounder, Nouns]] = {}
         self._known_literals: dict[tuple[str, ...], list[tuple[str, GoalRow]]] = {}
+        self._known_possible: dict[tuple[str, tuple[tuple[str, str], ...], str], list[tuple[str, Formula]]] = {}
         self.predicates = self._of_ends(demonstrations)
 
     def _of_ends(self, demonstrations: Sequence[Demonstration]) -> tuple[Predicate, ...]:
@@ -204,18 +205,29 @@ class _Learner:
         shape = self.shapes[key]
         shape.clauses += 1
         grounder, _ = self._tools(world)
-        names = {variable: name for variable, (_, name) in zip(("?x", "?y"), slots, strict=False)}
-        moments = Moments(states[0], states[0])
-        for text, row in self._literals(tuple(names)):
-            said = {**names, RELATION: relation or "in"}
-            found, live = grounder.ground_live(row.condition, said, names, moments)
-            if not live or found == FALSE:
-                continue
+        names = tuple((variable, name) for variable, (_, name) in zip(("?x", "?y"), slots, strict=False))
+        for text, found in self._possible(world, names, relation or "in"):
             count = shape.counts[text]
             count.possible += 1
             after = grounder.truth(found, states[1])
             count.held += after
             count.changed += after and not grounder.truth(found, states[0])
+
+    def _possible(
+        self, world: World, names: tuple[tuple[str, str], ...], relation: str
+    ) -> Sequence[tuple[str, Formula]]:
+        """Return the literals of some objects that may hold, ground; none of them looks back."""
+        key = world.name, names, relation
+        if key not in self._known_possible:
+            grounder, _ = self._tools(world)
+            slots = dict(names)
+            said, moments = {**slots, RELATION: relation}, Moments(world.task.init, world.task.init)
+            each = (
+                (text, *grounder.ground_live(row.condition, said, slots, moments))
+                for text, row in self._literals(tuple(slots))
+            )
+            self._known_possible[key] = [(text, found) for text, found, live in each if live and found != FALSE]
+        return self._known_possible[key]
 
     def _undone(self, world: World, state: Bits, instructions: Sequence[Instruction]) -> None:
         """Count what is opened or switched on, and whether that is undone before the end."""

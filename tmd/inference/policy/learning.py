@@ -59,7 +59,7 @@ def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient
         rest = -np.exp(logs)
         rest[rows, choices] += 1
         parts, menu = features.parts(gradient), at.menu
-        possible = np.flatnonzero(at.allowed.any(axis=0))  # few are, and of the others nothing is expected
+        possible = at.open.numbers  # of the others nothing is expected
         having = rest[:, possible] @ menu.properties[possible]
         parts.local[at.context.words] += having.sum(axis=0)
         if parts.text is not None:
@@ -67,7 +67,8 @@ def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient
         for words, row in zip(at.followers, having, strict=True):
             parts.local[words] += row
         weights = np.repeat(rest[at.allowed], at.pairs.shape[2])
-        parts.paired[:] += np.bincount(at.pairs[at.allowed].ravel(), weights, minlength=len(parts.paired))
+        pairs, which = at.allowed_pairs
+        parts.paired[pairs] += np.bincount(which, weights, minlength=len(pairs))
         parts.reals[:] += np.einsum("hc,hcr->r", rest, at.reals)
         if features.grounded:
             things = len(menu.things.numbers) + 1

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -170,7 +170,21 @@ class Menu:
         return state
 
 
-@dataclass(frozen=True, slots=True)
+class OpenChoices(NamedTuple):
+    """The choices that are allowed at one of H nodes at least, and what the features say of them.
+
+    Attributes:
+        numbers: Their numbers in the menu.
+        pairs: Their part of :attr:`Steps.pairs`.
+        closed: H × choices, whether the constraints forbid one.
+    """
+
+    numbers: Ints
+    pairs: Ints
+    closed: Mask
+
+
+@dataclass(frozen=True)
 class Steps:
     """The features of H choices: the steps of one sequence, or the open nodes of a search.
 
@@ -191,6 +205,18 @@ class Steps:
     facts: Floats
     reals: Floats
     allowed: Mask
+
+    @cached_property
+    def open(self) -> OpenChoices:
+        """The choices that are allowed somewhere: few are. Learning looks at the same steps again and again."""
+        numbers = np.flatnonzero(self.allowed.any(axis=0))
+        return OpenChoices(numbers, self.pairs[:, numbers], ~self.allowed[:, numbers])
+
+    @cached_property
+    def allowed_pairs(self) -> tuple[Ints, Ints]:
+        """The numbers of the paired features of the allowed choices, each once, and which of them each is."""
+        found, which = np.unique(self.pairs[self.allowed].ravel(), return_inverse=True)
+        return found, which
 
 
 def steps(menu: Menu, context: ClauseContext, nodes: Sequence[Node]) -> Steps:

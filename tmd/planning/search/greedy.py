@@ -117,23 +117,63 @@ def traced(parent: Ints, via: Ints, node: int) -> Ints:
 class Round(NamedTuple):
     """One round of the search: what a unit of the lower bound counts for, and the cost that plans must stay below.
 
-    With the weight 0 the lower bound is all that counts, and no state is looked at twice.
+    With the weight 0 the lower bound is all that counts, and no state is looked at twice. Rounds count from 1.
     """
 
+    number: int
     weight: int
     below: int
     cap: int
 
 
-def put_successors(
-    t: Tables, s: Scratch, usable: Ints, table: Table, node: int, key: int, every: Line, preferred: Line
-) -> tuple[Line, Line]:
-    """Add the operators that apply in a state to both lines, those of a cut to the preferred one; returns the lines."""
+class Visited(NamedTuple):
+    """The states of all rounds, with what does not depend on the round.
+
+    ``table.first`` has the lower bound of each state, ``table.bound`` the number of the last round that came to it.
+    ``begin`` has for each state one more than the place of its successors in ``pool``, 0 where they are not known yet:
+    their number, then for each the operator, doubled, and one more where it is preferred. ``used`` has the used length
+    of ``pool`` in its only entry.
+    """
+
+    table: Table
+    begin: Ints
+    pool: Ints
+    used: Ints
+
+
+def new_visited(words: int) -> Visited:
+    """Return no states."""
+    return Visited(new_table(words, 64), zeros(64), zeros(1024), zeros(1))
+
+
+def with_successors(t: Tables, s: Scratch, usable: Ints, visited: Visited, node: int) -> Visited:
+    """Keep the operators that apply in a state whose cuts ``s`` has; returns the states, which may have more room."""
+    first = visited.used[0]
+    if first + len(usable) + 1 > len(visited.pool):
+        visited = Visited(
+            visited.table, visited.begin, grown(visited.pool, 2 * len(visited.pool) + len(usable)), visited.used
+        )
+    pool, at = visited.pool, first + 1
     for i in range(len(usable)):
-        if applicable(t, usable[i], table.word, node * t.words):
-            every = put(every, key, node, usable[i])
-            if s.in_cut[usable[i]] | s.in_cut[t.operators + 1 + usable[i]] != 0:
-                preferred = put(preferred, key, node, usable[i])
+        operator = usable[i]
+        if applicable(t, operator, visited.table.word, node * t.words):
+            preferred = s.in_cut[operator] | s.in_cut[t.operators + 1 + operator]
+            pool[at] = 2 * operator + (1 if preferred != 0 else 0)
+            at += 1
+    pool[first] = at - first - 1
+    visited.used[0] = at
+    visited.begin[node] = first + 1
+    return visited
+
+
+def put_successors(visited: Visited, node: int, key: int, every: Line, preferred: Line) -> tuple[Line, Line]:
+    """Add the operators that apply in a state to both lines, those of a cut to the preferred one; returns the lines."""
+    first = visited.begin[node]
+    for at in range(first, first + visited.pool[first - 1]):
+        entry = visited.pool[at]
+        every = put(every, key, node, entry // 2)
+        if entry % 2 != 0:
+            preferred = put(preferred, key, node, entry // 2)
     return every, preferred
 
 
@@ -142,54 +182,66 @@ def weighed(rule: Round, cost: int, value: int) -> int:
     return cost + rule.weight * value if rule.weight > 0 else value
 
 
-def look(t: Tables, g: Goal, usable: Ints, start: Ints, rule: Round, counter: Ints) -> tuple[int, int, Ints]:
+class Looked(NamedTuple):
+    """The end of a round: its status, the cost of the plan, its operators, and all states visited so far."""
+
+    status: int
+    cost: int
+    plan: Ints
+    visited: Visited
+
+
+def look(
+    t: Tables, g: Goal, s: Scratch, usable: Ints, start: Ints, rule: Round, counter: Ints, visited: Visited
+) -> Looked:
     """Search for a plan that costs less than ``rule.below``.
 
-    ``counter`` counts generated states. Returns the status, the cost of the plan, and its operators. ``DEAD_END``
-    proves that there is no plan that is so cheap.
+    ``counter`` counts generated states. ``DEAD_END`` proves that there is no plan that is so cheap.
     """
     words, cubes = t.words, len(g.fact_start) - 1
-    s, table = scratch(t, g.tight), new_table(words, 64)
     child, gone = grown(start, words), zeros(words)
-    parent, via, spent = zeros(64), zeros(64), zeros(64)
+    room = len(visited.table.bound)
+    parent, via, spent = zeros(room), zeros(room), zeros(room)
     every, preferred = Line(zeros(64 * ENTRY), zeros(2)), Line(zeros(64 * ENTRY), zeros(2))
     lead, best, cost = 0, FAR, 0
-    node, before, operator = -1, -1, -1
+    before, operator = -1, -1
     while True:
-        at = find(table, words, child)
-        fresh = table.slot[at] == 0
-        if fresh:
-            if table.size[0] == len(table.bound):
-                table = enlarged(table, words)
+        at = find(visited.table, words, child)
+        new = visited.table.slot[at] == 0
+        if new:
+            if visited.table.size[0] == len(visited.table.bound):
+                table = enlarged(visited.table, words)
                 room = len(table.bound)
+                visited = Visited(table, grown(visited.begin, room), visited.pool, visited.used)
                 parent, via, spent = grown(parent, room), grown(via, room), grown(spent, room)
-                at = find(table, words, child)
-            node = insert(table, words, at, child)
-            table.first[node] = landmark_cut(t, g.tight, s, child, 0)
-        else:
-            node = table.slot[at] - 1
+                at = find(visited.table, words, child)
+            visited.table.first[insert(visited.table, words, at, child)] = landmark_cut(t, g.tight, s, child, 0)
+        node = visited.table.slot[at] - 1
+        value = visited.table.first[node]
+        fresh = visited.table.bound[node] != rule.number
+        visited.table.bound[node] = rule.number
         again = rule.weight > 0 and cost < spent[node]
-        if (fresh or again) and cost + table.first[node] < rule.below:
+        if (fresh or again) and cost + value < rule.below:
             parent[node], via[node], spent[node] = before, operator, cost
             if reached_goal(child, 0, g.positive, g.negative, cubes, words):
-                return FOUND, cost, traced(parent, via, node)
-            if not fresh:
-                landmark_cut(t, g.tight, s, child, 0)
-            value = table.first[node]
+                return Looked(FOUND, cost, traced(parent, via, node), visited)
+            if visited.begin[node] == 0:
+                if not new:
+                    landmark_cut(t, g.tight, s, child, 0)
+                visited = with_successors(t, s, usable, visited, node)
             if value < best:
                 best, lead = value, lead + BOOST
-            key = weighed(rule, cost, value)
-            every, preferred = put_successors(t, s, usable, table, node, key, every, preferred)
+            every, preferred = put_successors(visited, node, weighed(rule, cost, value), every, preferred)
         elif fresh:
             spent[node] = cost
         if every.number[0] == 0:
-            return DEAD_END, FAR, zeros(0)
+            return Looked(DEAD_END, FAR, zeros(0), visited)
         counter[0] += 1
         if counter[0] > rule.cap:
-            return CAPPED, best, zeros(0)
+            return Looked(CAPPED, best, zeros(0), visited)
         before, operator, lead = take_next(every, preferred, lead, counter[0])
         cost = spent[before] + t.cost[operator]
-        successor(t, operator, table.word, before * words, g.mask, child, gone)
+        successor(t, operator, visited.table.word, before * words, g.mask, child, gone)
 
 
 def search_any(t: Tables, g: Goal, start: Ints, cap: int) -> tuple[int, int, int, Ints]:
@@ -207,15 +259,18 @@ def search_any(t: Tables, g: Goal, start: Ints, cap: int) -> tuple[int, int, int
             width += 1
     for w in range(t.words):
         begin[w] = start[w] & g.mask[w]
-    status, cost, plan = look(t, g, usable[:width], begin, Round(0, FAR, cap), counter)
-    if status != FOUND:
-        return status, cost, counter[0], plan
+    usable, s, number = usable[:width], scratch(t, g.tight), 1
+    last = look(t, g, s, usable, begin, Round(number, 0, FAR, cap), counter, new_visited(t.words))
+    if last.status != FOUND:
+        return last.status, last.cost, counter[0], last.plan
+    cost, plan = last.cost, last.plan
     most = 2 * counter[0] + MORE
     weight = HEAVIEST
     while weight > 0 and counter[0] < most:
-        found, less, shorter = look(t, g, usable[:width], begin, Round(weight, cost, most), counter)
-        if found == FOUND:
-            cost, plan = less, shorter
+        number += 1
+        last = look(t, g, s, usable, begin, Round(number, weight, cost, most), counter, last.visited)
+        if last.status == FOUND:
+            cost, plan = last.cost, last.plan
         else:
             weight -= 1
     return FOUND, cost, counter[0], plan

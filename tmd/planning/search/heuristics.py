@@ -347,7 +347,10 @@ def prepared(t: Tables, positive: Ints, negative: Ints, fact_start: Ints, fact: 
 
 
 class Scratch(NamedTuple):
-    """Working memory of the lower bound. ``value`` is hmax of a fact, ``reach`` that of a row's needs."""
+    """Working memory of the lower bound. ``value`` is hmax of a fact, ``reach`` that of a row's needs.
+
+    ``head`` has the first row that each fact supports, ``next`` the one after each row; -1 where there is none.
+    """
 
     value: Ints
     mark: Ints
@@ -361,6 +364,8 @@ class Scratch(NamedTuple):
     in_cut: Ints
     cut: Ints
     part: Ints
+    head: Ints
+    next: Ints
 
 
 def scratch(t: Tables, r: Relaxed) -> Scratch:
@@ -369,6 +374,7 @@ def scratch(t: Tables, r: Relaxed) -> Scratch:
     return Scratch(
         zeros(f), zeros(f), zeros(f + 1), zeros(f), zeros(f + 1), zeros(rows), zeros(rows), zeros(rows),
         zeros(len(t.cost)), zeros(len(t.cost)), zeros(len(t.cost) + 1), zeros(f),
+        zeros(f), zeros(rows),
     )  # fmt: skip
 
 
@@ -382,7 +388,7 @@ def lowered(r: Relaxed, s: Scratch, row: int, tail: int) -> int:
             if s.queued[fact] == 0:
                 s.queued[fact] = 1
                 s.queue[tail] = fact
-                tail = (tail + 1) % len(s.queue)
+                tail = tail + 1 if tail + 1 < len(s.queue) else 0
     return tail
 
 
@@ -403,7 +409,7 @@ def settle(r: Relaxed, s: Scratch, head: int, tail: int) -> None:
     """Work the queue off until every value is hmax."""
     while head != tail:
         fact = s.queue[head]
-        head = (head + 1) % len(s.queue)
+        head = head + 1 if head + 1 < len(s.queue) else 0
         s.queued[fact] = 0
         for i in range(r.user_start[fact], r.user_start[fact + 1]):
             row = r.user[i]
@@ -474,13 +480,11 @@ def cut(r: Relaxed, s: Scratch) -> int:
     for i in range(count):
         s.queue[i] = s.true[i]
         s.mark[s.true[i]] = 1
+    link_supported(r, s)
     while count > 0:
         count -= 1
-        fact = s.queue[count]
-        for i in range(r.user_start[fact], r.user_start[fact + 1]):
-            row = r.user[i]
-            if s.support[row] != fact or s.reach[row] == FAR:
-                continue
+        row = s.head[s.queue[count]]
+        while row >= 0:
             crosses = False
             for j in range(r.make_start[row], r.make_start[row + 1]):
                 crosses = crosses or s.mark[r.make[j]] == 2
@@ -488,13 +492,26 @@ def cut(r: Relaxed, s: Scratch) -> int:
                 s.cut[size] = r.action[row]
                 size += 1 if s.in_cut[r.action[row]] < 2 else 0
                 s.in_cut[r.action[row]] = 2
-                continue
-            for j in range(r.make_start[row], r.make_start[row + 1]):
-                if s.mark[r.make[j]] == 0:
-                    s.mark[r.make[j]] = 1
-                    s.queue[count] = r.make[j]
-                    count += 1
+            else:
+                for j in range(r.make_start[row], r.make_start[row + 1]):
+                    if s.mark[r.make[j]] == 0:
+                        s.mark[r.make[j]] = 1
+                        s.queue[count] = r.make[j]
+                        count += 1
+            row = s.next[row]
     return size
+
+
+def link_supported(r: Relaxed, s: Scratch) -> None:
+    """Link the rows that each fact supports, in their order: most of the rows that need a fact have another support."""
+    for fact in range(r.facts):
+        s.head[fact] = -1
+    row = r.rows
+    while row > 0:
+        row -= 1
+        if s.reach[row] != FAR:
+            s.next[row] = s.head[s.support[row]]
+            s.head[s.support[row]] = row
 
 
 def cut_off(r: Relaxed, s: Scratch, target: int) -> int:

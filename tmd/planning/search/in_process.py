@@ -16,12 +16,12 @@ from tmd.planning.result import Answer, Filled, GaveUp, Unreachable, filled
 from tmd.planning.search import greedy, kernel
 from tmd.planning.search.flat_task import Ints, Tables, build, flat, literals, rows, words_of
 from tmd.planning.search.heuristics import Goal, prepared
-from tmd.planning.search.numba_build import Functions, PrepareFunction, SearchFunction, array, arrays, compiled
+from tmd.planning.search.numba_build import Functions, PrepareFunction, SearchFunction, array, arrays, compiled, loaded
 from tmd.planning.unsolvable import unreachable_reason
 
 Backend = Literal["auto", "numba", "python"]
-"""Which form of the kernel runs. ``auto`` begins in plain Python, and goes over to numba, where that is installed,
-once there is more to do than loading it is worth. The answers are the same."""
+"""Which form of the kernel runs. ``auto`` begins in plain Python, unless another search loaded numba before, and goes
+over to numba, where that is installed, once there is more to do than loading it is worth. The answers are the same."""
 
 DEFAULT_CAP = 30_000
 """Generated states after which a search gives up."""
@@ -62,8 +62,8 @@ class OptimalSearch:
         self.cap = cap
         self.backend = chosen(backend)
         self.generated = 0
-        self._patience = self.patience if backend == "auto" and self.backend == "numba" else 0
-        self._kernel = self._made("python" if self._patience else self.backend)
+        self._patience = self.patience if backend == "auto" and self.backend == "numba" and not loaded() else 0
+        self._kernel = self._made("python" if self._patience else self.backend, build(task))
 
     def fill(self, state: Bits, goal: Sequence[Cube], cap: int | None = None) -> Answer:
         """Return the missing instructions from ``state`` to any cube of ``goal``; ``cap`` replaces the usual one."""
@@ -86,14 +86,13 @@ class OptimalSearch:
             result = self._kernel.run(state, cubes, small)
             self._patience -= result[1] + QUESTION
             if self._patience <= 0:
-                self._kernel = self._made(self.backend)
+                self._kernel = self._made(self.backend, self._kernel.tables)
             if result[0] != kernel.CAPPED or small == cap:
                 return result
         return self._kernel.run(state, cubes, cap)
 
-    def _made(self, backend: str) -> _Kernel:
+    def _made(self, backend: str, tables: Tables) -> _Kernel:
         """Return the kernel in one of its forms."""
-        tables = build(self.task)
         if backend == "python":
             functions = Functions(prepared, kernel.search, greedy.search_any)
             return _Kernel(tables, functions.prepared, getattr(functions, self.entry), list)
@@ -131,7 +130,7 @@ class _Kernel:
     def __init__(
         self, tables: Tables, prepare: PrepareFunction, search: SearchFunction, pack: Callable[[Ints], Ints]
     ) -> None:
-        self._tables = tables
+        self.tables = tables
         self._prepare = prepare
         self._search = search
         self._pack = pack
@@ -139,12 +138,12 @@ class _Kernel:
 
     def run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, tuple[int, ...]]:
         """Return the status, the number of generated states and the operators of the plan."""
-        start = self._pack(words_of(state, self._tables.words))
-        status, _, generated, plan = self._search(self._tables, self._goal(cubes), start, cap)
+        start = self._pack(words_of(state, self.tables.words))
+        status, _, generated, plan = self._search(self.tables, self._goal(cubes), start, cap)
         return int(status), int(generated), tuple(int(step) for step in plan)
 
     def _prepared(self, cubes: tuple[Cube, ...]) -> Goal:
         fact_start, fact = rows(literals(cube) for cube in cubes)
-        positive = flat((cube.positive for cube in cubes), self._tables.words)
-        negative = flat((cube.negative for cube in cubes), self._tables.words)
-        return self._prepare(self._tables, *map(self._pack, (positive, negative, fact_start, fact)))
+        positive = flat((cube.positive for cube in cubes), self.tables.words)
+        negative = flat((cube.negative for cube in cubes), self.tables.words)
+        return self._prepare(self.tables, *map(self._pack, (positive, negative, fact_start, fact)))

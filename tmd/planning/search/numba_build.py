@@ -61,6 +61,11 @@ def compiled() -> Functions:
         return _compiled()
 
 
+def loaded() -> bool:
+    """Return whether this process has loaded the compiled kernel already."""
+    return _compiled.cache_info().currsize > 0
+
+
 @cache
 def _compiled() -> Functions:
     import numpy as np
