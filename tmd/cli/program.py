@@ -79,7 +79,7 @@ class _Commands(click.Group):
 @click.option("--domains", type=PATH, metavar="DIR", help="The directory of all domains.")
 @click.option("--problems", type=PATH, metavar="DIR", help="The directory of all problems.")
 @click.option("--debug", is_flag=True, help="Show where an internal error happened.")
-@click.version_option(__version__, prog_name="tmd", message="%(prog)s %(version)s")
+@click.version_option(__version__, "-V", "--version", prog_name="tmd", message="%(prog)s %(version)s")
 @click.pass_context
 def program(ctx: click.Context, domains: Path | None, problems: Path | None, debug: bool) -> None:
     """Turn requests in English into PDDL goals and validated robot plans.

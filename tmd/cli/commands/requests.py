@@ -10,17 +10,17 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from tmd.cli.options import (
+    OUTPUT,
     PATH,
+    Asked,
     GivenText,
     ReadingOptions,
-    environment_domain_option,
-    files_argument,
+    asked_options,
     grounding_options,
     json_option,
     learned_option,
-    named_files,
     reading_options,
-    text_options,
+    request_options,
 )
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, TmdError
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 @click.command("parse", short_help="Split a text into verb clauses.")
-@text_options
+@request_options
 @click.option("--domain", "domain_name", metavar="NAME", help="Use the words of this domain as well.")
 @json_option
 @click.pass_obj
@@ -48,35 +48,31 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
 
 
 @click.command("ground", short_help="Ground a request in an environment: ranked, validated plans.")
-@files_argument
-@click.option("--environment", metavar="FILE|NAME", help="An environment (YAML or PDDL), or the name of a bundled one.")
-@text_options
-@environment_domain_option
+@asked_options
 @grounding_options
 @reading_options
 @click.option("--ask", is_flag=True, help="Ask on the terminal which of several readings is meant.")
 @click.option(
-    "--verbose", is_flag=True, help="Print the rows that did not fit, and effort and reasons of the language model."
+    "-v", "--verbose", is_flag=True, help="Print rows that did not fit, effort and reasons of the language model."
 )
 @click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
 @click.option("--goal-only", is_flag=True, help="Print a PDDL problem with the goal of the request, and no plan.")
+@click.option(*OUTPUT, type=PATH, metavar="FILE", help="Write the answer to this file.")
 @json_option
 @click.pass_obj
 def ground(
     roots: Roots,
-    files: tuple[str, ...],
-    environment: str | None,
-    spoken: GivenText,
-    domain_name: str | None,
+    asked: Asked,
     options: dict[str, Any],
     reading: ReadingOptions,
     ask: bool,
     verbose: bool,
     show_prompt: bool,
     goal_only: bool,
+    output: Path | None,
     as_json: bool,
 ) -> ExitCode:
-    """Ground a request in an environment, or in the PDDL files DOMAIN and PROBLEM: print ranked, validated plans.
+    """Ground REQUEST in ENVIRONMENT, or in the PDDL files DOMAIN and PROBLEM: print ranked, validated plans.
 
     The demonstrations of the domain are learned from once; `tmd list` names the bundled environments. Ends with 12
     where no plan was found, and with 15 where two readings of the request differ and nobody chose one; the plan is then
@@ -87,14 +83,13 @@ def ground(
 
     if goal_only and not preset(options["model"]).goals:
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
-    if ask and spoken.text_file == "-":
+    if ask and asked.spoken.from_input:
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
-    place, domain_name = named_files(files, environment, domain_name)
-    request = spoken.request()
+    request = asked.spoken.request()
     settings = reading.settings() if show_prompt else None
     if show_prompt and settings is None:
         raise click.UsageError("--show-prompt is for --reader llm")
-    corpus, world = roots.world(place, domain_name)
+    corpus, world = roots.world(asked.environment, asked.domain)
     if settings is not None:
         from tmd.readers.llm.reader import llm_reader
 
@@ -102,11 +97,11 @@ def ground(
         emit(f"{prompt.system}\n\n{prompt.user}\n")
         return ExitCode.OK
     asking = partial(ask_on_terminal, world.task.problem) if ask else None
-    found = answer(corpus, world, place, request, reading, ask=asking, **options)
+    found = answer(corpus, world, asked.environment, request, reading, ask=asking, **options)
     if as_json:
-        emit((found.record.goal_only() if goal_only else found.record).to_value())
+        emit((found.record.goal_only() if goal_only else found.record).to_value(), output)
     else:
-        emit((whole_goal_text if goal_only else grounded_text)(found.grounded))
+        emit((whole_goal_text if goal_only else grounded_text)(found.grounded), output)
     for line in remarks(found.grounded, verbose=verbose):
         emit(line, error=True)
     return found.code
