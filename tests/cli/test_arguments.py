@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 
 from tests.cli.conftest import BLOCKS, ROOT, Tmd
+from tmd.cli.program import COMMANDS, run
 from tmd.diagnostics import ExitCode
 
 TEXT = "Put the cup on the first table."
@@ -83,3 +85,27 @@ def test_a_file_that_cannot_be_written(tmd: Tmd) -> None:
     ended = tmd("ground", "corner2", TEXT, "-o", "none/it.txt")
     assert (ended.code, ended.out) == (ExitCode.CANNOT_WRITE, "")
     assert json.loads(tmd("ground", "corner2", TEXT, "--json", "-o", "none/a").out)["error"]["code"] == ended.code
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_wrong_option_is_wrong_usage(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([command, "--xyzzy"]) == ExitCode.USAGE == 2
+    out, err = capsys.readouterr()
+    assert (out, err) == ("", f"error: No such option '--xyzzy'.\nhint: see tmd {command} --help\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "meant"),
+    [
+        (["ground", "--enviroment", "a"], "--environment"),
+        (["run", "--kinematik"], "--kinematic"),
+        (["experiment", "--ouptut", "a"], "--output"),
+        (["data", "chek"], "check"),
+        (["exprot"], "export"),
+        (["ground", "corner2", "b", "--model", "gols"], "goals"),
+        (["plan", "01_blokcs", "p.pddl"], "01_blocks"),
+    ],
+)
+def test_a_misspelt_word_gets_the_nearest(arguments: list[str], meant: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(arguments) in (ExitCode.USAGE, ExitCode.BAD_INPUT)
+    assert re.search(f"[Dd]id you mean .*['\"]{meant}['\"]", capsys.readouterr().err)

@@ -182,7 +182,7 @@ def test_exit_code(tmd: Tmd, tmp_path: Path, code: ExitCode, arguments: list[str
 def _no_traceback(ended: Ended) -> None:
     assert "Traceback" not in ended.out + ended.err
     assert sum(line.startswith("error:") for line in ended.err.splitlines()) <= 1
-    if ended.code >= 30:
+    if ended.code == ExitCode.USAGE or ended.code >= 30:
         assert ended.out == ""
         assert ended.err.startswith("error: ")
 

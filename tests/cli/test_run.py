@@ -192,7 +192,7 @@ WRONG = {
         ExitCode.USAGE,
         [*KITCHEN, *TEXT, "--goal", "(a)"],
         "",
-        r"error: give one of REQUEST, --text, .*--goal\n",
+        r"error: give one of REQUEST, .*--goal\n",
     ),
     "trajectory-suffix": (
         ExitCode.USAGE,
@@ -228,7 +228,7 @@ WRONG = {
         ExitCode.USAGE,
         [*KITCHEN, *TEXT, "--plan", "a"],
         "",
-        r"error: give one of REQUEST, --text, .*--plan",
+        r"error: give one of REQUEST, .*--plan",
     ),
     "film-suffix": (
         ExitCode.USAGE,
