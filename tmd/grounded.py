@@ -75,7 +75,7 @@ class Grounded:
     def warnings(self) -> tuple[str, ...]:
         """The words that could not be used, or only by a guess, and what else to know of the reading; a line each."""
         guessed = [*self._likened()] if self.config.guess or not self.config.goals else []
-        if self.refused is not None or any(plan.goals for plan in self.plans):
+        if self.refused is not None or (self.config.goals and self.plans):
             lines = [*self._left_out(), *(guessed if self.plans else ())]
         else:
             lines = [

@@ -109,3 +109,38 @@ def test_a_wrong_option_is_wrong_usage(command: str, capsys: pytest.CaptureFixtu
 def test_a_misspelt_word_gets_the_nearest(arguments: list[str], meant: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(arguments) in (ExitCode.USAGE, ExitCode.BAD_INPUT)
     assert re.search(f"[Dd]id you mean .*['\"]{meant}['\"]", capsys.readouterr().err)
+
+
+LINES = "Take the zebra.\n\nPut the cup on the first table.\r\nTake \udcff.\n {}\nLeave the cup.\nTake the book. Ahem."
+STEPS = "moveto(cup1) grasp(cup1) moveto(table1) keep(cup1, table1, on)"
+
+
+def test_requests_line_by_line(tmd: Tmd, tmp_path: Path) -> None:
+    given = LINES.format("take the cup " * 400).encode("utf-8", "surrogateescape")
+    ended = tmd("ground", "corner2", "-", stdin=given)
+    assert ended.code == ExitCode.NOT_GROUNDED
+    wanted = ["no plan", STEPS, "no plan", "no plan", "nothing to do", "moveto(book1) grasp(book1)"]
+    assert ended.out.splitlines() == wanted
+    told = [line.partition(": ")[::2] for line in ended.err.splitlines()]
+    assert [place for place, _ in told] == ["line 1", "line 4", "line 4", "line 5", "line 5", "line 7"], ended.err
+    assert told[1][1] == "error: the request: character 6 is not UTF-8"
+    assert told[3][1].startswith("error: the text has 1,200 words")
+    assert told[5][1].startswith('warning: "Ahem" was skipped')
+    assert tmd("ground", "corner2", "-", "-o", "plans", stdin=given).out == ""
+    assert (tmp_path / "plans").read_text() == ended.out
+
+
+def test_requests_line_by_line_as_json(tmd: Tmd) -> None:
+    ended = tmd("ground", "corner2", "-", "--json", stdin=LINES.encode("utf-8", "surrogateescape"))
+    told = [json.loads(line) for line in ended.out.splitlines()]
+    assert ["error" if "error" in line else len(line["plans"]) for line in told] == [0, 1, "error", 0, 1, 1]
+    assert told[1]["text"] == "Put the cup on the first table."
+    ended = tmd("ground", "corner2", "-", "--json", "--goal-only", stdin=b"Take the cup.")
+    assert (ended.code, json.loads(ended.out)["goal"]) == (ExitCode.OK, "(holding pr2 cup1)")
+    assert tmd("ground", "corner2", "-").out == ""
+
+
+@pytest.mark.parametrize("option", [["--goal-only"], ["--show-prompt"], ["--ask"]], ids=str)
+def test_what_one_line_cannot_hold(tmd: Tmd, option: list[str]) -> None:
+    ended = tmd("ground", "corner2", "-", *option, stdin=b"Take the cup.")
+    assert (ended.code, ended.out) == (ExitCode.USAGE, "")

@@ -63,7 +63,9 @@ def planned_source(
         if plan:
             raise unclear
         corpus, world = roots.world(source, domain)
-        return _of_text(answer(corpus, world, source, text, reading, planner=planner), world.task.problem, goal)
+        return _of_text(
+            answer(corpus, world, source, text=text, reading=reading, planner=planner), world.task.problem, goal
+        )
     if goal in (ASKED, CHANGED):
         raise click.UsageError(f"--goal {goal} is for a text, or for what tmd ground --json printed")
     if path.suffix == ".pddl":

@@ -52,9 +52,9 @@ def answer(
     corpus: Corpus,
     world: World,
     environment: str,
+    *,
     text: str,
     reading: ReadingOptions,
-    *,
     learned: Path | None = None,
     planner: str | None = None,
     **options: Any,  # noqa: ANN401 - arguments of DomainKit.ground
@@ -234,6 +234,13 @@ def usage_text(usage: Usage) -> str:
         f"{usage.prompt_tokens} + {usage.completion_tokens} tokens, {usage.seconds:.1f} s, "
         f"{usage.corrections} correction{'' if usage.corrections == 1 else 's'}"
     )
+
+
+def brief_text(grounded: Grounded) -> str:
+    """Return the plans, a line each."""
+    if grounded.reason:
+        return "no plan\n"
+    return "".join(f"{' '.join(map(str, plan.instructions)) or 'nothing to do'}\n" for plan in grounded.plans)
 
 
 def grounded_text(grounded: Grounded) -> str:

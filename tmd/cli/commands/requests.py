@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import json
+import sys
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from tmd.cli.errors import fault_of
 from tmd.cli.options import (
+    MAX_CHARACTERS,
     OUTPUT,
     PATH,
+    STANDARD,
     Asked,
     GivenText,
     ReadingOptions,
@@ -28,6 +33,7 @@ from tmd.inference.config import DEFAULT
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
+    from tmd.cli.grounding import Answer
     from tmd.evaluation.sentence_tests import SentenceResult
     from tmd.world.sentence_file import SentenceTest
 
@@ -74,6 +80,8 @@ def ground(
 ) -> ExitCode:
     """Ground REQUEST in ENVIRONMENT, or in the PDDL files DOMAIN and PROBLEM: print ranked, validated plans.
 
+    With - as REQUEST every line of standard input is one, and a line is printed for each.
+
     The demonstrations of the domain are learned from once; `tmd list` names the bundled environments. Ends with 12
     where no plan was found, and with 15 where two readings of the request differ and nobody chose one; the plan is then
     for the first one that has a plan.
@@ -81,11 +89,15 @@ def ground(
     from tmd.cli.grounding import answer, ask_on_terminal, grounded_text, remarks, whole_goal_text
     from tmd.inference.config import preset
 
+    lines = asked.spoken.argument == STANDARD
+    if lines and (show_prompt or (goal_only and not as_json)):
+        raise click.UsageError("--show-prompt and --goal-only without --json are for one request")
+
     if goal_only and not preset(options["model"]).goals:
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
     if ask and asked.spoken.from_input:
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
-    request = asked.spoken.request()
+    request = "" if lines else asked.spoken.request()
     settings = reading.settings() if show_prompt else None
     if show_prompt and settings is None:
         raise click.UsageError("--show-prompt is for --reader llm")
@@ -97,7 +109,10 @@ def ground(
         emit(f"{prompt.system}\n\n{prompt.user}\n")
         return ExitCode.OK
     asking = partial(ask_on_terminal, world.task.problem) if ask else None
-    found = answer(corpus, world, asked.environment, request, reading, ask=asking, **options)
+    ground = partial(answer, corpus, world, asked.environment, reading=reading, ask=asking, **options)
+    if lines:
+        return _ground_lines(ground, output, as_json=as_json, goal_only=goal_only, verbose=verbose)
+    found = ground(text=request)
     if as_json:
         emit((found.record.goal_only() if goal_only else found.record).to_value(), output)
     else:
@@ -105,6 +120,36 @@ def ground(
     for line in remarks(found.grounded, verbose=verbose):
         emit(line, error=True)
     return found.code
+
+
+def _ground_lines(
+    ground: Callable[..., Answer], output: Path | None, *, as_json: bool, goal_only: bool, verbose: bool
+) -> ExitCode:
+    """Ground each line of standard input, and print a line for it; return the code of the first without a plan."""
+    from tmd.cli.grounding import brief_text, remarks
+
+    code, kept = ExitCode.OK, []
+    for number, line in enumerate(iter(lambda: sys.stdin.buffer.readline(4 * MAX_CHARACTERS), b""), start=1):
+        if not line.strip():
+            continue
+        try:
+            request = line.decode("utf-8", "surrogateescape").removeprefix("\ufeff").strip()
+            found = ground(text=GivenText(request, None).request())
+            record = found.record.goal_only() if goal_only else found.record
+            text, ended = record.to_line() if as_json else brief_text(found.grounded), found.code
+            told = remarks(found.grounded, verbose=verbose)
+        except (TmdError, RecursionError) as error:
+            fault = fault_of(error, "tmd ground")
+            text, ended = json.dumps(fault.json(), ensure_ascii=False) + "\n" if as_json else "no plan\n", fault.code
+            told = fault.text().splitlines(keepends=True)
+        if output is None:
+            emit(text)
+        kept.append(text)
+        emit("".join(f"line {number}: {remark}" for remark in told), error=True)
+        code = code or ended
+    if output is not None:
+        emit("".join(kept), output)
+    return code
 
 
 @click.command("test", short_help="Run sentence tests: requests with expected goals.")

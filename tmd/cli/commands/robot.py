@@ -117,7 +117,7 @@ def run(
         elif goal is not None:
             orders = orders_of_goal(goal, problem, planner)
         else:
-            found = answer(corpus, world, environment, request, reading, learned=learned, planner=planner)
+            found = answer(corpus, world, environment, text=request, reading=reading, learned=learned, planner=planner)
             orders = orders_of_text(found)
         for line in orders.remarks:
             emit(line, error=True)
