@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from click.core import ParameterSource
 
 from tmd.diagnostics import TmdError
 from tmd.inference.config import DEFAULT, PRESETS
@@ -72,6 +73,11 @@ def named_files(
     Raises:
         click.UsageError: One of them is named twice, or there is no environment.
     """
+    source = click.get_current_context().get_parameter_source
+    if files and source("environment") is ParameterSource.DEFAULT_MAP:
+        environment = None
+    if len(files) > 1 and source("domain") is ParameterSource.DEFAULT_MAP:
+        domain = None
     if len(files) > 2 or (files and environment) or (len(files) == 2 and domain):
         raise click.UsageError(f"name each file once: DOMAIN PROBLEM, or --domain and {option}; quote a request")
     if files:
