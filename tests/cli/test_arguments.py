@@ -11,6 +11,9 @@ import pytest
 from tests.cli.conftest import BLOCKS, ROOT, Tmd
 from tmd.cli.program import COMMANDS, run
 from tmd.diagnostics import ExitCode
+from tmd.pddl.model import And, Atom, Or
+from tmd.pddl.writer import format_formula
+from tmd.view.wording import folded, shortened
 
 TEXT = "Put the cup on the first table."
 FILES = (BLOCKS / "domain.pddl", BLOCKS / "p01.pddl")
@@ -109,6 +112,37 @@ def test_a_wrong_option_is_wrong_usage(command: str, capsys: pytest.CaptureFixtu
 def test_a_misspelt_word_gets_the_nearest(arguments: list[str], meant: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(arguments) in (ExitCode.USAGE, ExitCode.BAD_INPUT)
     assert re.search(f"[Dd]id you mean .*['\"]{meant}['\"]", capsys.readouterr().err)
+
+
+RAMEN = ("kitchen1", "Make ramen.")
+
+
+def test_an_answer_fits_a_screen(tmd: Tmd) -> None:
+    ended, whole = tmd("ground", *RAMEN), tmd("ground", *RAMEN, "-v")
+    assert ended.code == ExitCode.OK and "energy" not in ended.out
+    goal = ended.out.partition("goals\n")[2].splitlines()[:2]
+    words, pddl = (line.partition("   declared: ")[0].removeprefix("  1. ").strip() for line in goal)
+    assert len(words) <= 200 and len(pddl) <= 200
+    assert pddl.endswith("…") and pddl.removesuffix(" …") in whole.out
+    energies = tmd("ground", *RAMEN, "--energies").out
+    assert "plan 1: energy " in energies and "  energy by factor: " in energies
+
+
+def test_a_brief_answer_is_a_plan_on_a_line(tmd: Tmd) -> None:
+    for option in ("-q", "--brief"):
+        assert tmd("ground", "corner2", TEXT, option).out == f"{STEPS}\n"
+    plans = tmd("ground", "corner2", TEXT, "-q", "--top", "2").out.splitlines()
+    assert len(plans) == 2 and plans[0] == STEPS
+    refused = tmd("ground", "corner2", "Take the zebra.", "-q")
+    assert (refused.code, refused.out) == (ExitCode.NOT_GROUNDED, "no plan\n")
+
+
+def test_alternatives_are_folded() -> None:
+    atoms = [Atom("a", (f"x{n}",)) for n in range(5)]
+    shown = folded(And((Or(tuple(atoms)), Or(tuple(atoms[:3])))))
+    assert format_formula(shown) == "(and (or (a x0) (a x1) (a x2) (... 2 more)) (or (a x0) (a x1) (a x2)))"
+    long = shortened("word " * 100)
+    assert len(long) <= 200 and long.endswith("word …") and shortened("a b") == "a b"
 
 
 LINES = "Take the zebra.\n\nPut the cup on the first table.\r\nTake \udcff.\n {}\nLeave the cup.\nTake the book. Ahem."

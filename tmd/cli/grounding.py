@@ -23,12 +23,13 @@ from tmd.json_record import rounded
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier, print_clause
 from tmd.pddl.model import Problem
 from tmd.pddl.validator import Verdict
-from tmd.pddl.writer import format_formula, format_problem
+from tmd.pddl.writer import format_problem
 from tmd.planning.backends import IN_PROCESS
 from tmd.readers.interface import Question, Usage
 from tmd.records.grounding import GroundingRecord
 from tmd.view.goals import ShownGoal, in_words
 from tmd.view.grounding_record import flat, grounding_record, option_texts
+from tmd.view.wording import folded, shortened
 from tmd.world.corpus import Corpus, is_environment_file
 from tmd.world.world import World
 
@@ -165,14 +166,14 @@ def _flat(text: str) -> str:
     return " ".join(text.split())
 
 
-def _goals_text(plan: RankedPlan, clauses: Sequence[Clause], problem: Problem) -> str:
+def _goals_text(plan: RankedPlan, clauses: Sequence[Clause], problem: Problem, *, verbose: bool) -> str:
     """Return the goals of a plan's steps in words and as PDDL, and their sources; empty if the model has no goals."""
     if not plan.goals:
         return ""
     lines = ["goals"]
     for shown in in_words(plan.goals, problem):
         lines.append(f"  {shown.goal.clause + 1}. {_of_part(shown, clauses)}{_goal_words(shown)}")
-        lines += [f"     {line}" for line in _below(shown)]
+        lines += [f"     {line}" for line in _below(shown, verbose=verbose)]
     return "\n".join(lines) + "\n"
 
 
@@ -187,14 +188,16 @@ def _goal_words(shown: ShownGoal) -> str:
     return f"{shown.told} (already so)" if shown.asked and shown.goal.already else shown.told
 
 
-def _below(shown: ShownGoal) -> list[str]:
-    """Return the goal as PDDL with its source, and what was not taken into account."""
+def _below(shown: ShownGoal, *, verbose: bool) -> list[str]:
+    """Return the goal as PDDL with its source, and what was not taken into account; all of it if ``verbose``."""
     goal = shown.goal
     if goal.formula is None or not shown.asked:
         return []
+    pddl = flat(goal.formula) if verbose else shortened(flat(folded(goal.formula)))
     source = f"   {goal.origin}" if goal.source else ""
-    others = [f"not taken: {flat(other.formula)}   {other.why}" for other in goal.others]
-    return [f"{format_formula(goal.formula)}{source}", *([f"note: {goal.note}"] if goal.note else []), *others]
+    others = [f"not taken: {flat(other.formula)}   {other.why}" for other in goal.others if verbose]
+    more = f"   ({len(goal.others)} not taken: --verbose)" if goal.others and not verbose else ""
+    return [f"{pddl}{source}{more}", *([f"note: {goal.note}"] if goal.note else []), *others]
 
 
 def whole_goal_text(grounded: Grounded) -> str:
@@ -243,28 +246,36 @@ def brief_text(grounded: Grounded) -> str:
     return "".join(f"{' '.join(map(str, plan.instructions)) or 'nothing to do'}\n" for plan in grounded.plans)
 
 
-def grounded_text(grounded: Grounded) -> str:
-    """Return clauses, skipped pieces and goals, then each plan with its energy and why it is not first."""
+def grounded_text(grounded: Grounded, *, energies: bool = False, verbose: bool = False) -> str:
+    """Return clauses, skipped pieces and goals, then each plan and why it is not first.
+
+    Args:
+        grounded: The answer.
+        energies: Whether to give the energies of the plans, by factor.
+        verbose: Whether to write goals at full length, and those that were not taken.
+    """
     parts = [parsed_text(grounded.parsed)]
     told: list[str] = []
     for number, (plan, verdict) in enumerate(zip(grounded.plans, grounded.verdicts, strict=True), start=1):
-        goals = _goals_text(plan, grounded.parsed.clauses, grounded.world.task.problem)
+        goals = _goals_text(plan, grounded.parsed.clauses, grounded.world.task.problem, verbose=verbose)
         parts += [goals] if goals and goals not in told[-1:] else []
         told.append(goals)
-        parts.append(_plan_text(number, plan, verdict))
+        parts.append(_plan_text(number, plan, verdict, energies=energies))
     return "\n".join(parts)
 
 
-def _plan_text(number: int, plan: RankedPlan, verdict: Verdict) -> str:
+def _plan_text(number: int, plan: RankedPlan, verdict: Verdict, *, energies: bool) -> str:
     valid = "valid" if verdict.valid else f"invalid: {verdict.reason}"
     steps = f"{len(plan.steps)} step{'' if len(plan.steps) == 1 else 's'}"
-    lines = [f"plan {number}: energy {plan.energy:.4f}, {steps}, {valid}"]
+    energy = f"energy {plan.energy:.4f}, " if energies else ""
+    lines = [f"plan {number}: {energy}{steps}, {valid}"]
     if plan.why:
         lines.append(f"  not first: {plan.why}")
     width = max((len(str(step.instruction)) for step in plan.steps), default=0)
     for place, step in enumerate(plan.steps, start=1):
         origin = f"clause {step.clause + 1}{', latent' if step.latent else ''}"
         lines.append(f"  {place:>3}. {step.instruction!s:<{width}}  {origin}")
-    factors = ", ".join(f"{title(name)} {value:.4f}" for name, value in plan.factors.items() if rounded(value))
-    lines.append(f"  energy by factor: {factors or 'nothing'}")
+    if energies:
+        factors = ", ".join(f"{title(name)} {value:.4f}" for name, value in plan.factors.items() if rounded(value))
+        lines.append(f"  energy by factor: {factors or 'nothing'}")
     return "\n".join(lines) + "\n"

@@ -42,7 +42,7 @@ def _together(*options: _Decorator) -> Callable[[_Command], _Command]:
     return decorate
 
 
-def _gathered(name: str, kind: Callable[..., object], *options: _Decorator) -> Callable[[_Command], Callable[..., Any]]:
+def gathered(name: str, kind: Callable[..., object], *options: _Decorator) -> Callable[[_Command], Callable[..., Any]]:
     """Return a decorator that adds options, which the command gets as one argument ``name``, made by ``kind``."""
 
     def decorate(command: _Command) -> Callable[..., Any]:
@@ -169,10 +169,10 @@ _TEXT = (
     click.option("-t", "--text", metavar="TEXT", help="The request."),
     click.option("--text-file", metavar="FILE", help="A file with the request; - is standard input."),
 )
-text_options = _gathered("spoken", GivenText, *_TEXT)
+text_options = gathered("spoken", GivenText, *_TEXT)
 """``--text`` and ``--text-file``, gathered as ``spoken``."""
 _REQUEST = click.argument("argument", required=False, metavar="[REQUEST]")
-request_options = _gathered("spoken", GivenText, _REQUEST, *_TEXT)
+request_options = gathered("spoken", GivenText, _REQUEST, *_TEXT)
 """These and the argument ``REQUEST``, gathered as ``spoken``."""
 
 
@@ -199,7 +199,7 @@ def _asked(
     return Asked(*named_files(files, environment, domain), spoken)
 
 
-asked_options = _gathered(
+asked_options = gathered(
     "asked",
     _asked,
     click.argument("files", nargs=-1, metavar="[ENVIRONMENT|DOMAIN PROBLEM] [REQUEST]"),
@@ -207,7 +207,7 @@ asked_options = _gathered(
     *_TEXT,
 )
 """Environment, domain and request, as positions or options, gathered as ``asked``."""
-place_options = _gathered("place", named_files, click.argument("files", nargs=-1, metavar="[ENVIRONMENT]"), *_PLACE)
+place_options = gathered("place", named_files, click.argument("files", nargs=-1, metavar="[ENVIRONMENT]"), *_PLACE)
 """Environment and domain, as positions or options, gathered as ``place``."""
 
 
@@ -278,7 +278,7 @@ def _one_robot(robot: str | None, urdf: Path | None) -> dict[str, Any]:
     return {"robot": robot, "urdf": urdf}
 
 
-robot_options = _gathered(
+robot_options = gathered(
     "model",
     _one_robot,
     click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro."),
@@ -319,7 +319,7 @@ class ReadingOptions:
             raise click.UsageError(f"--{given[0].replace('_', '-')} is for --reader llm")
 
 
-reading_options = _gathered(
+reading_options = gathered(
     "reading",
     ReadingOptions,
     click.option(
@@ -342,7 +342,7 @@ reading_options = _gathered(
 )
 """The options that say how a request is read, gathered as ``reading``."""
 
-grounding_options = _gathered(
+grounding_options = gathered(
     "options",
     dict,
     click.option("--top", type=click.IntRange(1, 100), default=1, show_default=True, help="How many plans to show."),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,6 +22,7 @@ from tmd.cli.options import (
     GivenText,
     ReadingOptions,
     asked_options,
+    gathered,
     grounding_options,
     json_option,
     learned_option,
@@ -53,18 +55,45 @@ def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: boo
     emit(ParsedRecord.of(parsed).to_value() if as_json else parsed_text(parsed))
 
 
+@dataclass(frozen=True, slots=True)
+class _Shown:
+    """The options that say what of an answer is printed."""
+
+    verbose: bool
+    energies: bool
+    brief: bool
+    goal_only: bool
+    as_json: bool
+
+    def value(self, found: Answer) -> object:
+        """Return the answer as a text or as JSON."""
+        from tmd.cli.grounding import brief_text, grounded_text, whole_goal_text
+
+        if self.as_json:
+            return (found.record.goal_only() if self.goal_only else found.record).to_value()
+        if self.goal_only:
+            return whole_goal_text(found.grounded)
+        if self.brief:
+            return brief_text(found.grounded)
+        return grounded_text(found.grounded, energies=self.energies, verbose=self.verbose)
+
+
 @click.command("ground", short_help="Ground a request in an environment: ranked, validated plans.")
 @asked_options
 @grounding_options
 @reading_options
 @click.option("--ask", is_flag=True, help="Ask on the terminal which of several readings is meant.")
-@click.option(
-    "-v", "--verbose", is_flag=True, help="Print rows that did not fit, effort and reasons of the language model."
-)
 @click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
-@click.option("--goal-only", is_flag=True, help="Print a PDDL problem with the goal of the request, and no plan.")
 @click.option(*OUTPUT, type=PATH, metavar="FILE", help="Write the answer to this file.")
-@json_option
+@gathered(
+    "shown",
+    _Shown,
+    click.option("-v", "--verbose", is_flag=True, help="Print whole goals, rows that did not fit, effort of a model."),
+    click.option("--energies", is_flag=True, help="Print the energy of each plan by factor."),
+    click.option("-q", "--brief", is_flag=True, help="Print nothing but the instructions, a plan on a line."),
+    click.option("--goal-only", is_flag=True, help="Print a PDDL problem with the goal of the request, and no plan."),
+    json_option,
+)
 @click.pass_obj
 def ground(
     roots: Roots,
@@ -72,79 +101,75 @@ def ground(
     options: dict[str, Any],
     reading: ReadingOptions,
     ask: bool,
-    verbose: bool,
     show_prompt: bool,
-    goal_only: bool,
     output: Path | None,
-    as_json: bool,
+    shown: _Shown,
 ) -> ExitCode:
     """Ground REQUEST in ENVIRONMENT, or in the PDDL files DOMAIN and PROBLEM: print ranked, validated plans.
 
-    With - as REQUEST every line of standard input is one, and a line is printed for each.
+    With - as REQUEST every line of standard input is one, and a line is printed for each plan.
 
     The demonstrations of the domain are learned from once; `tmd list` names the bundled environments. Ends with 12
     where no plan was found, and with 15 where two readings of the request differ and nobody chose one; the plan is then
     for the first one that has a plan.
     """
-    from tmd.cli.grounding import answer, ask_on_terminal, grounded_text, remarks, whole_goal_text
+    from tmd.cli.grounding import answer, ask_on_terminal, remarks
     from tmd.inference.config import preset
 
-    lines = asked.spoken.argument == STANDARD
-    if lines and (show_prompt or (goal_only and not as_json)):
-        raise click.UsageError("--show-prompt and --goal-only without --json are for one request")
-
-    if goal_only and not preset(options["model"]).goals:
+    if shown.goal_only and not preset(options["model"]).goals:
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
     if ask and asked.spoken.from_input:
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
+    lines = asked.spoken.argument == STANDARD
+    if lines and (show_prompt or (shown.goal_only and not shown.as_json)):
+        raise click.UsageError("--show-prompt, and --goal-only without --json, are for one request")
     request = "" if lines else asked.spoken.request()
-    settings = reading.settings() if show_prompt else None
-    if show_prompt and settings is None:
-        raise click.UsageError("--show-prompt is for --reader llm")
-    corpus, world = roots.world(asked.environment, asked.domain)
-    if settings is not None:
-        from tmd.readers.llm.reader import llm_reader
-
-        prompt = llm_reader(corpus, settings).prompt(request, world, world.task.init)
-        emit(f"{prompt.system}\n\n{prompt.user}\n")
+    if show_prompt:
+        emit(_prompt(roots, asked, request, reading))
         return ExitCode.OK
+    corpus, world = roots.world(asked.environment, asked.domain)
     asking = partial(ask_on_terminal, world.task.problem) if ask else None
     ground = partial(answer, corpus, world, asked.environment, reading=reading, ask=asking, **options)
     if lines:
-        return _ground_lines(ground, output, as_json=as_json, goal_only=goal_only, verbose=verbose)
+        return _ground_lines(ground, replace(shown, brief=True), output)
     found = ground(text=request)
-    if as_json:
-        emit((found.record.goal_only() if goal_only else found.record).to_value(), output)
-    else:
-        emit((whole_goal_text if goal_only else grounded_text)(found.grounded), output)
-    for line in remarks(found.grounded, verbose=verbose):
+    emit(shown.value(found), output)
+    for line in remarks(found.grounded, verbose=shown.verbose):
         emit(line, error=True)
     return found.code
 
 
-def _ground_lines(
-    ground: Callable[..., Answer], output: Path | None, *, as_json: bool, goal_only: bool, verbose: bool
-) -> ExitCode:
-    """Ground each line of standard input, and print a line for it; return the code of the first without a plan."""
-    from tmd.cli.grounding import brief_text, remarks
+def _prompt(roots: Roots, asked: Asked, request: str, reading: ReadingOptions) -> str:
+    settings = reading.settings()
+    if settings is None:
+        raise click.UsageError("--show-prompt is for --reader llm")
+    from tmd.readers.llm.reader import llm_reader
+
+    corpus, world = roots.world(asked.environment, asked.domain)
+    prompt = llm_reader(corpus, settings).prompt(request, world, world.task.init)
+    return f"{prompt.system}\n\n{prompt.user}\n"
+
+
+def _ground_lines(ground: Callable[..., Answer], shown: _Shown, output: Path | None) -> ExitCode:
+    """Ground each line of standard input, and print a line for it; return the first code other than 0."""
+    from tmd.cli.grounding import remarks
 
     code, kept = ExitCode.OK, []
     for number, line in enumerate(iter(lambda: sys.stdin.buffer.readline(4 * MAX_CHARACTERS), b""), start=1):
         if not line.strip():
             continue
+        value: object
         try:
             request = line.decode("utf-8", "surrogateescape").removeprefix("\ufeff").strip()
             found = ground(text=GivenText(request, None).request())
-            record = found.record.goal_only() if goal_only else found.record
-            text, ended = record.to_line() if as_json else brief_text(found.grounded), found.code
-            told = remarks(found.grounded, verbose=verbose)
+            value, ended, told = shown.value(found), found.code, remarks(found.grounded, verbose=shown.verbose)
         except (TmdError, RecursionError) as error:
             fault = fault_of(error, "tmd ground")
-            text, ended = json.dumps(fault.json(), ensure_ascii=False) + "\n" if as_json else "no plan\n", fault.code
+            value, ended = fault.json() if shown.as_json else "no plan\n", fault.code
             told = fault.text().splitlines(keepends=True)
+        kept.append(value if isinstance(value, str) else json.dumps(value, ensure_ascii=False) + "\n")
         if output is None:
-            emit(text)
-        kept.append(text)
+            emit(kept.pop())
         emit("".join(f"line {number}: {remark}" for remark in told), error=True)
         code = code or ended
     if output is not None:
