@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from html import escape
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -369,3 +370,12 @@ def grounded_page(grounded: Grounded) -> str:
     from tmd.view.subject import text_subject
 
     return render(text_subject(grounded)).html
+
+
+def _in_notebook(grounded: Grounded) -> str:
+    """Return the page in a frame, so that its style stays its own."""
+    return f'<iframe srcdoc="{escape(grounded_page(grounded))}" width="100%" height="600"></iframe>'
+
+
+# Not written in the class: pages are of a higher layer.
+setattr(Grounded, "_repr_html_", _in_notebook)  # noqa: B010 - mypy knows no such attribute

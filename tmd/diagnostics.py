@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
 
+from tmd.short_repr import short_repr
+
 
 class ExitCode(IntEnum):
     """Exit codes of ``tmd``: 0 success, 2 wrong usage as of most commands; 10 a clean "no", 20 a limit, 30 an error."""
@@ -65,6 +67,7 @@ class RefusalKind(StrEnum):
     GAVE_UP = "gave-up"
 
 
+@short_repr(lambda refusal: f"{refusal.kind}: {refusal.message}")
 @dataclass(frozen=True, slots=True)
 class Refusal:
     """The reason for which a request, or a part of it, has no goal or no plan.

@@ -14,6 +14,7 @@ from tmd.language.lexicon.nouns import WORDNET
 from tmd.library.library import Library
 from tmd.pddl.validator import Verdict
 from tmd.readers.interface import Dialogue, Question, Usage
+from tmd.short_repr import short_repr
 from tmd.world.world import World
 
 # Maximum number of verbs that are suggested for an unknown one.
@@ -22,6 +23,7 @@ _VERBS = 8
 _SHOWN = 3
 
 
+@short_repr(lambda g: f"{g.parsed.text!r} in {g.world.name}: {g.reason or f'{len(g.plans)} plan(s)'}")
 @dataclass(frozen=True, slots=True)
 class Grounded:
     """A grounded request.
