@@ -45,6 +45,7 @@ if TYPE_CHECKING:
     from tmd.records.run import RunRecord as RunRecord
     from tmd.robot_trials.experiment import carry_out_predictions as carry_out_predictions
     from tmd.robot_trials.experiment import run_experiment as run_experiment
+    from tmd.view.answer_text import grounded_text as grounded_text
     from tmd.world.scaffold import Scaffold
     from tmd.world.sentence_file import read_sentences as read_sentences
 
@@ -59,6 +60,7 @@ _LATER = {
     "carry_out_predictions": "tmd.robot_trials.experiment",
     "check_veil500": "tmd.datasets.veil500.report",
     "format_file": "tmd.format.files",
+    "grounded_text": "tmd.view.answer_text",
     "read_sentences": "tmd.world.sentence_file",
     "run_experiment": "tmd.robot_trials.experiment",
 }
@@ -91,6 +93,7 @@ __all__ = [
     "from_pddl",
     "from_unified_planning",
     "grounded_page",
+    "grounded_text",
     "load_domain",
     "load_problem",
     "new_domain",

@@ -8,11 +8,13 @@ from pathlib import Path
 
 import pytest
 
+from tests.bundled import kit
 from tests.cli.conftest import BLOCKS, ROOT, Tmd
 from tmd.cli.program import COMMANDS, run
 from tmd.diagnostics import ExitCode
 from tmd.pddl.model import And, Atom, Or
 from tmd.pddl.writer import format_formula
+from tmd.view.answer_text import grounded_text
 from tmd.view.wording import folded, shortened
 
 TEXT = "Put the cup on the first table."
@@ -126,6 +128,13 @@ def test_an_answer_fits_a_screen(tmd: Tmd) -> None:
     assert pddl.endswith("…") and pddl.removesuffix(" …") in whole.out
     energies = tmd("ground", *RAMEN, "--energies").out
     assert "plan 1: energy " in energies and "  energy by factor: " in energies
+
+
+def test_a_program_gets_the_same_text(tmd: Tmd) -> None:
+    grounded = kit("02_table").ground(TEXT, "corner2", top=2)
+    for option in ({}, {"energies": True}, {"verbose": True, "energies": True}):
+        printed = tmd("ground", "corner2", TEXT, "--top", "2", *(f"--{name}" for name in option))
+        assert grounded_text(grounded, **option) == printed.out
 
 
 def test_a_brief_answer_is_a_plan_on_a_line(tmd: Tmd) -> None:

@@ -47,9 +47,9 @@ if TYPE_CHECKING:
 @click.pass_obj
 def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: bool) -> None:
     """Split a text into verb clauses, and show what no clause accounts for."""
-    from tmd.cli.grounding import parsed_text
     from tmd.language import parse
     from tmd.records.clauses import ParsedRecord
+    from tmd.view.answer_text import parsed_text
 
     parsed = parse(spoken.read(), roots.folder(domain_name).lexicon if domain_name else None)
     emit(ParsedRecord.of(parsed).to_value() if as_json else parsed_text(parsed))
@@ -67,7 +67,8 @@ class _Shown:
 
     def value(self, found: Answer) -> object:
         """Return the answer as a text or as JSON."""
-        from tmd.cli.grounding import brief_text, grounded_text, whole_goal_text
+        from tmd.cli.grounding import whole_goal_text
+        from tmd.view.answer_text import brief_text, grounded_text
 
         if self.as_json:
             return (found.record.goal_only() if self.goal_only else found.record).to_value()
@@ -113,8 +114,9 @@ def ground(
     where no plan was found, and with 15 where two readings of the request differ and nobody chose one; the plan is then
     for the first one that has a plan.
     """
-    from tmd.cli.grounding import answer, ask_on_terminal, remarks
+    from tmd.cli.grounding import answer, ask_on_terminal
     from tmd.inference.config import preset
+    from tmd.view.answer_text import remarks
 
     if shown.goal_only and not preset(options["model"]).goals:
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
@@ -152,7 +154,7 @@ def _prompt(roots: Roots, asked: Asked, request: str, reading: ReadingOptions) -
 
 def _ground_lines(ground: Callable[..., Answer], shown: _Shown, output: Path | None) -> ExitCode:
     """Ground each line of standard input, and print a line for it; return the first code other than 0."""
-    from tmd.cli.grounding import remarks
+    from tmd.view.answer_text import remarks
 
     code, kept = ExitCode.OK, []
     for number, line in enumerate(iter(lambda: sys.stdin.buffer.readline(4 * MAX_CHARACTERS), b""), start=1):
