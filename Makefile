@@ -86,7 +86,7 @@ experiment: job ## Run the main job: train, predict, score, print the table.
 
 demo: job ## Let a simulated PR2 make the affogato of the paper, and film it.
 	@mkdir -p runs/demo
-	@$(BIN)/tmd run --environment '$(KITCHEN)' --text '$(AFFOGATO)' --seed '$(or $(SEED),0)' \
+	@$(BIN)/tmd run '$(KITCHEN)' '$(AFFOGATO)' --seed '$(or $(SEED),0)' \
 		--video runs/demo/affogato.mp4 --strip runs/demo/affogato.png --log runs/demo/affogato.jsonl $(ARGS); \
 	code=$$?; echo "film: runs/demo/affogato.mp4, one picture for each instruction: runs/demo/affogato.png"; exit $$code
 

@@ -14,6 +14,7 @@ from radon.complexity import cc_visit
 
 PACKAGE = Path(__file__).parents[1] / "tmd"
 LAYERS = (
+    ("short_repr",),
     ("diagnostics",),
     ("files", "yaml_nodes", "json_record"),
     ("pddl", "language"),

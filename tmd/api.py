@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from html import escape
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -44,6 +45,7 @@ if TYPE_CHECKING:
     from tmd.records.run import RunRecord as RunRecord
     from tmd.robot_trials.experiment import carry_out_predictions as carry_out_predictions
     from tmd.robot_trials.experiment import run_experiment as run_experiment
+    from tmd.view.answer_text import grounded_text as grounded_text
     from tmd.world.scaffold import Scaffold
     from tmd.world.sentence_file import read_sentences as read_sentences
 
@@ -58,6 +60,7 @@ _LATER = {
     "carry_out_predictions": "tmd.robot_trials.experiment",
     "check_veil500": "tmd.datasets.veil500.report",
     "format_file": "tmd.format.files",
+    "grounded_text": "tmd.view.answer_text",
     "read_sentences": "tmd.world.sentence_file",
     "run_experiment": "tmd.robot_trials.experiment",
 }
@@ -90,6 +93,7 @@ __all__ = [
     "from_pddl",
     "from_unified_planning",
     "grounded_page",
+    "grounded_text",
     "load_domain",
     "load_problem",
     "new_domain",
@@ -369,3 +373,12 @@ def grounded_page(grounded: Grounded) -> str:
     from tmd.view.subject import text_subject
 
     return render(text_subject(grounded)).html
+
+
+def _in_notebook(grounded: Grounded) -> str:
+    """Return the page in a frame, so that its style stays its own."""
+    return f'<iframe srcdoc="{escape(grounded_page(grounded))}" width="100%" height="600"></iframe>'
+
+
+# Not written in the class: pages are of a higher layer.
+setattr(Grounded, "_repr_html_", _in_notebook)  # noqa: B010 - mypy knows no such attribute

@@ -10,13 +10,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum, StrEnum
 
+from tmd.short_repr import short_repr
+
 
 class ExitCode(IntEnum):
-    """Exit codes of ``tmd``, in decades: 0 success, 10 a clean "no", 20 a limit, 30 an error."""
+    """Exit codes of ``tmd``: 0 success, 2 wrong usage as of most commands; 10 a clean "no", 20 a limit, 30 an error."""
 
     OK = 0
     TESTS_FAILED = 1
     """Sentence tests were run, and not all of them passed."""
+    USAGE = 2
+    """The command line is wrong."""
     UNREACHABLE = 10
     """It is proven that no plan exists."""
     INVALID_PLAN = 11
@@ -31,8 +35,6 @@ class ExitCode(IntEnum):
     """Two readings of the request differ, and nobody answered which one is meant; the first with a plan is taken."""
     GAVE_UP = 20
     """A search ended at its limit: nothing is proven."""
-    USAGE = 30
-    """The command line is wrong."""
     BAD_INPUT = 31
     """A file or a text cannot be used; the message says where and why."""
     MISSING_TOOL = 32
@@ -65,6 +67,7 @@ class RefusalKind(StrEnum):
     GAVE_UP = "gave-up"
 
 
+@short_repr(lambda refusal: f"{refusal.kind}: {refusal.message}")
 @dataclass(frozen=True, slots=True)
 class Refusal:
     """The reason for which a request, or a part of it, has no goal or no plan.

@@ -13,7 +13,7 @@ from tmd.ground import Ask
 from tmd.ground import ground as ground_text
 from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, preset
-from tmd.inference.energy import Weights, named_weights, read_weights
+from tmd.inference.energy import FIXED, NAMES, Weights, named_weights, parse_weights, read_weights, title
 from tmd.knowledge import Knowledge, known
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction, Problem
@@ -93,7 +93,7 @@ class DomainKit:
         planner: str = IN_PROCESS,
         model: str = DEFAULT,
         guess: bool = False,
-        weights: str | Path | None = None,
+        weights: str | Path | Mapping[str, float] | None = None,
         beam: int | None = None,
         trim: int | None = None,
         reader: Reader | str = RULES,
@@ -110,7 +110,8 @@ class DomainKit:
             planner: Which planner fills in what was left unsaid.
             model: What is minimised; the models are those of ``tmd ground --model``.
             guess: Whether a plan may be made where what was said is not understood or cannot be done.
-            weights: The factors' weights, by name or file, or ``learned``; the model's own by default.
+            weights: The factors' weights, by name or file, or ``learned``; the model's own by default, or with other
+                numbers for some factors: ``{"description length": 2.0}``.
             beam: How many states to follow from clause to clause, 0 for all; what the model says by default.
             trim: How many leading instructions of a template may be dropped; what the model says by default.
             reader: ``rules``, the offline reader of grammar and lexicon; ``llm``, a language model; or a reader of
@@ -135,7 +136,7 @@ class DomainKit:
             text,
             self._world(environment),
             self._knowledge.library,
-            None if weights is None else self._weights(weights),
+            None if weights is None else self._weights(weights, config.weights),
             reward=self._knowledge.reward,
             goals=self._knowledge.goals,
             config=config,
@@ -383,7 +384,11 @@ class DomainKit:
         """The knowledge of the demonstrations."""
         return known(self._corpus, self._learned)
 
-    def _weights(self, given: str | Path) -> Weights:
+    def _weights(self, given: str | Path | Mapping[str, float], own: str) -> Weights:
+        if isinstance(given, Mapping):
+            names = {title(name): name for name in (*NAMES, *FIXED)}
+            lines = "\n".join(f"{names.get(name, name).replace(' ', '_')} {value}" for name, value in given.items())
+            return Weights({**named_weights(own).values, **parse_weights(lines, "weights").values})
         if given != LEARNED:
             path = Path(given)
             return read_weights(path) if path.suffix or path.is_file() else named_weights(str(given))

@@ -14,6 +14,7 @@ from tmd.language.lexicon.nouns import WORDNET
 from tmd.library.library import Library
 from tmd.pddl.validator import Verdict
 from tmd.readers.interface import Dialogue, Question, Usage
+from tmd.short_repr import short_repr
 from tmd.world.world import World
 
 # Maximum number of verbs that are suggested for an unknown one.
@@ -22,6 +23,7 @@ _VERBS = 8
 _SHOWN = 3
 
 
+@short_repr(lambda g: f"{g.parsed.text!r} in {g.world.name}: {g.reason or f'{len(g.plans)} plan(s)'}")
 @dataclass(frozen=True, slots=True)
 class Grounded:
     """A grounded request.
@@ -75,7 +77,7 @@ class Grounded:
     def warnings(self) -> tuple[str, ...]:
         """The words that could not be used, or only by a guess, and what else to know of the reading; a line each."""
         guessed = [*self._likened()] if self.config.guess or not self.config.goals else []
-        if self.refused is not None or any(plan.goals for plan in self.plans):
+        if self.refused is not None or (self.config.goals and self.plans):
             lines = [*self._left_out(), *(guessed if self.plans else ())]
         else:
             lines = [

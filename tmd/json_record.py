@@ -9,11 +9,13 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
 from tmd.diagnostics import Location, TmdError
+from tmd.short_repr import short_repr
 
 # Energies and factors are rounded to this many decimals, so that the last bits of a sum do not show.
 DIGITS = 6
 
 
+@short_repr(lambda record: " ".join(f"{name}={value!r}" for name, value in record))
 class JsonRecord(BaseModel):
     """Part of a JSON format.
 

@@ -41,6 +41,7 @@ from tmd.language.lexicon.lexicon import Lexicon
 from tmd.library.library import Library, learn
 from tmd.library.template import Template
 from tmd.pddl.model import Instruction
+from tmd.short_repr import short_repr
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
 from tmd.world.world import Profile
@@ -312,6 +313,7 @@ _SEED = 0
 _LIBRARY = 0.15
 
 
+@short_repr(lambda known: known.library)
 @dataclass(frozen=True, slots=True)
 class Knowledge:
     """The knowledge learned of a domain.

@@ -335,7 +335,7 @@ class Disturber:
         told = self._told()
         if "Traceback" in told or code == ExitCode.INTERNAL or code not in set(ExitCode):
             return f"write {number}: ends with {code} on a full disk: {told[-300:]}"
-        if code >= ExitCode.USAGE and code != ExitCode.INTERRUPTED and "\nhint: " not in told:
+        if code >= ExitCode.BAD_INPUT and code != ExitCode.INTERRUPTED and "\nhint: " not in told:
             return f"write {number}: no remedy: {told[-200:]}"
         torn = [name for name, data in before.items() if self._of(name) not in (data, self.whole.get(name))]
         torn = [] if self.job.rounds else torn

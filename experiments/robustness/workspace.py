@@ -419,7 +419,7 @@ def _fault(case: Case, code: int, printed: bytes, told: str) -> str:
         except ValueError:
             if code != ExitCode.USAGE or printed:
                 return "broken JSON"
-    if 2 in case.streams or code < ExitCode.USAGE or code == ExitCode.INTERRUPTED:
+    if 2 in case.streams or (code < ExitCode.BAD_INPUT and code != ExitCode.USAGE) or code == ExitCode.INTERRUPTED:
         return ""
     if not told.strip():
         return "no message"

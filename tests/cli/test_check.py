@@ -147,4 +147,4 @@ def test_commands_use_the_files_that_are_named(tmd: Tmd, tmp_path: Path) -> None
     assert "(switch_on l)" in (tmp_path / "out" / "plan.plan").read_text()
     assert "switch_on(l)" in tmd("ground", *given, "--text", "Switch on l.").out
     assert "1 of 1 right" in tmd("test", *given).out
-    assert tmd("ground", *given, "x.pddl", "--text", "Switch on l.").code == 30
+    assert tmd("ground", *given, "x.pddl", "--text", "Switch on l.").code == 2

@@ -97,6 +97,6 @@ def test_exit_codes(tmd: Tmd) -> None:
     assert tmd("check", "--explain", "open").code == 0
     ended = tmd("check", "--explain", "open", "01_blokcs")
     assert ended.code == 31 and "01_blocks" in ended.err
-    assert tmd("check", "--explain", "open", "--strict", "01_blocks").code == 30
-    assert tmd("check", "--explain", "open", "--json").code == 30
-    assert tmd("check").code == 30
+    assert tmd("check", "--explain", "open", "--strict", "01_blocks").code == 2
+    assert tmd("check", "--explain", "open", "--json").code == 2
+    assert tmd("check").code == 2

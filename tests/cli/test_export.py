@@ -106,7 +106,7 @@ CASES = {
         [PROBLEM, "out", "--plan", BLOCKS / "plans" / "invalid-goal.plan"],
         "at the end the goal",
     ),
-    "nothing-named": (ExitCode.USAGE, ["out"], "Missing 'PROBLEM'"),
+    "nothing-named": (ExitCode.USAGE, ["out"], "Missing argument 'PROBLEM'"),
     "nothing-said": (ExitCode.USAGE, ["kitchen1", "out"], "give one of --text, --text-file, --plan and --goal"),
     "text-and-plan": (ExitCode.USAGE, ["kitchen1", "out", "--text", "x", "--plan", PLAN], "give one of --text"),
     "no-json": (ExitCode.BAD_INPUT, [ROOT / "docs" / "cli.json", "out"], "cannot be read"),

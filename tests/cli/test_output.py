@@ -297,3 +297,12 @@ def test_a_shell_gets_completions(tmd: Tmd, monkeypatch: pytest.MonkeyPatch) -> 
     for name, value in asked.items():
         monkeypatch.setenv(name, value)
     assert tmd().out == "plain,plan\n"
+
+
+def test_the_page_has_the_line_for_each_shell(tmd: Tmd) -> None:
+    page = (ROOT / "docs" / "cli.md").read_text(encoding="utf-8")
+    shells = re.findall(r"_TMD_COMPLETE=(\w+)_source tmd", page)
+    assert shells == ["bash", "zsh", "fish"]
+    for shell in shells:
+        ended = tmd(env={"_TMD_COMPLETE": f"{shell}_source"})
+        assert ended.code == ExitCode.OK and f"_TMD_COMPLETE={shell}_complete" in ended.out

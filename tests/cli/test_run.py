@@ -187,8 +187,13 @@ OVERLAP = (
 )
 TEXT = ("--text", "Take the cup.")
 WRONG = {
-    "no-text": (ExitCode.USAGE, [*KITCHEN], "", r"error: give one of --text"),
-    "text-and-goal": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--goal", "(a)"], "", r"error: give one of --text, .*--goal\n"),
+    "no-text": (ExitCode.USAGE, [*KITCHEN], "", r"error: give one of REQUEST, --text"),
+    "text-and-goal": (
+        ExitCode.USAGE,
+        [*KITCHEN, *TEXT, "--goal", "(a)"],
+        "",
+        r"error: give one of REQUEST, .*--goal\n",
+    ),
     "trajectory-suffix": (
         ExitCode.USAGE,
         [*KITCHEN, *TEXT, "--trajectory", "out.bag"],
@@ -219,7 +224,12 @@ WRONG = {
         "",
         r"error: --goal:1:11: unknown object \"pot9\"",
     ),
-    "text-and-plan": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--plan", "a"], "", r"error: give one of --text, .*--plan"),
+    "text-and-plan": (
+        ExitCode.USAGE,
+        [*KITCHEN, *TEXT, "--plan", "a"],
+        "",
+        r"error: give one of REQUEST, .*--plan",
+    ),
     "film-suffix": (
         ExitCode.USAGE,
         [*KITCHEN, *TEXT, "--video", "out.avi"],

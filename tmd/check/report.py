@@ -12,6 +12,7 @@ from tmd.check.diagnostic import Diagnostic, Severity
 from tmd.diagnostics import Edit, Location, TmdError
 from tmd.files import write_text
 from tmd.pddl.reading.syntax import read_text, split_lines
+from tmd.short_repr import short_repr
 
 
 def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
@@ -84,6 +85,7 @@ def _parenthesis(diagnostic: Diagnostic, lines: Sequence[str]) -> Iterator[Edit]
 _MOST_ROUNDS = 8
 
 
+@short_repr(lambda r: f"{len(r.files)} file(s): " + ", ".join(f"{n} {severity}(s)" for severity, n in r.counts.items()))
 @dataclass(frozen=True, slots=True)
 class CheckReport:
     """Result of a check.

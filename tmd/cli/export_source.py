@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from tmd.cli.grounding import Answer, answer, remarks
+from tmd.cli.grounding import Answer, answer
 from tmd.cli.options import ReadingOptions
 from tmd.cli.output import emit
 from tmd.cli.plans import exit_code, why_invalid, why_none
@@ -22,6 +22,7 @@ from tmd.pddl.reading.syntax import read_text
 from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import Solved
 from tmd.records.grounding import GroundingRecord
+from tmd.view.answer_text import remarks
 from tmd.world.roots import Roots
 
 ASKED, CHANGED = "asked", "changed"
@@ -63,7 +64,9 @@ def planned_source(
         if plan:
             raise unclear
         corpus, world = roots.world(source, domain)
-        return _of_text(answer(corpus, world, source, text, reading, planner=planner), world.task.problem, goal)
+        return _of_text(
+            answer(corpus, world, source, text=text, reading=reading, planner=planner), world.task.problem, goal
+        )
     if goal in (ASKED, CHANGED):
         raise click.UsageError(f"--goal {goal} is for a text, or for what tmd ground --json printed")
     if path.suffix == ".pddl":

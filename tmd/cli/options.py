@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
+from click.core import ParameterSource
 
 from tmd.diagnostics import TmdError
 from tmd.inference.config import DEFAULT, PRESETS
@@ -26,6 +27,8 @@ _Command = TypeVar("_Command", bound=Callable[..., Any])
 _Decorator = Callable[[Any], Any]
 
 PATH = click.Path(path_type=Path)
+# The file that is standard input.
+STANDARD = "-"
 
 
 def _together(*options: _Decorator) -> Callable[[_Command], _Command]:
@@ -39,7 +42,7 @@ def _together(*options: _Decorator) -> Callable[[_Command], _Command]:
     return decorate
 
 
-def _gathered(name: str, kind: Callable[..., object], *options: _Decorator) -> Callable[[_Command], Callable[..., Any]]:
+def gathered(name: str, kind: Callable[..., object], *options: _Decorator) -> Callable[[_Command], Callable[..., Any]]:
     """Return a decorator that adds options, which the command gets as one argument ``name``, made by ``kind``."""
 
     def decorate(command: _Command) -> Callable[..., Any]:
@@ -63,52 +66,64 @@ overwrite_option = click.option(
 
 
 def named_files(
-    files: tuple[str, ...], environment: str | None, domain: str | None, option: str = "--environment"
+    files: Sequence[str], environment: str | None, domain: str | None, option: str = "ENVIRONMENT"
 ) -> tuple[str, str | None]:
     """Return an environment or problem, and its domain, of the arguments ``[[DOMAIN] PROBLEM]`` or of the options.
 
     Raises:
         click.UsageError: One of them is named twice, or there is no environment.
     """
+    source = click.get_current_context().get_parameter_source
+    if files and source("environment") is ParameterSource.DEFAULT_MAP:
+        environment = None
+    if len(files) > 1 and source("domain") is ParameterSource.DEFAULT_MAP:
+        domain = None
     if len(files) > 2 or (files and environment) or (len(files) == 2 and domain):
-        raise click.UsageError(f"name each file once: DOMAIN PROBLEM, or --domain and {option}")
+        raise click.UsageError(f"name each file once: DOMAIN PROBLEM, or --domain and {option}; quote a request")
     if files:
         environment = files[-1]
         domain = files[0] if len(files) == 2 else domain
     if environment is None:
-        raise click.UsageError(f"Missing {'option ' if option[0] == '-' else ''}'{option}'.")
+        raise click.UsageError(f"Missing argument '{option}'.")
     return environment, domain
 
 
-files_argument = click.argument("files", nargs=-1, metavar="[[DOMAIN] PROBLEM]")
-environment_option = click.option(
-    "--environment",
-    required=True,
-    metavar="FILE|NAME",
-    help="An environment (YAML), or the name of a bundled one; to ground a text, also a PDDL problem.",
+# The names of options that several commands have, each with other words of help.
+ENVIRONMENT = ("-e", "--environment")
+OUTPUT = ("-o", "--output", "--out")
+_PLACE = (
+    click.option(
+        *ENVIRONMENT,
+        metavar="FILE|NAME",
+        help="An environment (YAML), or the name of a bundled one; to ground a text, also a PDDL problem.",
+    ),
+    click.option("--domain", metavar="NAME", help="The domain; the environment's own by default."),
 )
 seed_option = click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
-environment_domain_option = click.option(
-    "--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default."
-)
 learned_option = click.option(
     "--learned",
     type=PATH,
     metavar="DIR",
     envvar=VARIABLE,
-    help=f"The DIR of `tmd learn --out DIR`; ${VARIABLE}, or else learned/ beside the demonstrations, by default.",
+    help=f"The DIR of `tmd learn -o DIR`; ${VARIABLE}, or else learned/ beside the demonstrations, by default.",
 )
 
 
 @dataclass(frozen=True, slots=True)
 class GivenText:
-    """The options ``--text`` and ``--text-file``."""
+    """The options ``--text`` and ``--text-file``, and the argument ``REQUEST``."""
 
     text: str | None
     text_file: str | None
+    argument: str | None = None
 
     def __bool__(self) -> bool:
-        return self.text is not None or self.text_file is not None
+        return any(given is not None for given in (self.text, self.text_file, self.argument))
+
+    @property
+    def from_input(self) -> bool:
+        """Return whether the text comes from standard input."""
+        return STANDARD in (self.text_file, self.argument)
 
     def read(self) -> str:
         """Return the text.
@@ -119,15 +134,16 @@ class GivenText:
         """
         from tmd.pddl.reading.syntax import read_standard_input, read_text
 
-        text, file = self.text, self.text_file
-        if (text is None) == (file is None):
-            raise click.UsageError("give one of --text and --text-file")
-        place = "--text" if file is None else "standard input" if file == "-" else file
-        if file is not None:
-            text = read_standard_input() if file == "-" else read_text(Path(file))
-        found = text or ""
+        given = [text for text in (self.text, self.text_file, self.argument) if text is not None]
+        if len(given) != 1:
+            raise click.UsageError("give one of REQUEST, --text and --text-file")
+        place, found = "the request", given[0]
+        if self.from_input:
+            place, found = "standard input", read_standard_input()
+        elif self.text_file is not None:
+            place, found = self.text_file, read_text(Path(self.text_file))
         if not found.strip():
-            raise TmdError(f"{place}: the text is empty", hint='say what is to be done: --text "boil some water"')
+            raise TmdError(f"{place}: the text is empty", hint='say what is to be done: "boil some water"')
         if len(found) > MAX_CHARACTERS:
             message = f"{place}: the text has {len(found):,} characters, more than {MAX_CHARACTERS:,}"
             raise TmdError(message, hint="split it")
@@ -149,13 +165,50 @@ class GivenText:
         return short_enough(self.read())
 
 
-text_options = _gathered(
-    "spoken",
-    GivenText,
-    click.option("--text", metavar="TEXT", help="The request."),
+_TEXT = (
+    click.option("-t", "--text", metavar="TEXT", help="The request."),
     click.option("--text-file", metavar="FILE", help="A file with the request; - is standard input."),
 )
+text_options = gathered("spoken", GivenText, *_TEXT)
 """``--text`` and ``--text-file``, gathered as ``spoken``."""
+_REQUEST = click.argument("argument", required=False, metavar="[REQUEST]")
+request_options = gathered("spoken", GivenText, _REQUEST, *_TEXT)
+"""These and the argument ``REQUEST``, gathered as ``spoken``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """A request, if there is one, with its environment and domain."""
+
+    environment: str
+    domain: str | None
+    spoken: GivenText
+
+
+def _asked(
+    files: Sequence[str],
+    environment: str | None,
+    domain: str | None,
+    text: str | None = None,
+    text_file: str | None = None,
+) -> Asked:
+    """Return what positions and options name; without an option for the text, the last of several is the request."""
+    spoken = GivenText(text, text_file)
+    if files[environment is None :] and not spoken and not files[-1].endswith(".pddl"):
+        *files, spoken = *files[:-1], GivenText(None, None, files[-1])
+    return Asked(*named_files(files, environment, domain), spoken)
+
+
+asked_options = gathered(
+    "asked",
+    _asked,
+    click.argument("files", nargs=-1, metavar="[ENVIRONMENT|DOMAIN PROBLEM] [REQUEST]"),
+    *_PLACE,
+    *_TEXT,
+)
+"""Environment, domain and request, as positions or options, gathered as ``asked``."""
+place_options = gathered("place", named_files, click.argument("files", nargs=-1, metavar="[ENVIRONMENT]"), *_PLACE)
+"""Environment and domain, as positions or options, gathered as ``place``."""
 
 
 def name_list(*choices: str) -> Callable[[click.Context, click.Parameter, str | None], tuple[str, ...] | None]:
@@ -225,7 +278,7 @@ def _one_robot(robot: str | None, urdf: Path | None) -> dict[str, Any]:
     return {"robot": robot, "urdf": urdf}
 
 
-robot_options = _gathered(
+robot_options = gathered(
     "model",
     _one_robot,
     click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro."),
@@ -266,7 +319,7 @@ class ReadingOptions:
             raise click.UsageError(f"--{given[0].replace('_', '-')} is for --reader llm")
 
 
-reading_options = _gathered(
+reading_options = gathered(
     "reading",
     ReadingOptions,
     click.option(
@@ -289,7 +342,7 @@ reading_options = _gathered(
 )
 """The options that say how a request is read, gathered as ``reading``."""
 
-grounding_options = _gathered(
+grounding_options = gathered(
     "options",
     dict,
     click.option("--top", type=click.IntRange(1, 100), default=1, show_default=True, help="How many plans to show."),

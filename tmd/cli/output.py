@@ -6,8 +6,10 @@ import os
 import sys
 from contextlib import nullcontext, suppress
 from io import TextIOWrapper
+from pathlib import Path
 from typing import TextIO
 
+from tmd.files import write_text
 from tmd.format.json_layout import lay_out
 
 
@@ -26,12 +28,14 @@ def open_closed_streams() -> None:
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - it stays open
 
 
-def emit(value: object, *, error: bool = False) -> None:
+def emit(value: object, target: Path | None = None, *, error: bool = False) -> None:
     """Write a text, or any other value as JSON with its keys in their order, to standard output or standard error.
 
-    Where no error can be written, the command goes on.
+    With a ``target``, write it to that file. Where no error can be written, the command goes on.
     """
     text = value if isinstance(value, str) else lay_out(value) + "\n"
+    if target is not None:
+        return write_text(target, text)
     with suppress(OSError) if error else nullcontext():
         _write(sys.stderr if error else sys.stdout, text)
 

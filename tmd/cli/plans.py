@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tmd.cli.grounding import Answer, remarks
+from tmd.cli.grounding import Answer
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.domain_kit import orders_of
 from tmd.pddl.model import Domain, Problem
@@ -17,6 +17,7 @@ from tmd.pddl.validator import validate
 from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
 from tmd.robot.monitor.listeners import Order
+from tmd.view.answer_text import remarks
 
 
 def plan_text(answer: Solved, domain: Domain) -> str:

@@ -8,8 +8,10 @@ import sys
 import traceback
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from functools import reduce
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -17,8 +19,8 @@ from tmd import __version__
 from tmd.cli.errors import Fault, fault_of
 from tmd.cli.options import PATH
 from tmd.cli.output import emit
-from tmd.diagnostics import ExitCode
-from tmd.pddl.reading.syntax import nearest
+from tmd.diagnostics import ExitCode, OptionError
+from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.world.roots import Roots
 
 _MODULES = {
@@ -79,14 +81,55 @@ class _Commands(click.Group):
 @click.option("--domains", type=PATH, metavar="DIR", help="The directory of all domains.")
 @click.option("--problems", type=PATH, metavar="DIR", help="The directory of all problems.")
 @click.option("--debug", is_flag=True, help="Show where an internal error happened.")
-@click.version_option(__version__, prog_name="tmd", message="%(prog)s %(version)s")
+@click.version_option(__version__, "-V", "--version", prog_name="tmd", message="%(prog)s %(version)s")
 @click.pass_context
 def program(ctx: click.Context, domains: Path | None, problems: Path | None, debug: bool) -> None:
     """Turn requests in English into PDDL goals and validated robot plans.
 
     The directories are looked for in this order: the option, ./domains and ./problems, the packaged copy.
+    Defaults of options may stand in ./tmd.toml, or below [tool.tmd] in ./pyproject.toml.
     """
     ctx.obj = Roots(domains, problems)
+
+
+def _settings() -> dict[str, Any]:
+    """Return the table of settings in the working directory as click takes defaults; empty where there is none.
+
+    Raises:
+        OptionError: It is not TOML, or not a table of options.
+    """
+    for name, *keys in ("tmd.toml",), ("pyproject.toml", "tool", "tmd"):
+        if Path(name).is_file():
+            from tomllib import TOMLDecodeError, loads
+
+            try:
+                table = reduce(lambda found, key: found.get(key, {}), keys, loads(read_text(name)))
+                if table:
+                    return _defaults(table, program, name)
+            except (TOMLDecodeError, AttributeError) as error:
+                why = str(error) if isinstance(error, TOMLDecodeError) else "one value stands for a table"
+                raise OptionError(f"{name} is no table of settings: {why}", hint="docs/cli.md shows one") from error
+    return {}
+
+
+def _defaults(table: dict[str, Any], command: click.Command, place: str) -> dict[str, Any]:
+    """Return the settings of a command by the names of its parameters, and those of its sub-commands."""
+    found: dict[str, Any] = {}
+    given = (p for p in command.params if isinstance(p, click.Option) and not (p.is_flag and command is program))
+    options = {name[2:]: option for option in given for name in option.opts if name.startswith("--")}
+    for name, value in table.items():
+        option, inner = options.get(name), command is program and program.get_command(click.Context(program), name)
+        if inner:
+            found[name] = _defaults(value, inner, f"{place}: {name}")
+        elif option is None:
+            known = [*options, *(COMMANDS if command is program else ())]
+            raise OptionError(f"{place}: there is no option '{name}'", hint=nearest(name, known, what="options"))
+        elif not isinstance(value, bool if option.is_flag else str | int | float):
+            kind = "true or false" if option.is_flag else "a text or a number"
+            raise OptionError(f"{place}: {name} is {value!r}", hint=f"write {kind}")
+        else:
+            found[str(option.name)] = value if option.is_flag else [str(value)] if option.multiple else str(value)
+    return found
 
 
 class Stopped(KeyboardInterrupt):
@@ -138,7 +181,7 @@ def _invoke(arguments: list[str]) -> ExitCode:
 
         return ExitCode(shell_complete(program, {}, "tmd", _COMPLETION, instruction))
     try:
-        with program.make_context("tmd", arguments) as context:
+        with program.make_context("tmd", arguments, default_map=_settings()) as context:
             return ExitCode(program.invoke(context) or ExitCode.OK)
     except click.exceptions.Exit as ended:
         return ExitCode(ended.exit_code)

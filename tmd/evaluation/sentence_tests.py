@@ -21,11 +21,13 @@ from tmd.records.sentence_test import (
     SentenceReport,
     SentenceSummary,
 )
+from tmd.short_repr import short_repr
 from tmd.world.sentence_file import SentenceTest
 
 _EFFORTS = ("prompt_tokens", "completion_tokens", "seconds", "cached", "corrections")
 
 
+@short_repr(lambda result: f"{result.test.id}: {result.outcome} {result.reason}".strip())
 @dataclass(frozen=True, slots=True)
 class SentenceResult:
     """A sentence test with what came out.

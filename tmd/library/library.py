@@ -14,6 +14,7 @@ from tmd.library.clause_alignment import split
 from tmd.library.template import Template, generalise
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
+from tmd.short_repr import short_repr
 from tmd.world.demonstration import Demonstration, Segment
 from tmd.world.verb_clause import VerbClause
 from tmd.world.world import Profile, World, run
@@ -22,6 +23,7 @@ from tmd.world.world import Profile, World, run
 _TEXTS = 1_000
 
 
+@short_repr(lambda library: f"of {len(library.verbs())} verbs")
 @dataclass(slots=True, eq=False, weakref_slot=True)
 class Library:
     """Templates by verb. Verbs that the lexicon calls synonyms share their templates. Each is itself only.

@@ -226,7 +226,7 @@ class GroundingRecord(ParsedRecord, GroundedText):
             if not 0 <= start <= end <= len(self.text):
                 raise ValueError(f"the span [{start}, {end}] lies outside of the text")
         for plan in self.plans:
-            if not plan.goals and len(plan.choices) != len(self.clauses):
+            if plan.choices and not plan.goals and len(plan.choices) != len(self.clauses):
                 raise ValueError("a plan has not one choice for each clause")
             served = {goal.clause for goal in plan.goals} | {step.clause for step in plan.steps}
             if any(clause >= len(self.clauses) for clause in served):

@@ -12,6 +12,7 @@ from tmd.json_record import JsonRecord, json_value
 from tmd.pddl.model import Instruction
 from tmd.records.grounding import GroundingRecord, InstructionRecord
 from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.short_repr import short_repr
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -180,6 +181,7 @@ class RunRecord(RunRequest):
         return cls.model_validate({**asked.given(), "steps": tuple(steps), **ended})
 
 
+@short_repr(lambda run: f"in {run.record.environment}: {run.execution}")
 @dataclass(frozen=True, slots=True)
 class RecordedRun:
     """Result of a run.

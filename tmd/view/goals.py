@@ -11,7 +11,7 @@ from tmd.pddl.model import TRUE, Formula, GroundAtom, Instruction, Problem, Stat
 from tmd.pddl.semantics import holds
 from tmd.pddl.validator import Verdict, validate
 from tmd.view.meaning import meanings
-from tmd.view.wording import Wording
+from tmd.view.wording import Wording, shortened
 from tmd.world.world import World
 
 # A note on a step without a goal begins with this where its instructions were guessed.
@@ -24,7 +24,7 @@ class ShownGoal:
 
     Attributes:
         goal: The goal.
-        words: The goal in words; empty without a goal.
+        words: The goal in words, at most 200 characters; empty without a goal.
         since: After how many steps of the plan it comes to hold, for good if it holds in the end; ``None`` for never.
         until: Where it was reached and does not hold in the end, the number of the step that undid it.
         reached: Whether it holds when its own part of the plan is done.
@@ -79,7 +79,7 @@ def in_words(goals: Iterable[StepGoal], problem: Problem) -> list[ShownGoal]:
 
 
 def _words(formula: Formula | None, wording: Wording) -> str:
-    return "" if formula in (None, TRUE) else wording.condition(formula)
+    return "" if formula in (None, TRUE) else shortened(wording.condition(formula))
 
 
 def followed(goals: Sequence[StepGoal], problem: Problem, plan: Iterable[Instruction]) -> list[ShownGoal]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from textwrap import shorten
 
 from tmd.pddl.model import (
     And,
@@ -33,6 +34,8 @@ from tmd.pddl.writer import format_formula
 _WORDS = frozenset({"a", "i"})
 # Maximum number of alternatives that are named; the others are counted.
 _SHOWN = 3
+# Maximum number of characters of a goal as it is shown.
+_LONGEST = 200
 
 
 class Wording:
@@ -200,6 +203,23 @@ class Wording:
         if any(found[name] not in self._constants for name in silent):
             return ""
         return _word(*names).sub(lambda m: found[m["name"]], comment) if names else comment
+
+
+def folded(formula: Formula) -> Formula:
+    """Return a condition for people, with the first three alternatives of many and the number of the others."""
+    match formula:
+        case Or(parts):
+            rest = len(parts) - _SHOWN
+            return Or((*map(folded, parts[:_SHOWN]), *([Atom("...", (f"{rest} more",))] if rest > 0 else [])))
+        case And(parts):
+            return And(tuple(map(folded, parts)))
+        case _:
+            return formula
+
+
+def shortened(text: str) -> str:
+    """Return a goal in words or as PDDL on one line of at most 200 characters."""
+    return shorten(text, _LONGEST, placeholder=" …")
 
 
 def _word(*names: str) -> re.Pattern[str]:

@@ -15,6 +15,7 @@ from pathlib import Path
 from tmd.diagnostics import OutputError, TmdError
 from tmd.files import make_directory, write_text
 from tmd.pddl.reading.syntax import nearest, read_text
+from tmd.short_repr import short_repr
 from tmd.world.folder import find_domain, find_problems
 from tmd.world.shape import NAME
 
@@ -65,6 +66,7 @@ _ASKED: Mapping[str, tuple[tuple[str, str | None], ...]] = {
 _SUFFIXES = (".pddl", ".yaml", ".jsonl", ".nl")
 
 
+@short_repr(lambda made: made.folder)
 @dataclass(frozen=True, slots=True)
 class Scaffold:
     """A new domain.

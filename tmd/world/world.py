@@ -19,10 +19,12 @@ from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import OBJECT, TRUE, GroundAtom, Instruction, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
+from tmd.short_repr import short_repr
 from tmd.world.compile import PART_OF as PART_OF  # goals and studio need it as well
 from tmd.world.verb_clause import VerbClause
 
 
+@short_repr(lambda world: world.name)
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
 class World:
     """An environment, ready for grounding."""

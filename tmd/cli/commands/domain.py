@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmd.cli.errors import fault_of, one_line, pointed
-from tmd.cli.options import PATH, VARIABLE, json_option, seed_option
+from tmd.cli.options import OUTPUT, PATH, VARIABLE, json_option, seed_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, OutputError, TmdError
 from tmd.world.folder import known_domains
@@ -72,7 +72,7 @@ def _first_steps(domain: str, made: Scaffold) -> str:
         f"  tmd check {made.folder.as_posix()}",
         f"  tmd check --explain put {domain}",
         f"then write an environment, {made.problems.as_posix()}/environments/{domain}1.pddl, a PDDL problem, and",
-        f'  tmd ground --domain {domain} --environment {domain}1 --text "..."',
+        f'  tmd ground {domain}1 "..."',
     ]
     return "\n".join(lines) + "\n"
 
@@ -89,7 +89,7 @@ def _next_steps(domain: str, start: str, made: Scaffold) -> str:
         *compiled,
         f"  tmd check {made.folder.as_posix()} {made.problems.as_posix()}",
         f"  tmd plan {domain} {problem.as_posix()}",
-        f'  tmd ground --environment {place} --text "{said}"',
+        f'  tmd ground {place} "{said}"',
         f"  tmd test {domain}",
         f"  tmd learn {domain}",
     ]
@@ -99,7 +99,8 @@ def _next_steps(domain: str, start: str, made: Scaffold) -> str:
 @click.command("learn", short_help="Learn a domain's library, policy and weights from its demonstrations.")
 @click.argument("domain", metavar="DOMAIN")
 @click.option(
-    "--out",
+    *OUTPUT,
+    "out",
     type=PATH,
     metavar="DIR",
     envvar=VARIABLE,
@@ -269,7 +270,7 @@ def fmt(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
 
 @click.command("compile", short_help="Compile object graphs to PDDL.")
 @click.argument("what", metavar="DOMAIN|ENVIRONMENT.yaml")
-@click.option("--output", type=PATH, metavar="FILE", help="Write the PDDL problem to this file.")
+@click.option(*OUTPUT, type=PATH, metavar="FILE", help="Write the PDDL problem to this file.")
 @click.option("--goal", metavar="CONDITION", help='The goal of the PDDL problem, such as "(hot pot1)".')
 @click.pass_obj
 def compile(roots: Roots, what: str, output: Path | None, goal: str | None) -> None:
@@ -290,7 +291,6 @@ def compile(roots: Roots, what: str, output: Path | None, goal: str | None) -> N
 
 
 def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None) -> None:
-    from tmd.files import write_text
     from tmd.pddl.reading.reader import with_goal
     from tmd.pddl.writer import format_problem
     from tmd.world.compile import compile_problem
@@ -298,8 +298,4 @@ def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None
 
     environment = load_environment(path)
     problem = compile_problem(environment, roots.folder(environment.domain))
-    text = format_problem(with_goal(problem, goal) if goal else problem)
-    if output:
-        write_text(output, text)
-    else:
-        emit(text)
+    emit(format_problem(with_goal(problem, goal) if goal else problem), output)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmd.cli.options import PATH, NumberRange, name_list, seed_option
+from tmd.cli.options import OUTPUT, PATH, NumberRange, name_list, seed_option
 from tmd.cli.output import emit
 from tmd.world.roots import Roots
 
@@ -120,7 +120,7 @@ def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
     type=click.Choice(["physics", "kinematic", "off"]),
     help="Let a simulated PR2 carry out one prediction for each environment in the end, and film it; off by default.",
 )
-@click.option("--out", required=True, type=PATH, metavar="DIR", help="The run's directory.")
+@click.option(*OUTPUT, "out", required=True, type=PATH, metavar="DIR", help="The run's directory.")
 @click.pass_obj
 def experiment(
     roots: Roots,
@@ -181,7 +181,7 @@ def _trials(config: ExperimentConfig, mode: str) -> None:
         emit(f"robot in {trial.asked.environment}: {trial.status.replace('_', ' ')}{why}\n")
 
 
-@click.group("data")
+@click.group("data", no_args_is_help=False)
 def data() -> None:
     """Look into data sets."""
 

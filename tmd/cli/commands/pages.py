@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.options import PATH, learned_option, named_files
+from tmd.cli.options import ENVIRONMENT, OUTPUT, PATH, learned_option, named_files
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, MissingToolError, install_extra
 from tmd.world.roots import Roots
@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 @click.command("view", short_help="Write one HTML page of a plan or a run.")
 @click.argument("paths", nargs=-1, required=True, metavar="[[DOMAIN] PROBLEM] [PLAN|RUN]")
-@click.option("--environment", metavar="FILE|NAME", help="Where: for a plan file, or instead of what a file names.")
+@click.option(*ENVIRONMENT, metavar="FILE|NAME", help="Where: for a plan file, or instead of what a file names.")
 @click.option("--problem", type=PATH, metavar="FILE", help="Of a plan file: its PDDL problem.")
 @click.option(
     "--domain", "domain_name", metavar="NAME|FILE", help="The domain; otherwise the environment's or problem's own."
 )
-@click.option("--out", metavar="FILE|-", help="The page; beside what it shows by default. - is standard output.")
+@click.option(*OUTPUT, "out", metavar="FILE|-", help="The page; beside what it shows by default. - is standard output.")
 @click.pass_obj
 def view(
     roots: Roots,
@@ -41,7 +41,6 @@ def view(
     DOMAIN and PROBLEM alone a plan is found. Ends with 11 where the plan does not work and with 12 where there is none;
     the page is written all the same.
     """
-    from tmd.files import write_text
     from tmd.view.page import render
     from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
@@ -54,12 +53,10 @@ def view(
     target = out or (STANDARD if source == STANDARD else str(Path(source).with_suffix(".html")))
     for path in (source, problem, domain_name):
         if path is not None and target != STANDARD and Path(target).resolve() == Path(path).resolve():
-            raise click.UsageError(f"the page would overwrite {path}: give another --out")
+            raise click.UsageError(f"the page would overwrite {path}: give another --output")
     page = render(found.subject)
-    if target == STANDARD:
-        emit(page.html)
-    else:
-        write_text(target, page.html)
+    emit(page.html, None if target == STANDARD else Path(target))
+    if target != STANDARD:
         emit(f"{target}\n")
     for line in (*found.remarks, found.complaint(page.verdict)):
         emit(line, error=True)
@@ -73,7 +70,7 @@ LOCAL = "127.0.0.1"
 @click.option(
     "--domain", "domain_name", metavar="NAME", help="The domain; that of the environment, or kitchen, by default."
 )
-@click.option("--environment", metavar="FILE|NAME", help="The first environment; that of the domain by default.")
+@click.option(*ENVIRONMENT, metavar="FILE|NAME", help="The first environment; that of the domain by default.")
 @click.option("--host", default=LOCAL, show_default=True, metavar="ADDRESS", help="The address to listen on.")
 @click.option("--port", type=click.IntRange(0, 65535), default=8080, show_default=True, help="0 takes a free one.")
 @learned_option

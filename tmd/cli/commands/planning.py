@@ -11,6 +11,7 @@ import click
 
 from tmd.cli.errors import one_line
 from tmd.cli.options import (
+    OUTPUT,
     PATH,
     GivenText,
     json_option,
@@ -41,7 +42,7 @@ FORMATS = ("adl", "ipc", "strips", "durative", "plansys2", "bt", "sas")
 @click.option("--planner", metavar="NAME", help="auto (default), kairos, fast-downward, in-process or up:ENGINE.")
 @click.option("--optimal", is_flag=True, help="Only a plan that is proven to be optimal.")
 @limit_options
-@click.option("--output", type=PATH, metavar="FILE", help="Write the plan to this file.")
+@click.option(*OUTPUT, type=PATH, metavar="FILE", help="Write the plan to this file.")
 @json_option
 @click.pass_obj
 def plan(
@@ -73,14 +74,10 @@ def plan(
     with limited(deadline), memory_limit(memory):
         wanted = read_problem(problem, roots.domain(domain))
     answer = solve(wanted, name, optimal=optimal, deadline=deadline)
-    if isinstance(answer, Solved) and output:
-        from tmd.files import write_text
-
-        write_text(output, plan_text(answer, wanted.domain))
+    if isinstance(answer, Solved) and (output or not as_json):
+        emit(plan_text(answer, wanted.domain), output)
     if as_json:
         emit(answer_json(answer, name))
-    elif isinstance(answer, Solved) and not output:
-        emit(plan_text(answer, wanted.domain))
     if not isinstance(answer, Solved):
         emit(f"no plan: {why_none(answer)}\n", error=True)
     return exit_code(answer)

@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import json
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from tmd.cli.errors import fault_of
 from tmd.cli.options import (
+    MAX_CHARACTERS,
+    OUTPUT,
     PATH,
+    STANDARD,
+    Asked,
     GivenText,
     ReadingOptions,
-    environment_domain_option,
-    files_argument,
+    asked_options,
+    gathered,
     grounding_options,
     json_option,
     learned_option,
-    named_files,
     reading_options,
-    text_options,
+    request_options,
 )
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, TmdError
@@ -28,88 +35,148 @@ from tmd.inference.config import DEFAULT
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
+    from tmd.cli.grounding import Answer
     from tmd.evaluation.sentence_tests import SentenceResult
     from tmd.world.sentence_file import SentenceTest
 
 
 @click.command("parse", short_help="Split a text into verb clauses.")
-@text_options
+@request_options
 @click.option("--domain", "domain_name", metavar="NAME", help="Use the words of this domain as well.")
 @json_option
 @click.pass_obj
 def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: bool) -> None:
     """Split a text into verb clauses, and show what no clause accounts for."""
-    from tmd.cli.grounding import parsed_text
     from tmd.language import parse
     from tmd.records.clauses import ParsedRecord
+    from tmd.view.answer_text import parsed_text
 
     parsed = parse(spoken.read(), roots.folder(domain_name).lexicon if domain_name else None)
     emit(ParsedRecord.of(parsed).to_value() if as_json else parsed_text(parsed))
 
 
+@dataclass(frozen=True, slots=True)
+class _Shown:
+    """The options that say what of an answer is printed."""
+
+    verbose: bool
+    energies: bool
+    brief: bool
+    goal_only: bool
+    as_json: bool
+
+    def value(self, found: Answer) -> object:
+        """Return the answer as a text or as JSON."""
+        from tmd.cli.grounding import whole_goal_text
+        from tmd.view.answer_text import brief_text, grounded_text
+
+        if self.as_json:
+            return (found.record.goal_only() if self.goal_only else found.record).to_value()
+        if self.goal_only:
+            return whole_goal_text(found.grounded)
+        if self.brief:
+            return brief_text(found.grounded)
+        return grounded_text(found.grounded, energies=self.energies, verbose=self.verbose)
+
+
 @click.command("ground", short_help="Ground a request in an environment: ranked, validated plans.")
-@files_argument
-@click.option("--environment", metavar="FILE|NAME", help="An environment (YAML or PDDL), or the name of a bundled one.")
-@text_options
-@environment_domain_option
+@asked_options
 @grounding_options
 @reading_options
 @click.option("--ask", is_flag=True, help="Ask on the terminal which of several readings is meant.")
-@click.option(
-    "--verbose", is_flag=True, help="Print the rows that did not fit, and effort and reasons of the language model."
-)
 @click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
-@click.option("--goal-only", is_flag=True, help="Print a PDDL problem with the goal of the request, and no plan.")
-@json_option
+@click.option(*OUTPUT, type=PATH, metavar="FILE", help="Write the answer to this file.")
+@gathered(
+    "shown",
+    _Shown,
+    click.option("-v", "--verbose", is_flag=True, help="Print whole goals, rows that did not fit, effort of a model."),
+    click.option("--energies", is_flag=True, help="Print the energy of each plan by factor."),
+    click.option("-q", "--brief", is_flag=True, help="Print nothing but the instructions, a plan on a line."),
+    click.option("--goal-only", is_flag=True, help="Print a PDDL problem with the goal of the request, and no plan."),
+    json_option,
+)
 @click.pass_obj
 def ground(
     roots: Roots,
-    files: tuple[str, ...],
-    environment: str | None,
-    spoken: GivenText,
-    domain_name: str | None,
+    asked: Asked,
     options: dict[str, Any],
     reading: ReadingOptions,
     ask: bool,
-    verbose: bool,
     show_prompt: bool,
-    goal_only: bool,
-    as_json: bool,
+    output: Path | None,
+    shown: _Shown,
 ) -> ExitCode:
-    """Ground a request in an environment, or in the PDDL files DOMAIN and PROBLEM: print ranked, validated plans.
+    """Ground REQUEST in ENVIRONMENT, or in the PDDL files DOMAIN and PROBLEM: print ranked, validated plans.
+
+    With - as REQUEST every line of standard input is one, and a line is printed for each plan.
 
     The demonstrations of the domain are learned from once; `tmd list` names the bundled environments. Ends with 12
     where no plan was found, and with 15 where two readings of the request differ and nobody chose one; the plan is then
     for the first one that has a plan.
     """
-    from tmd.cli.grounding import answer, ask_on_terminal, grounded_text, remarks, whole_goal_text
+    from tmd.cli.grounding import answer, ask_on_terminal
     from tmd.inference.config import preset
+    from tmd.view.answer_text import remarks
 
-    if goal_only and not preset(options["model"]).goals:
+    if shown.goal_only and not preset(options["model"]).goals:
         raise click.UsageError(f"the model {options['model']} knows no goals: leave --model out")
-    if ask and spoken.text_file == "-":
+    if ask and asked.spoken.from_input:
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
-    place, domain_name = named_files(files, environment, domain_name)
-    request = spoken.request()
-    settings = reading.settings() if show_prompt else None
-    if show_prompt and settings is None:
-        raise click.UsageError("--show-prompt is for --reader llm")
-    corpus, world = roots.world(place, domain_name)
-    if settings is not None:
-        from tmd.readers.llm.reader import llm_reader
-
-        prompt = llm_reader(corpus, settings).prompt(request, world, world.task.init)
-        emit(f"{prompt.system}\n\n{prompt.user}\n")
+    lines = asked.spoken.argument == STANDARD
+    if lines and (show_prompt or (shown.goal_only and not shown.as_json)):
+        raise click.UsageError("--show-prompt, and --goal-only without --json, are for one request")
+    request = "" if lines else asked.spoken.request()
+    if show_prompt:
+        emit(_prompt(roots, asked, request, reading))
         return ExitCode.OK
+    corpus, world = roots.world(asked.environment, asked.domain)
     asking = partial(ask_on_terminal, world.task.problem) if ask else None
-    found = answer(corpus, world, place, request, reading, ask=asking, **options)
-    if as_json:
-        emit((found.record.goal_only() if goal_only else found.record).to_value())
-    else:
-        emit((whole_goal_text if goal_only else grounded_text)(found.grounded))
-    for line in remarks(found.grounded, verbose=verbose):
+    ground = partial(answer, corpus, world, asked.environment, reading=reading, ask=asking, **options)
+    if lines:
+        return _ground_lines(ground, replace(shown, brief=True), output)
+    found = ground(text=request)
+    emit(shown.value(found), output)
+    for line in remarks(found.grounded, verbose=shown.verbose):
         emit(line, error=True)
     return found.code
+
+
+def _prompt(roots: Roots, asked: Asked, request: str, reading: ReadingOptions) -> str:
+    settings = reading.settings()
+    if settings is None:
+        raise click.UsageError("--show-prompt is for --reader llm")
+    from tmd.readers.llm.reader import llm_reader
+
+    corpus, world = roots.world(asked.environment, asked.domain)
+    prompt = llm_reader(corpus, settings).prompt(request, world, world.task.init)
+    return f"{prompt.system}\n\n{prompt.user}\n"
+
+
+def _ground_lines(ground: Callable[..., Answer], shown: _Shown, output: Path | None) -> ExitCode:
+    """Ground each line of standard input, and print a line for it; return the first code other than 0."""
+    from tmd.view.answer_text import remarks
+
+    code, kept = ExitCode.OK, []
+    for number, line in enumerate(iter(lambda: sys.stdin.buffer.readline(4 * MAX_CHARACTERS), b""), start=1):
+        if not line.strip():
+            continue
+        value: object
+        try:
+            request = line.decode("utf-8", "surrogateescape").removeprefix("\ufeff").strip()
+            found = ground(text=GivenText(request, None).request())
+            value, ended, told = shown.value(found), found.code, remarks(found.grounded, verbose=shown.verbose)
+        except (TmdError, RecursionError) as error:
+            fault = fault_of(error, "tmd ground")
+            value, ended = fault.json() if shown.as_json else "no plan\n", fault.code
+            told = fault.text().splitlines(keepends=True)
+        kept.append(value if isinstance(value, str) else json.dumps(value, ensure_ascii=False) + "\n")
+        if output is None:
+            emit(kept.pop())
+        emit("".join(f"line {number}: {remark}" for remark in told), error=True)
+        code = code or ended
+    if output is not None:
+        emit("".join(kept), output)
+    return code
 
 
 @click.command("test", short_help="Run sentence tests: requests with expected goals.")

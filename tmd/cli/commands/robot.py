@@ -11,17 +11,16 @@ import click
 
 from tmd.cli.options import (
     PATH,
-    GivenText,
+    Asked,
     ReadingOptions,
-    environment_domain_option,
-    environment_option,
+    asked_options,
     learned_option,
     name_list,
     overwrite_option,
+    place_options,
     reading_options,
     robot_options,
     seed_option,
-    text_options,
 )
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
@@ -45,11 +44,9 @@ def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | 
 
 
 @click.command("run", short_help="Let a simulated PR2 carry out a request, and check each step.")
-@environment_option
-@text_options
+@asked_options
 @click.option("--plan", "plan_file", type=PATH, metavar="FILE", help="Carry out this plan, not a text.")
 @click.option("--goal", metavar="CONDITION", help="Find a plan for this PDDL condition, such as (on a b).")
-@environment_domain_option
 @learned_option
 @reading_options
 @click.option("--planner", metavar="NAME", help="Planner for gaps and replanning; in-process by default.")
@@ -73,11 +70,9 @@ def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | 
 def run(
     roots: Roots,
     /,
-    environment: str,
-    spoken: GivenText,
+    asked: Asked,
     plan_file: Path | None,
     goal: str | None,
-    domain_name: str | None,
     learned: Path | None,
     reading: ReadingOptions,
     planner: str | None,
@@ -86,7 +81,7 @@ def run(
     as_json: bool,
     **settings: Any,  # noqa: ANN401 - fields of PlanRunner
 ) -> ExitCode:
-    """Carry out a request in simulation.
+    """Carry out REQUEST in ENVIRONMENT, in simulation.
 
     A text is grounded as by "tmd ground", a goal is planned for as by "tmd plan". A PR2 does one instruction after the
     other; after each, the state is read back from the simulation and compared with what PDDL predicts. Where the two
@@ -95,8 +90,9 @@ def run(
     Ends with 12 where a text gives no plan, with 10 where it is proven that no plan reaches the goal, and with 14
     where the robot stopped before everything was done.
     """
-    if sum(given is not None for given in (spoken.text, spoken.text_file, plan_file, goal)) != 1:
-        raise click.UsageError("give one of --text, --text-file, --plan and --goal")
+    environment, domain, spoken = asked.environment, asked.domain, asked.spoken
+    if sum(map(bool, (spoken, plan_file, goal is not None))) != 1:
+        raise click.UsageError("give one of REQUEST, --text, --text-file, --plan and --goal")
 
     from tmd.cli.grounding import answer
     from tmd.cli.plans import orders_of_file, orders_of_goal, orders_of_text
@@ -108,10 +104,10 @@ def run(
     from tmd.world.corpus import is_environment_file
 
     request = spoken.request() if spoken else ""
-    room, folder = roots.room(environment, domain_name)
+    room, folder = roots.room(environment, domain)
     if log is not None:
         check_writable(log)
-    corpus, world = roots.world(environment, domain_name)
+    corpus, world = roots.world(environment, domain)
     problem = world.task.problem
     runner = PlanRunner(room, folder, problem, planner=planner or IN_PROCESS, **model, **settings)
     with ExitStack() as stack:
@@ -121,18 +117,18 @@ def run(
         elif goal is not None:
             orders = orders_of_goal(goal, problem, planner)
         else:
-            found = answer(corpus, world, environment, request, reading, learned=learned, planner=planner)
+            found = answer(corpus, world, environment, text=request, reading=reading, learned=learned, planner=planner)
             orders = orders_of_text(found)
         for line in orders.remarks:
             emit(line, error=True)
         file = environment if is_environment_file(environment) else None
-        asked = runner.request(orders.orders, request or None, environment_file=file, **orders.given)
+        record = runner.request(orders.orders, request or None, environment_file=file, **orders.given)
         if orders.code:
             if as_json:
-                emit(without_plan(asked, orders))
+                emit(without_plan(record, orders))
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
-        report = RunReport(asked, orders.orders, journal, as_json=as_json)
+        report = RunReport(record, orders.orders, journal, as_json=as_json)
         ran = runner.run(orders.orders, report.prepare, report.heading, request)
         report.log_ending(ran.execution, ran.sim_steps)
     report.print_ending(ran.execution, ran.sim_steps)
@@ -140,8 +136,7 @@ def run(
 
 
 @click.command("scene", short_help="Show an environment as the robot's room.")
-@environment_option
-@environment_domain_option
+@place_options
 @click.option("--reach", is_flag=True, help="Print a base pose for grasping every object.")
 @seed_option
 @robot_options
@@ -154,8 +149,7 @@ def run(
 @click.pass_obj
 def scene(
     roots: Roots,
-    environment: str,
-    domain_name: str | None,
+    place: tuple[str, str | None],
     reach: bool,
     seed: int,
     model: dict[str, Any],
@@ -164,7 +158,7 @@ def scene(
     formats: tuple[str, ...] | None,
     overwrite: bool,
 ) -> None:
-    """Build the room of an environment, put a PR2 into it, and say what stands where.
+    """Build the room of ENVIRONMENT, put a PR2 into it, and say what stands where.
 
     With --export the room is written as URDF or MJCF, its meshes beside it, without the robot.
     """
@@ -175,7 +169,7 @@ def scene(
     from tmd.robot.skills.reachability_report import survey_scene
 
     urdf = model["urdf"] if model["robot"] is None else packaged_robot(model["robot"])
-    room, folder = roots.room(environment, domain_name)
+    room, folder = roots.room(*place)
     found = survey_scene(room, folder, reach=reach, seed=seed, urdf=urdf, picture=picture)
     stances = found.stances if reach else None
     written = _exported(room, folder, export, formats, overwrite) if export is not None else []

@@ -13,10 +13,12 @@ from tmd.datasets.veil500.data import Point, VeilData, load
 from tmd.datasets.veil500.forms import mentioned, veil_domain
 from tmd.datasets.veil500.relations import initial_relations, unsupported
 from tmd.pddl.forced_execution import ForcedExecution
+from tmd.short_repr import short_repr
 
 _WORD = re.compile(r"[a-z0-9']+")
 
 
+@short_repr(lambda report: report.directory)
 @dataclass(frozen=True, slots=True)
 class DataReport:
     """Counts, by section, and remarks that a reader should know.

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from tmd import __version__
+from tmd.short_repr import short_repr
 
 BUNDLED = "bundled"
 VEIL500 = "veil500"
@@ -24,6 +25,7 @@ _DECISIVE = (
 """The settings that decide the outcome of a run."""
 
 
+@short_repr(lambda config: f"{config.task} in {config.out}")
 @dataclass(frozen=True, slots=True)
 class ExperimentConfig:
     """The configuration of a run.

@@ -16,6 +16,7 @@ from tmd.robot.skills.pick_and_place import pick_options
 from tmd.robot.skills.robot_context import Cell, make_cell
 from tmd.robot.skills.stance_search import Base, candidates, stances, with_room
 from tmd.robot.video.captions import pillow, write_picture
+from tmd.short_repr import short_repr
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
@@ -50,6 +51,7 @@ class Stance:
         return f"from {x:.2f} {y:.2f}, facing {degrees(heading):.0f}°{hand}"
 
 
+@short_repr(lambda survey: f"{survey.name}: {len(survey.entries)} objects")
 @dataclass(frozen=True, slots=True)
 class SceneSurvey:
     """An environment as the robot's room.

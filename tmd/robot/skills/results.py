@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from tmd.pddl.model import GroundAtom, Instruction, State
+from tmd.short_repr import short_repr
 
 
 class SkillPhase(StrEnum):
@@ -72,6 +73,7 @@ class Mismatch:
         return f"{'' if self.expected else 'not '}{self.atom} was expected, but {self.measured}"
 
 
+@short_repr(lambda step: f"{step.instruction}: {step.failure or step.evidence}")
 @dataclass(frozen=True, slots=True)
 class ExecutedStep:
     """One instruction, as it went.
@@ -109,6 +111,7 @@ class SkillStatus(StrEnum):
     STOPPED = "stopped"
 
 
+@short_repr(lambda run: f"{run.status}, {len(run.steps)} step(s) {run.reason}".strip())
 @dataclass(frozen=True, slots=True)
 class Execution:
     """A plan, as it went.

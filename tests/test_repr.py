@@ -1,0 +1,123 @@
+"""Results in Python: one line of at most 200 characters, and pages in notebooks."""
+
+from __future__ import annotations
+
+import html
+import inspect
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from pathlib import Path
+
+import pytest
+
+import tmd
+from tests.bundled import kit
+from tmd.datasets.veil500.report import DataReport
+from tmd.diagnostics import Refusal, RefusalKind
+from tmd.pddl.model import Instruction
+from tmd.records.run import RunRecord, RunRequest
+from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
+from tmd.short_repr import LONGEST, short_repr
+from tmd.world.scaffold import Scaffold
+
+TEXT = "Put the cup on the first table."
+IN_FULL = (
+    "tmd.goals.", "tmd.inference.", "tmd.language.", "tmd.library.template", "tmd.pddl.", "tmd.planning.",
+    "tmd.readers.",
+)  # fmt: skip
+"""Packages whose classes are parts of results, and are shown in full."""
+
+
+def run() -> tmd.RecordedRun:
+    """A run of many steps."""
+    step = ExecutedStep(Instruction("moveto", ("cup1",)), False, "", "the cup is near " * 30, (), (), 0, 9, frozenset())
+    execution = Execution(SkillStatus.STOPPED, "it is out of reach " * 30, (step,) * 50, 0, frozenset())
+    asked = RunRequest(
+        text=TEXT, domain="02_table", environment="corner2", mode="kinematic", seed=0, planner="in-process", plan=(),
+        version="0", environment_file=None, strip=None, grounding=None,
+    )  # fmt: skip
+    return tmd.RecordedRun(execution, RunRecord.of(asked, (), execution, 9))
+
+
+@pytest.fixture(scope="module")
+def results() -> list[object]:
+    """One object of each public class, and further results of what is public."""
+    table = kit("02_table")
+    grounded = table.ground(TEXT, "corner2", top=3)
+    plan = grounded.plans[0].instructions
+    problem = table.problem("corner2", goal="(at cup1 table1 on)")
+    paths = tuple(map(Path, ("a", "b") * 200))
+    return [
+        table, grounded, plan[0], problem, tmd.validate(problem, plan), run(), run().record, run().execution,
+        table.ground("Put the zebra " * 30, "corner2"), tmd.check_files("02_table"), tmd.parse(TEXT * 20),
+        tmd.ModelSettings(), tmd.ExperimentConfig("tea", Path("run"), models=("empty",) * 100),
+        *table.run_sentence_tests(),
+        Scaffold(Path("x"), Path("y"), paths, (), ""), DataReport("veil", {"a": {"b": 1}}, ("remark " * 20,) * 20),
+        Refusal(RefusalKind.UNSAFE, "word " * 200),
+    ]  # fmt: skip
+
+
+def parts(value: object, depth: int = 3) -> Iterator[object]:
+    """A value, and what its fields hold, of the classes of this package."""
+    if isinstance(value, tuple | list | Mapping):
+        for part in list(value.values() if isinstance(value, Mapping) else value)[:5]:
+            yield from parts(part, depth)
+    if type(value).__module__.startswith("tmd."):
+        yield value
+        if is_dataclass(value) and depth:
+            for field in fields(value):
+                yield from parts(getattr(value, field.name), depth - 1)
+
+
+def test_every_public_class_is_among_the_results(results: list[object]) -> None:
+    public = {each for name in tmd.__all__ if inspect.isclass(each := getattr(tmd, name))}
+    assert {each for each in public if not issubclass(each, Exception)} <= set(map(type, results))
+
+
+def test_results_are_shown_on_one_line(results: list[object]) -> None:
+    shown = {repr(part): type(part) for part in parts(results) if not type(part).__module__.startswith(IN_FULL)}
+    assert {line: cls for line, cls in shown.items() if len(line) > LONGEST or "\n" in line} == {}
+    assert f"<Grounded '{TEXT}' in corner2: 2 plan(s)>" in shown and "<World corner2>" in shown
+
+
+def test_a_long_summary_is_cut() -> None:
+    @short_repr(lambda thing: "word\n" * 100)
+    class Thing:
+        pass
+
+    assert len(repr(Thing())) <= LONGEST
+    assert repr(Thing()).startswith("<Thing word word ") and repr(Thing()).endswith(" …>")
+
+
+def test_a_notebook_shows_the_page_of_a_result(results: list[object]) -> None:
+    shown = results[1]._repr_html_()
+    page = shown.partition('srcdoc="')[2].partition('"')[0]
+    assert html.unescape(page) == tmd.grounded_page(results[1])
+
+
+def test_weights_of_single_factors() -> None:
+    table = kit("02_table")
+    own, other, without = (
+        table.ground(TEXT, "corner2", weights=weights).plans[0]
+        for weights in (None, {"description length": 7, "language model (-log P)": 0.5}, {"description_length": 0})
+    )
+
+    def weighed(name: str) -> list[float]:
+        return [round(plan.factors[name] / plan.raw[name], 6) for plan in (own, other, without)]
+
+    first, *others = weighed("description_length")
+    assert others == [7, 0] and first not in others
+    assert len(set(weighed("changes_not_asked_for"))) == 1
+
+
+@pytest.mark.parametrize(
+    ("weights", "told"),
+    [
+        ({"description lenght": 2.0}, "there is no factor 'description_lenght' .*did you mean \"description_length\""),
+        ({"description length": "much"}, "'much' is not a number"),
+        ({"description length": float("nan")}, "not finite"),
+    ],
+)
+def test_wrong_weights_are_refused(weights: dict[str, float], told: str) -> None:
+    with pytest.raises(tmd.TmdError, match=told):
+        kit("02_table").ground(TEXT, "corner2", weights=weights)
