@@ -48,7 +48,8 @@ def results() -> list[object]:
     problem = table.problem("corner2", goal="(at cup1 table1 on)")
     paths = tuple(map(Path, ("a", "b") * 200))
     return [
-        table, grounded, plan[0], problem, tmd.validate(problem, plan), run(), run().record, run().execution,
+        table, grounded, grounded.plans[0], grounded.config, table.lexicon, plan[0], problem, problem.domain,
+        tmd.validate(problem, plan), run(), run().record, run().execution,
         table.ground("Put the zebra " * 30, "corner2"), tmd.check_files("02_table"), tmd.parse(TEXT * 20),
         tmd.ModelSettings(), tmd.ExperimentConfig("tea", Path("run"), models=("empty",) * 100),
         *table.run_sentence_tests(),
@@ -75,7 +76,9 @@ def test_every_public_class_is_among_the_results(results: list[object]) -> None:
 
 
 def test_results_are_shown_on_one_line(results: list[object]) -> None:
-    shown = {repr(part): type(part) for part in parts(results) if not type(part).__module__.startswith(IN_FULL)}
+    public = {type(result) for result in results}
+    found = (part for part in parts(results) if type(part) in public or not type(part).__module__.startswith(IN_FULL))
+    shown = {repr(part): type(part) for part in found}
     assert {line: cls for line, cls in shown.items() if len(line) > LONGEST or "\n" in line} == {}
     assert f"<Grounded '{TEXT}' in corner2: 2 plan(s)>" in shown and "<World corner2>" in shown
 

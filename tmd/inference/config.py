@@ -11,11 +11,13 @@ from dataclasses import dataclass, replace
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import nearest
+from tmd.short_repr import short_repr
 
 AKIN = 0.75
 """Value of a noun, in extended presets, that differs from another only by a modifier."""
 
 
+@short_repr(lambda config: f"with weights {config.weights}")
 @dataclass(frozen=True, slots=True)
 class InferenceConfig:
     """A preset: how clauses become plans.

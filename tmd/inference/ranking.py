@@ -12,6 +12,7 @@ from tmd.inference.tidying import Need
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
 from tmd.readers.interface import Question
+from tmd.short_repr import short_repr
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,6 +150,7 @@ class Way:
         return self.energy, self.instructions
 
 
+@short_repr(lambda plan: f"of {len(plan.steps)} step(s), energy {plan.energy:.4f}")
 @dataclass(frozen=True, slots=True)
 class RankedPlan:
     """A plan for the whole text.

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 from tmd.diagnostics import Location, TmdError
 from tmd.language.lexicon.lexicon import section
+from tmd.short_repr import short_repr
 
 
 class Span(NamedTuple):
@@ -251,6 +252,7 @@ class Skipped(NamedTuple):
     reason: str
 
 
+@short_repr(lambda parsed: f"{parsed.text!r}: {len(parsed.clauses)} clause(s)")
 @dataclass(frozen=True, slots=True)
 class Parsed:
     """A text as clauses. Nothing of the text is silently lost: what no clause covers is in ``skipped``.

@@ -9,6 +9,7 @@ from heapq import heappop, heappush
 from typing import Any, NamedTuple, TypeAlias
 
 from tmd.diagnostics import Location
+from tmd.short_repr import short_repr
 
 OBJECT = "object"
 """The root of the type hierarchy."""
@@ -194,6 +195,7 @@ class Axiom:
     location: Location | None = field(default=None, compare=False, repr=False)
 
 
+@short_repr(lambda domain: f"{domain.name}: {len(domain.actions)} action(s)")
 @dataclass(frozen=True, slots=True)
 class Domain:
     """A PDDL domain. Order of declaration is kept."""
@@ -209,6 +211,7 @@ class Domain:
     location: Location | None = field(default=None, compare=False, repr=False)
 
 
+@short_repr(lambda problem: f"{problem.name} of {problem.domain.name}: {len(problem.objects)} object(s)")
 @dataclass(frozen=True, slots=True)
 class Problem:
     """A PDDL problem together with its domain.

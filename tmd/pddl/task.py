@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple, TypeAlias
 
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.short_repr import short_repr
 
 Bits: TypeAlias = int
 """A set of fluent atoms, bit ``i`` for ``task.atoms[i]``."""
@@ -70,6 +71,7 @@ class Operator:
         return state & ~delete | add
 
 
+@short_repr(lambda task: task.problem.name)
 @dataclass(frozen=True, slots=True)
 class Task:
     """A ground problem.

@@ -14,6 +14,7 @@ from functools import cache, cached_property, lru_cache
 from importlib.resources import files
 
 from tmd.diagnostics import Location
+from tmd.short_repr import short_repr
 
 TYPO_LENGTH = 4
 """Shorter words are never corrected."""
@@ -121,6 +122,7 @@ class PhraseRow:
     examples: tuple[tuple[str, Location], ...]
 
 
+@short_repr(lambda lexicon: f"of {len(lexicon.verbs)} verb(s), {len(lexicon.nouns)} noun(s)")
 @dataclass(frozen=True, eq=False)
 class Lexicon:
     """Built-in words plus those of a domain.
