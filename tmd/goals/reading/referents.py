@@ -625,7 +625,9 @@ class Referents:
             left = self._taken_away(referent, relation, target, names, reading)
             if left is not None:
                 referent = referent.only(n for n in referent.names if n not in left)
-            elif names and not is_relation(relation, "untelling"):
+            elif is_relation(relation, "untelling"):
+                referent = referent.only(self.called_by(referent, (relation, target), reading) or referent.names)
+            elif names:
                 stated = Relation(relation, referent.noun, target) in reading.clause.stated
                 referent = self._where(referent, (relation, target), reading, whole, stated=stated)
         return referent

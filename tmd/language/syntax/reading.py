@@ -52,7 +52,7 @@ class TextReading:
         skipped: What asks for nothing, as tokens that carry the reason.
         alone: The text has one unit.
         polite: The text asks politely.
-        conditioned: What the last condition says.
+        conditioned: The last condition.
     """
 
     text: str
@@ -62,7 +62,7 @@ class TextReading:
     skipped: list[Token] = field(default_factory=list)
     alone: bool = False
     polite: bool = False
-    conditioned: tuple[Clause, ...] = ()
+    conditioned: Condition | None = None
 
     def read(self, tree: Tree[Leaf]) -> TextReading:
         """Read the tree of a text."""
@@ -199,7 +199,7 @@ class TextReading:
             elif next(leaves(node)).text in section("because"):
                 self._explained(draft, node)
             elif node.data == "purpose" or not (self._ordered(draft, node) or _only_when(node)):
-                draft.conditions.append(self._condition(node))
+                self._add_condition(draft, node)
                 draft.fronted = draft.fronted or (fronted and node.data == "condition")
 
     def _explained(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
@@ -234,6 +234,18 @@ class TextReading:
         self.drafts[at:at] = events
         return True
 
+    def _add_condition(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
+        """Add a condition or a purpose; *if it isn't* is "otherwise" behind the condition that something is so."""
+        condition, before = self._condition(node), self.conditioned
+        said = condition.clauses
+        if before is not None and node.data == "condition" and said and all(map(_says_nothing, said)):
+            if before.negated != condition.negated:
+                draft.verb.otherwise, draft.spans = True, [*draft.spans, *spans([node])]
+                return
+            condition = replace(condition, clauses=before.clauses)
+        self.conditioned = condition if node.data == "condition" else before
+        draft.conditions.append(condition)
+
     def _condition(self, node: Tree[Leaf]) -> Condition:
         """Read a condition or a purpose."""
         opener, purpose = next(leaves(node)), node.data == "purpose"
@@ -244,9 +256,6 @@ class TextReading:
                 draft.direct.append(Phrase(first_of("singular_pronouns"), draft.verb.span.start, False, True))
         clauses = tuple(replace(draft.clause(self.text), text=text) for draft in drafts)
         aimed = purpose and opener.text not in section("reasons")  # "so that it dries" only says what for
-        if self.conditioned and not purpose and all(_says_nothing(clause) for clause in clauses):
-            clauses = tuple(replace(clause, text=text) for clause in self.conditioned)  # "but if it isn't, …"
-        self.conditioned = self.conditioned if purpose else clauses
         return Condition(TO if aimed else opener.text, clauses, opener.negated, text)
 
     def _relative(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
@@ -268,10 +277,10 @@ class TextReading:
             targets = [(relation, p) for p in named]
         else:
             targets = said.placed(_NOT * opener.negated)
-            if said.verb.stem == BE and said.result is not None and not named:
+            if said.verb.stem == BE and said.result and not named:
                 noun.attributes.append(_NOT * opener.negated + said.result)
-            elif relation != WHERE and (named or not targets):  # it tells which one is meant, and must not be lost
-                noun.attributes.append("_".join([opener.text, *(p.name for p in said.mentions()), said.verb.stem]))
+            elif relation != WHERE and (named or not targets):
+                noun.attributes += _telling(said, opener)
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
             draft.stated.append(draft.relations[-1])
@@ -595,3 +604,13 @@ def _says_nothing(clause: Clause) -> bool:
     said = clause.result or clause.setting or clause.relations
     about = section("pronouns") | section("subjects")
     return clause.verb == BE and not said and about.issuperset(clause.objects)
+
+
+def _telling(said: ClauseDraft, opener: Token) -> list[str]:
+    """Return what must not be lost of a relative clause that tells which thing is meant.
+
+    *All that you can find* tells only that it is there.
+    """
+    if said.verb.stem in section("noticed") and opener.text in section("subjects"):
+        return []
+    return ["_".join([opener.text, *(p.name for p in said.mentions()), said.verb.stem])]
