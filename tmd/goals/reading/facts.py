@@ -189,10 +189,11 @@ class Facts:
     ) -> tuple[str, ...]:
         """Return those of ``names`` that are in a relation to one of ``targets`` when the clause begins."""
         partitive = the_word("relations", "partitive")
-        also = [partitive] if is_relation(relation, "accompanying") else []  # "the bike with the flat wheel"
+        accompanied = is_relation(relation, "accompanying")  # "the bike with the flat wheel"
 
         def holds(name: str, target: str) -> bool:
-            said = (self.related(one, name, target, moments) for one in (relation, *also))
+            said = [self.related(relation, name, target, moments)]
+            said += [self._related_by_facts(partitive, name, target)] if accompanied else []
             return name != target and any(self.grounder.truth(formula, moments.now) for formula in said)
 
         return tuple(name for name in names if any(holds(name, target) for target in targets))
@@ -240,5 +241,6 @@ class _Says:
 
 def _called_after(name: str, target: str) -> bool:
     """Return whether a name has the words that tell another thing from those of its class."""
-    modifiers = [word for word in split_name(target) if not word.isdigit()][:-1]
-    return bool(modifiers) and set(modifiers) <= set(split_name(name))
+    *modifiers, head = [word for word in split_name(target) if not word.isdigit()] or [target]
+    words = set(split_name(name))
+    return bool(modifiers) and set(modifiers) <= words and head not in words
