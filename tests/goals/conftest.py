@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from pathlib import Path
 
 import pytest
 
+import tmd
 from tests.bundled import kit
 from tmd.ground import reader_of
 from tmd.grounded import Grounded
@@ -55,3 +57,19 @@ def end(grounded: Grounded) -> set[str]:
     """The facts that hold when the first plan is done."""
     assert grounded.verdicts[0].valid
     return {str(atom) for atom in grounded.world.task.decode(grounded.plans[0].state)}
+
+
+def plain_world(folder: Path, domain: str, problem: str) -> Path:
+    """Write a world without a lexicon."""
+    (folder / "domain.pddl").write_text(domain)
+    (folder / "problem.pddl").write_text(problem)
+    return folder
+
+
+def assert_ends(folder: Path, text: str, held: Collection[str], gone: Collection[str]) -> None:
+    """Check that a request in a plain world has goals, and a plan that ends in some facts and without others."""
+    grounded = tmd.load_domain(str(folder)).ground(text, folder / "problem.pddl")
+    assert goals(grounded)
+    facts = end(grounded)
+    assert facts.issuperset(held)
+    assert facts.isdisjoint(gone)

@@ -6,8 +6,7 @@ from pathlib import Path
 
 import pytest
 
-import tmd
-from tests.goals.conftest import end
+from tests.goals.conftest import assert_ends, plain_world
 from tmd.language.lexicon.names import split_name
 
 DOMAIN = """(define (domain Harbour)
@@ -40,10 +39,7 @@ PROBLEM = """(define (problem Monday) (:domain Harbour)
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Write the world."""
-    folder = tmp_path_factory.mktemp("harbour")
-    (folder / "domain.pddl").write_text(DOMAIN)
-    (folder / "problem.pddl").write_text(PROBLEM)
-    return folder
+    return plain_world(tmp_path_factory.mktemp("harbour"), DOMAIN, PROBLEM)
 
 
 @pytest.mark.parametrize(
@@ -82,10 +78,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ],
 )
 def test_requests_end_as_they_ask(folder: Path, text: str, held: set[str], gone: set[str]) -> None:
-    """The plan ends in what was asked, and in nothing of what was not."""
-    state = end(tmd.load_domain(str(folder)).ground(text, folder / "problem.pddl"))
-    assert held <= state
-    assert gone.isdisjoint(state)
+    assert_ends(folder, text, held, gone)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 import tmd
-from tests.goals.conftest import end, goals
+from tests.goals.conftest import assert_ends, end, plain_world
 
 DOMAIN = """(define (domain store)
   (:requirements :strips :typing :negative-preconditions)
@@ -40,10 +40,7 @@ PROBLEM = """(define (problem morning) (:domain store)
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Write the world."""
-    folder = tmp_path_factory.mktemp("store")
-    (folder / "domain.pddl").write_text(DOMAIN)
-    (folder / "problem.pddl").write_text(PROBLEM)
-    return folder
+    return plain_world(tmp_path_factory.mktemp("store"), DOMAIN, PROBLEM)
 
 
 @pytest.mark.parametrize(
@@ -63,11 +60,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     ],
 )
 def test_requests_end_as_they_ask(folder: Path, text: str, held: set[str], gone: set[str]) -> None:
-    grounded = tmd.load_domain(str(folder)).ground(text, folder / "problem.pddl")
-    assert goals(grounded)
-    facts = end(grounded)
-    assert set(held) <= facts
-    assert facts.isdisjoint(gone)
+    assert_ends(folder, text, held, gone)
 
 
 def test_a_prohibition_that_nothing_can_check_is_told(folder: Path) -> None:

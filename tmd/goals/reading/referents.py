@@ -259,7 +259,8 @@ class Referents:
         """
         relation, target = said
         names = self.targets(target, reading)
-        if is_relation(relation, "excepting") or not set(names) <= set(referent.names):
+        unlike = is_relation(relation, "excepting") or is_relation(relation, "lacking")
+        if unlike or not set(names) <= set(referent.names):
             return ()
         told_of = self.nouns.is_only_told_of(referent.noun)  # "the lamps in all rooms", of which facts say `lamp_on`
         alone = len(names) < len(referent.names) and not self._is_kind(split_name(target)[-1], names)
@@ -625,9 +626,9 @@ class Referents:
             left = self._taken_away(referent, relation, target, names, reading)
             if left is not None:
                 referent = referent.only(n for n in referent.names if n not in left)
-            elif is_relation(relation, "untelling"):
+            elif is_relation(relation, "benefit"):  # "the parcel for the tailor"
                 referent = referent.only(self.called_by(referent, (relation, target), reading) or referent.names)
-            elif names:
+            elif names and not is_relation(relation, "untelling"):
                 stated = Relation(relation, referent.noun, target) in reading.clause.stated
                 referent = self._where(referent, (relation, target), reading, whole, stated=stated)
         return referent

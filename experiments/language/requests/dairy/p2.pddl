@@ -1,5 +1,5 @@
-(define (problem farm_evening)
-  (:domain small_farm)
+(define (problem dairy_evening)
+  (:domain small_dairy)
   (:objects
     upper_meadow lower_meadow - field
     cow_barn calf_pen - pen
@@ -10,7 +10,7 @@
     clippers - shears
     oat_sack barley_sack - feed)
   (:init
-    (farmer_at cow_barn) (hands_free)
+    (dairyman_at cow_barn) (hands_free)
     (has_gate upper_meadow) (has_gate lower_meadow) (has_gate cow_barn) (has_gate calf_pen)
     (gate_closed upper_meadow) (gate_closed calf_pen) (gate_closed lower_meadow)
     (has_trough upper_meadow) (has_trough cow_barn)

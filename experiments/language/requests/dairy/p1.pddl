@@ -1,5 +1,5 @@
-(define (problem farm_morning)
-  (:domain small_farm)
+(define (problem dairy_morning)
+  (:domain small_dairy)
   (:objects
     north_field south_field - field
     cow_barn sheep_pen - pen
@@ -10,7 +10,7 @@
     old_shears - shears
     hay_bale - feed)
   (:init
-    (farmer_at tool_shed) (hands_free)
+    (dairyman_at tool_shed) (hands_free)
     (has_gate north_field) (has_gate south_field) (has_gate cow_barn) (has_gate sheep_pen)
     (gate_closed north_field) (gate_closed cow_barn) (gate_closed sheep_pen)
     (has_trough north_field) (has_trough south_field) (has_trough cow_barn) (has_trough sheep_pen)
