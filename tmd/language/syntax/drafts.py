@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from lark import Tree
@@ -242,6 +242,7 @@ class Attachment:
             draft.relations.extend(Relation(TO, p.name, receiver.name) for p in phrases)
         wanted = [p for p in phrases if p.said().quantifier is not Quantifier.NONE]
         phrases = self._without(wanted, phrases) if wanted else phrases  # "a coffee, no sugar"
+        phrases = self._told_apart(phrases)
         draft.direct.extend(phrases)
         self.host, self._behind = phrases, ""
         self._of(phrases)
@@ -285,7 +286,8 @@ class Attachment:
     def _named(self, preposition: Token, group: Tree[Leaf]) -> tuple[str, list[Phrase]]:
         """Return the relation and its targets; what goes with the object ("and the lid too") becomes one."""
         name, also = pairs("relation_names").get(preposition.text, preposition.text), also_of(group)
-        targets = [self._told_apart(p) for p in phrases_of(group) if p.name not in {q.name for q in also}]
+        targets = self._told_apart(p for p in phrases_of(group) if p.name not in {q.name for q in also})
+        also = self._told_apart(also)
         self.draft.direct += also
         self.host = [*self.host, *also] if self.host else []
         if name in section("with_words") and targets and targets[0].said().quantifier is Quantifier.NONE:
@@ -312,10 +314,16 @@ class Attachment:
             self.host = targets
         self._behind = name
 
-    def _told_apart(self, phrase: Phrase) -> Phrase:
-        """Name "the other table" *one* where this clause has mentioned a table."""
-        again = any(p.name == phrase.name for p in self.draft.mentions())
-        return as_one(phrase) if again and not section("other_words").isdisjoint(phrase.lead) else phrase
+    def _told_apart(self, phrases: Iterable[Phrase]) -> list[Phrase]:
+        """Name "the other table" and "the clean cup" *one* where this clause has mentioned another table or cup."""
+        mentioned = self.draft.mentions()
+        found: list[Phrase] = []
+        for phrase in phrases:
+            before = [p for p in (*mentioned, *found) if p.name == phrase.name]
+            other = not section("other_words").isdisjoint(phrase.lead)
+            told = other or any(p.said().attributes != phrase.said().attributes for p in before)
+            found.append(as_one(phrase) if before and told else phrase)
+        return found
 
     def _relate(self, name: str, sources: Sequence[Phrase], targets: list[Phrase]) -> None:
         """Relate targets to their sources; without sources, to what the verb will turn out to act on."""
@@ -335,10 +343,11 @@ class Attachment:
             return False
         sources = list(self.host if self._paired else self.draft.direct)
         self._relate(next(leaves(node)).text, sources, phrases[:1])
-        self.draft.direct += phrases[1:]
-        self._of(phrases[1:])
+        others = self._told_apart(phrases[1:])
+        self.draft.direct += others
+        self._of(others)
         self.flush(sources)
-        self.host, self._behind, self._paired = phrases[1:], "", True
+        self.host, self._behind, self._paired = others, "", True
         return True
 
     def _pairs(self, node: Tree[Leaf], rest: Sequence[Node], phrases: list[Phrase]) -> bool:
