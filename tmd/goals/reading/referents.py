@@ -480,6 +480,9 @@ class Referents:
     def _told_apart(self, whole: Referent, context: Context) -> Referent:
         """Return the candidates that the adjectives, the relations and the rest of the text leave."""
         noun, phrase, reading = context.noun, context.phrase, context.reading
+        if phrase.other:  # what was said of the first one does not tell which: "do the same with the other one"
+            unspoken = self._unspoken(whole, reading.memory.bound)
+            whole = unspoken if unspoken.names else whole
         names, unknown = self.nouns.narrowed(whole.names, phrase, reading.moments)
         clause = reading.clause
         filled = any(r.source == noun and is_relation(r.relation, "partitive") for r in clause.relations)
