@@ -541,6 +541,31 @@ def test_ones_are_told_apart() -> None:
     assert [clause.phrase(noun).attributes for noun in clause.direct] == [("white",), ("red",)]
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Wash the dirty pot and the full pot.", "(wash, [pot, one])"),
+        (
+            "Put the pot on the bench and the other pot too.",
+            "(put, [pot, bench, one], on: pot -> bench, on: one -> bench)",
+        ),
+        (
+            "Lay the rope that is in the shed on the bench, then the other rope as well.",
+            "(lay, [rope, shed, bench, one], in: rope -> shed, on: rope -> bench, on: one -> bench)",
+        ),
+        (
+            "Put the pot on the bench and the other pot in the chest.",
+            "(put, [pot, bench, one, chest], on: pot -> bench, in: one -> chest)",
+        ),
+    ],
+)
+def test_things_of_one_name_are_told_apart_by_what_describes_them(text: str, expected: str) -> None:
+    (clause,) = parse(text).clauses
+    assert print_clause(clause).startswith(expected)
+    assert clause.antecedents["one"][0] == clause.direct[0]
+    assert clause.direct[1] == "one"
+
+
 def test_a_thing_to_be_remembered_is_no_object_of_the_clause_before() -> None:
     parsed = parse("Put the rope back in the chest, and don't forget the lid.")
     assert [clause.direct for clause in parsed.clauses] == [("rope",)]
