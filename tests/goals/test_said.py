@@ -179,13 +179,6 @@ REFUSED = [
         "contradicts what was said",
     ),
     (
-        "03_drawer/study1",
-        "Leave the key where it is and empty the drawer.",
-        1,
-        Kind.CONTRADICTION,
-        "contradicts",
-    ),
-    (
         "02_table/corner1",
         "If the unicorn is on the table, put the cup on the shelf.",
         0,
@@ -344,6 +337,29 @@ def test_what_is_excepted_stays_where_it_is() -> None:
     cleared = said("kitchen", "kitchen2", "Clear the counter except for the sugar bowl.")
     assert "(at sugar_bowl1 counter1 on)" in end(cleared)
     assert "(at coffee_pod1 counter1 on)" not in end(cleared)
+
+
+def test_what_is_left_where_it_is_is_not_cleared_away() -> None:
+    cleared = end(said("kitchen", "kitchen4", "Clear table 1, but leave the mug where it is."))
+    assert "(at mug1 table1 on)" in cleared and "(at bowl1 table1 on)" not in cleared
+    emptied = said("03_drawer", "study1", "Leave the key where it is and empty the drawer.")
+    assert emptied.refused is None
+
+
+def test_everything_else_is_what_was_not_spoken_of() -> None:
+    for others in ("everything else on", "all the other things from"):
+        text = f"Put the mug on table 2 and {others} table 1 on counter 1."
+        facts = end(said("kitchen", "kitchen4", text))
+        assert {"(at mug1 table2 on)", "(at bowl1 counter1 on)", "(at spoon1 counter1 on)"} <= facts, text
+
+
+@pytest.mark.parametrize("contrary", ["otherwise", "else", "or else", "if not,"])
+def test_otherwise_repeats_the_verb(contrary: str) -> None:
+    for text in (
+        f"Put the book on the sofa if the window is open, {contrary} on the shelf.",
+        f"If the window is open, the book should be on the sofa, {contrary} on the shelf.",
+    ):
+        assert "(at book1 shelf1 on)" in end(said("living_room", "room1", text)), text
 
 
 def test_another_flavour_is_another_thing() -> None:

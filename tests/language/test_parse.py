@@ -216,7 +216,7 @@ def test_demands_and_wishes(text: str, expected: list[str]) -> None:
         ),
         (
             "Everything else goes in the crate.",
-            ["(put, [everything, them, crate], except: everything -> them, in: everything -> crate)"],
+            ["(put, [thing, crate], in: thing -> crate)"],
         ),
         (
             "Serve tea with neither milk nor sugar.",

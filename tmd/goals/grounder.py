@@ -204,6 +204,8 @@ class _Grounding:
                 return self._atom(formula, binding)
             case Equals(left, right):
                 return TRUE if binding.get(left, left) == binding.get(right, right) else FALSE
+            case Not(Exists(parameters, part)):  # "nothing is in it", but for what is excepted
+                return conjunction(negation(self.of(part, each)) for each in self._meant(parameters, binding))
             case Not(part):
                 return negation(self.of(part, binding))
             case And(parts):

@@ -443,11 +443,11 @@ class GoalPass(ForwardPass):
         open_ = tuple(dict.fromkeys(Cube(c.positive & ~state, c.negative & state) for c in aim))
         answer = resort.fill(state, open_)
         if isinstance(answer, Filled) and not any(cube.holds(answer.state) for cube in aim):
-            # the alternative that is near without them, alone: a greedy search for all at once approaches none of them
-            alone = tuple(c for c in aim if Cube(c.positive & ~state, c.negative & state).holds(answer.state))
-            answer = resort.fill(state, alone)
-            if isinstance(answer, GaveUp) and len(alone) < len(aim):
-                answer = resort.fill(state, aim)
+            # where no way is short, first the alternative that is near without them: far ways to several take long
+            near = tuple(c for c in aim if Cube(c.positive & ~state, c.negative & state).holds(answer.state))
+            asked = ((self._resort(True), aim), (resort, near), (resort, aim))
+            answers = (planner.fill(state, cubes) for planner, cubes in asked[brief and 2 :])
+            answer = next((a for a in answers if not isinstance(a, GaveUp)), GaveUp("the planner"))
         if isinstance(answer, Filled):
             shorter = eliminate(answer.plan, self.task, state, aim)
             answer = Filled(shorter, self.simulated(state, shorter), len(shorter))

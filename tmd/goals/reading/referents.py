@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -481,7 +481,7 @@ class Referents:
         """Return the candidates that the adjectives, the relations and the rest of the text leave."""
         noun, phrase, reading = context.noun, context.phrase, context.reading
         if phrase.other:  # what was said of the first one does not tell which: "do the same with the other one"
-            unspoken = self._unspoken(whole, reading.memory.bound)
+            unspoken = self._unspoken(whole, reading)
             whole = unspoken if unspoken.names else whole
         names, unknown = self.nouns.narrowed(whole.names, phrase, reading.moments)
         clause = reading.clause
@@ -515,7 +515,7 @@ class Referents:
     def _other(self, referent: Referent, context: Context) -> Referent:
         """Return those of several things that were not spoken of; of places those where the thing is not."""
         bound = context.reading.memory.bound
-        unspoken = self._unspoken(referent, bound)
+        unspoken = self._unspoken(referent, context.reading)
         if unspoken.names and unspoken.names != referent.names:
             return unspoken
         if context.noun in bound:
@@ -523,9 +523,11 @@ class Referents:
         left = self._places_now(referent, context.reading) if context.place else ()
         return referent.only([n for n in referent.names if n not in left] or referent.names)
 
-    def _unspoken(self, referent: Referent, bound: Mapping[str, Bound]) -> Referent:
+    def _unspoken(self, referent: Referent, reading: ClauseReading) -> Referent:
         """Return those of several things that no noun meant: "the red cup in the sink, the other cups on the table"."""
-        spoken = {name for each in bound.values() for name in each.names}
+        spoken = {name for each in reading.memory.bound.values() for name in each.names}
+        if referent.mode is Mode.ALL:  # "the cup in the sink and everything else on the table"
+            spoken |= {name for names in reading.meant.values() for name in names}
         spoken |= {name for each in spoken for name in self.grounder.relatives(each, 1)}  # the burner of a knob
         return referent.only(n for n in referent.names if n not in spoken)
 

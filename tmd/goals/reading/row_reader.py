@@ -532,7 +532,7 @@ class RowReader:
         row, reading = use.row, use.reading
         variables = [variable for variable, _ in pairs]
         further = self.requirements.further(use, pairs)
-        excepted = frozenset(self.referents.excepted(use.leftover, reading))
+        excepted = frozenset((*self.referents.excepted(use.leftover, reading), *reading.memory.left))
 
         def own(binding: Mapping[str, str], spared: frozenset[str]) -> tuple[Formula, bool]:
             if len(set(binding.values())) < len(binding):

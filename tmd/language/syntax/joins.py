@@ -6,7 +6,9 @@ of the text, up to a bounded look ahead.
 
 from __future__ import annotations
 
-from tmd.language.clause import Span
+from dataclasses import replace
+
+from tmd.language.clause import NOWHERE, PUT, Span
 from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section, singular
 from tmd.language.syntax.tokens import HEADS, IDLE, LINKS, NP, Kind, Token, Words, fold
 
@@ -16,6 +18,8 @@ _AHEAD = 30
 """Tokens between a verb and its particle, at most."""
 _NEAR = 7
 """Tokens between a word for all there is and an exception, at most."""
+_DEED = "V|LET|AUX|FINITE|ENSURE|NEG|STOP"
+"""Classes of words that are, or stand beside, the verb of a clause, and the end of a sentence."""
 
 
 def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
@@ -30,6 +34,7 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     tokens = _numbered(Words(tokens))
     _exceptions(Words(tokens))
     _Particles(tokens, lexicon).run()
+    tokens = _with_verbs(Words(tokens))
     _sentences(tokens)
     _mark_early(Words(tokens))
     return tokens
@@ -186,6 +191,25 @@ def _exceptions(words: Words) -> None:
         but = words.among(at, "exceptive") and at - whole <= _NEAR and words.follows(at + 1, "IDLE* NP")
         if but or (token.kind is K.P and words.among(at, "exceptions")):
             token.kind = K.EXC
+
+
+def _with_verbs(words: Words) -> list[Token]:
+    """Repeat the verb behind an "otherwise" that none follows: "put it in the shed if it is dry, else in the sun"."""
+    result: list[Token] = []
+    deed, stated = Token(K.V, PUT, NOWHERE, stem=PUT, form="base"), False
+    for at, token in enumerate(words.tokens):
+        result.append(token)
+        if token.kind in (K.V, K.AUX, K.FINITE):
+            deed, stated = token if token.kind is K.V else deed, token.kind is not K.V
+        if words.among(at, "otherwise_words") and words.kind(at - 1) in LINKS | {K.STOP}:
+            begin = words.past(at + 1, "(IDLE|COMMA)*")
+            if words.follows(begin, "TO|P|NP") and words.first(begin, _DEED) == words.first(begin, "STOP"):
+                token.kind = K.FILLER
+                place = Span(token.span.end, token.span.end)
+                result.append(replace(deed, span=place, parts=[], first=None))
+                if words.kind(at - 1) in LINKS:  # "or else the lamp"
+                    words.tokens[at - 1].kind = K.STOP if stated else K.COMMA
+    return result
 
 
 def _sentences(tokens: list[Token]) -> None:
