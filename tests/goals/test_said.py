@@ -362,6 +362,28 @@ def test_otherwise_repeats_the_verb(contrary: str) -> None:
         assert "(at book1 shelf1 on)" in end(said("living_room", "room1", text)), text
 
 
+@pytest.mark.parametrize(
+    ("condition", "holds"),
+    [
+        ("there is no milk in the cup", True),
+        ("the cup has no milk", True),
+        ("no door is open", True),
+        ("neither the fridge nor the microwave is open", True),
+        ("nothing is in the cup", True),
+        ("the cup has nothing in it", True),
+        ("there isn't anything in the cup", True),
+        ("there is something in the fridge", True),
+        ("there is nothing in the fridge", False),
+        ("anything is in the cup", False),
+    ],
+)
+def test_a_condition_may_deny_its_noun(condition: str, holds: bool) -> None:
+    facts = end(said("kitchen", "kitchen3", f"If {condition}, put the cup on the counter."))
+    assert ("(at cup1 counter1 on)" in facts) == holds
+    facts = end(said("kitchen", "kitchen3", f"Unless {condition}, put the cup on the counter."))
+    assert ("(at cup1 counter1 on)" in facts) != holds
+
+
 def test_another_flavour_is_another_thing() -> None:
     refused = said("kitchen", "kitchen3", "Pour some raspberry milk into the glass.")
     assert refused.refused is not None and "nothing here is called 'raspberry milk'" in refused.reason

@@ -6,7 +6,7 @@ its parts control, then the whole and its other parts. *Open the fridge* opens i
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -205,7 +205,7 @@ class _Grounding:
             case Equals(left, right):
                 return TRUE if binding.get(left, left) == binding.get(right, right) else FALSE
             case Not(Exists(parameters, part)):  # "nothing is in it", but for what is excepted
-                return conjunction(negation(self.of(part, each)) for each in self._meant(parameters, binding))
+                return self.of(Forall(parameters, Not(part)), binding)
             case Not(part):
                 return negation(self.of(part, binding))
             case And(parts):
@@ -216,9 +216,12 @@ class _Grounding:
                 unless = negation(self.of(left, binding))
                 return unless if unless == TRUE else disjunction((unless, self.of(right, binding)))
             case Forall(parameters, part):
-                return conjunction(self.of(part, each) for each in self._meant(parameters, binding))
+                return conjunction(self._each(part, self._meant(parameters, binding)))
             case Exists(parameters, part):
-                return disjunction(self.of(part, e) for e in bindings(parameters, self.grounder.objects, binding))
+                return disjunction(self._each(part, bindings(parameters, self.grounder.objects, binding)))
+
+    def _each(self, part: Formula, ways: Iterable[Mapping[str, str]]) -> Iterator[Formula]:
+        return (self.of(part, binding) for binding in ways)
 
     def _meant(self, parameters: tuple[TypedName, ...], binding: Mapping[str, str]) -> Iterable[Mapping[str, str]]:
         """Return the bindings of variables to what is not excepted."""

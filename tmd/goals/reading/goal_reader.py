@@ -11,12 +11,26 @@ from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Decisions, lost_amo
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.preferences import LEAST, ODDS
 from tmd.goals.reading.noun_phrases import Memory
-from tmd.goals.reading.referents import Referents
+from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
+from tmd.goals.sources.actions import participle
 from tmd.goals.sources.table import ACTIONS, GoalTable
-from tmd.goals.words import BE, PREPOSITIONS, family, is_relation, is_verb, ranked, relations_said, the_word, words_of
+from tmd.goals.words import (
+    BE,
+    NEGATED,
+    PREPOSITIONS,
+    family,
+    is_noun,
+    is_one,
+    is_relation,
+    is_verb,
+    ranked,
+    relations_said,
+    the_word,
+    words_of,
+)
 from tmd.language.clause import BRING, TO, Clause, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.lexicon.names import split_name
@@ -92,7 +106,7 @@ class GoalReader:
         """Return what ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         decisions = decisions or Decisions()
         reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited, decisions=decisions)
-        clause = reading.clause = self._with_place_states(self.referents.reattached(reading))
+        clause = reading.clause = self._with_states(self.referents.reattached(reading))
         lost = None if self.guess else lost_amount(clause)
         if lost is not None:
             message = f"nothing here can tell '{lost}' of something"
@@ -145,13 +159,22 @@ class GoalReader:
             if name.startswith(preposition) and name != preposition
         }
 
-    def _with_place_states(self, clause: Clause) -> Clause:
-        """Return the clause with places that are no things here, but states: "on the table", where all have one table.
+    @cached_property
+    def _mark_states(self) -> Mapping[str, str]:
+        """The words in the names of predicates of one thing for what it has: a label is on what is ``labelled``."""
+        names = [split_name(p.name) for p in self.domain.predicates if len(p.parameters) == 1]
+        having = words_of("rows", "having")
+        had = {"_".join(rest): rest[-1] for first, *rest in names if rest and first in having}
+        return {verb: first for first, *_ in names if (verb := participle(first)) is not None} | had
 
-        Where things shall be is the result of the clause; any other place tells which things are meant.
+    def _with_states(self, clause: Clause) -> Clause:
+        """Return the clause with things that are none here, but states: "on the table", where all have one table.
+
+        So is a label, where things are ``labelled``. What shall be so is the result of the clause; anything else tells
+        which things are meant.
         """
-        for relation in dict.fromkeys((*clause.relations, *clause.stated)) if self._place_states else ():
-            state = self._place_state(relation)
+        for relation in dict.fromkeys((*clause.relations, *clause.stated)):
+            state = self._place_state(relation) or self._mark_state(relation, clause)
             if state and relation.source in clause.objects and not self.knows_of(relation.target):
                 clause = self._with_state(clause, relation, state)
         return clause
@@ -165,6 +188,16 @@ class GoalReader:
             if noun == relation.target and (origin or relations_said(relation.relation, (preposition,)))
         )
         return next(said, None)
+
+    def _mark_state(self, relation: Relation, clause: Clause) -> str | None:
+        """Return the state of what has, or lacks, a mark: "the crates without a label" are not ``labelled``."""
+        said = relation.relation.removeprefix(NEGATED)
+        lacking = is_relation(said, "lacking")
+        state = self._mark_states.get(relation.target) if lacking or is_relation(said, "accompanying") else None
+        if state is None:
+            return None
+        none = lacking or said != relation.relation or is_none(relation.target, clause)
+        return f"{NEGATED}{state}" if none else state
 
     @staticmethod
     def _with_state(clause: Clause, relation: Relation, state: str) -> Clause:
@@ -182,7 +215,8 @@ class GoalReader:
     def _is_state(self, clause: Clause) -> bool:
         """Return whether a clause says what is to be so, and no row says what that means."""
         bare = clause.verb == BE and not clause.relations and not clause.result
-        return bare or ((clause.verb == BE or bool(clause.result)) and not self._rows_with(clause))
+        some = clause.verb == BE and any(is_noun(noun, "some") for noun in clause.objects)
+        return (bare or some) or ((clause.verb == BE or bool(clause.result)) and not self._rows_with(clause))
 
     def goes_elsewhere(self, clause: Clause, state: Bits, memory: Memory) -> bool:
         """Return whether a clause says a place, which is here, where nothing is by now that it acts on."""
@@ -198,13 +232,22 @@ class GoalReader:
         return clause.implied and is_verb(clause.verb, "having") and somewhere
 
     def _treated(self, clause: Clause) -> Clause | None:
-        """Return "give the fern some water" as "water the fern", where that is a verb here, and no thing."""
-        receivers = tuple(r.target for r in clause.relations if r.source in clause.direct and r.relation == TO)
-        deed = clause.direct[0] if len(clause.direct) == 1 and len(receivers) == 1 else ""
-        gives = is_verb(clause.verb, "giving") and deed and any(table.of(deed) for table in self.tables)
-        if not gives or self.knows_of(deed):
+        """Return "give the fern some water", "put a label on it" as to water or label it, where that is a verb here."""
+        given = tuple(r for r in clause.relations if r.source in clause.direct)
+        if len(clause.direct) != 1 or len(given) != 1:
+            return None
+        noun, receivers = clause.direct[0], (given[0].target,)
+        meant = clause.antecedents.get(noun, ())[:1] if is_one(noun) else (noun,)
+        deed = next(filter(self._is_verb, meant), "")
+        own = self._is_verb(clause.verb) and clause.verb not in section("placing")
+        gives = given[0].relation == TO if is_verb(clause.verb, "giving") else not own
+        if not deed or not gives or self.knows_of(deed):
             return None
         return replace(clause, verb=deed, direct=receivers, objects=receivers, relations=())
+
+    def _is_verb(self, word: str) -> bool:
+        """Return whether a table has the verb."""
+        return any(table.of(word) for table in self.tables)
 
     def _phrasal(self, clause: Clause) -> Clause | None:
         """Return a clause whose verb and preposition are one verb here: "operate on the cat", "let it out of the cage".
@@ -213,12 +256,12 @@ class GoalReader:
         """
         for relation in clause.relations:
             verb = f"{clause.verb}_{relation.relation.partition('_')[0]}"
-            if not any(table.of(verb) for table in self.tables):
+            if not self._is_verb(verb):
                 continue
             if relation.source is None and not clause.direct:
                 others = tuple(r for r in clause.relations if r != relation)
                 return replace(clause, verb=verb, direct=(relation.target,), relations=others)
-            if relation.source in clause.direct and not any(table.of(clause.verb) for table in self.tables):
+            if relation.source in clause.direct and not self._is_verb(clause.verb):
                 return replace(clause, verb=verb)
         return None
 

@@ -10,7 +10,7 @@ from tmd.goals.grounder import Moments
 from tmd.goals.reading.noun_phrases import Bound, Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents
 from tmd.goals.sources.table import GoalRow, Slot
-from tmd.goals.words import BE, IT, NEGATED, is_pronoun, is_relation, is_verb, the_word
+from tmd.goals.words import BE, IT, NEGATED, is_noun, is_pronoun, is_relation, is_verb, the_word
 from tmd.language.clause import PERSONS
 from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction
 from tmd.pddl.model import Atom, Formula
@@ -46,6 +46,9 @@ class States:
     def _state_of(self, noun: str, reading: ClauseReading) -> Formula | Refusal:
         said = self.referents.relations_of(noun, reading.clause)
         relations = [pair for pair in said if not is_relation(pair[0], "excepting")]
+        if is_noun(noun, "some") and relations and not reading.clause.result:
+            ends = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
+            return conjunction(disjunction(self._something(r, p, reading) for p in places) for r, places in ends)
         constants = self._substance(noun, reading) if noun and not is_pronoun(noun) else ()
         if constants:
             return self._substance_state(noun, constants, relations, reading)
@@ -107,15 +110,25 @@ class States:
         for name in referent.names:
             state = self.nouns.attribute(result, name, reading.moments) if result else TRUE
             if state is not None:
-                ends = [(r, self._ends(name, r, t, reading)) for r, t in relations]
-                told = [(r, names) for r, names in ends if names or not is_relation(r, "benefit")]  # "for my mother"
-                related = [self._related(name, r, names, reading) for r, names in told]
+                related = list(self._all_related(name, relations, reading))
                 if referent.mode is Mode.NONE and FALSE in related:
                     continue  # "no tube without a label": nothing that can be looked at
                 alive.append(conjunction((state, *related)))
         if not alive:
             return self._unsaid(referent, reading)
         return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)
+
+    def _all_related(
+        self, name: str, relations: Sequence[tuple[str, str]], reading: ClauseReading
+    ) -> Iterator[Formula]:
+        """Yield that a thing is in each relation that was said."""
+        for relation, target in relations:
+            if is_noun(target, "some"):
+                yield self._something(relation, name, reading)
+                continue
+            ends = self._ends(name, relation, target, reading)
+            if ends or not is_relation(relation, "benefit"):  # "for my mother"
+                yield self._related(name, relation, ends, reading)
 
     def _called_by(
         self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading
@@ -138,6 +151,17 @@ class States:
         message = f"nothing here says whether {words(referent.noun)} is {words(str(reading.clause.result))}"
         hint = "declare the adjective under 'attributes' in lexicon.yaml"
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message, hint)
+
+    def _something(self, relation: str, place: str, reading: ClauseReading) -> Formula:
+        """Return that there is anything in or on a place: an object that is no part of it, or a substance."""
+        profiles, inside = self.world.profiles, the_word("relations", "inside")
+        relation = inside if is_relation(relation, "accompanying") else relation  # "the cup has something in it"
+        others = (n for n in profiles.objects if n != place and profiles.wholes.get(n) != place)
+        related = (self.nouns.related(relation, other, place, reading.moments) for other in others)
+        held = (a for a in self.nouns.facts_about(place) if a.args[0] == place and a in self.world.task.index)
+        contents = [Atom(a.predicate, a.args) for a in held if len(a.args) == 2 and self.nouns.is_constant(a.args[1])]
+        things = [formula for formula in related if formula != TRUE]
+        return disjunction((*things, *(contents if is_relation(relation, "inside") else ())))
 
     def _related(self, thing: str, relation: str, places: Sequence[str], reading: ClauseReading) -> Formula:
         return disjunction(self.nouns.related(relation, thing, p, reading.moments) for p in places if p != thing)

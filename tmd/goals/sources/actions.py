@@ -286,7 +286,7 @@ class _Words:
         for preposition in _ROWS["located"]:
             if parts & set(PREPOSITIONS[preposition]) or (hanging and preposition == _ROWS["hanging"][0]):
                 return (preposition,)
-        done = _participle(name)
+        done = participle(name)
         placed = done is not None and not words_of("verbs", "settling").isdisjoint(family(done))  # "stowed"
         return _ROWS["within"] if parts & words_of("located") or placed or name in self._exchanged else ()
 
@@ -355,7 +355,7 @@ class _Words:
         """
         for predicate in self.domain.predicates:
             first, *rest = split_name(predicate.name)
-            verb = _participle(first)
+            verb = participle(first)
             things = self.things(predicate)
             said = predicate.name in self.made and predicate.name not in self.passing
             if not said or verb is None or first in words_of("located") or not 0 < len(things) < 3:
@@ -543,7 +543,7 @@ def _verbs_of(name: str) -> Iterator[str]:
         yield words[0]
 
 
-def _participle(name: str) -> str | None:
+def participle(name: str) -> str | None:
     """Return the verb of which a name is a past participle; ``None`` for any other name."""
     verb = builtin().verb(name)
     return verb[0] if verb is not None and verb[1] in words_of("outcomes", "participle") else None

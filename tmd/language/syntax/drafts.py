@@ -153,6 +153,18 @@ class ClauseDraft:
         """Return whether it is about none: *no cup*."""
         return any(p.said().quantifier is Quantifier.NONE for p in self.direct)
 
+    def affirm(self, *, each: bool = False) -> None:
+        """Take "no" and "nothing" out of it; with ``each`` it is about each thing: "neither the pot nor the lid"."""
+        names = {phrase.name: phrase.without_denial().name for phrase in (*self.direct, *self.landmarks)}
+        if each:
+            self.direct = [replace(phrase, either=()) for phrase in self.direct]
+        self.direct = [phrase.without_denial() for phrase in self.direct]
+        self.landmarks = [phrase.without_denial() for phrase in self.landmarks]
+        ends = (
+            (r.relation, names.get(r.source or "", r.source), names.get(r.target, r.target)) for r in self.relations
+        )
+        self.relations = [Relation(*end) for end in ends]
+
     def _mood(self) -> Mood:
         """Return the mood of *leave the cup where it is* and *keep the door shut*, which say what must stay so."""
         leaves_it, keeps = self.verb.stem in section("leaving"), self.verb.stem in section("keeping")

@@ -66,7 +66,8 @@ class Phrase:
 
     def without_denial(self) -> Phrase:
         """Return it without "no" and the like."""
-        return replace(self, lead=tuple(w for w in self.lead if w not in section("none_words")))
+        name = pairs("affirmed").get(self.name, self.name)
+        return replace(self, name=name, lead=tuple(w for w in self.lead if w not in section("none_words")))
 
     def said(self) -> NounPhrase:
         """Return it as the noun phrase of a clause."""

@@ -244,19 +244,26 @@ class TextReading:
                 return
             condition = replace(condition, clauses=before.clauses)
         self.conditioned = condition if node.data == "condition" else before
-        draft.conditions.append(condition)
+        draft.conditions += _each_denied(condition) if condition.negated and condition.clauses else [condition]
 
     def _condition(self, node: Tree[Leaf]) -> Condition:
         """Read a condition or a purpose."""
         opener, purpose = next(leaves(node)), node.data == "purpose"
         text = " ".join(self.text[slice(*hull(spans([node])))].split()).lower()
         drafts = self._said(node)
+        nothing = any(
+            phrase.name in pairs("affirmed") for draft in drafts for phrase in (*draft.direct, *draft.landmarks)
+        )
+        negated = opener.negated or nothing
+        for draft in drafts if negated else ():
+            # "no" and "nothing" are in the negation of the condition
+            draft.affirm(each=any(t.text in section("negations") for t in leaves(node) if t.kind is Kind.CC))
         for draft in drafts:
             if purpose and not draft.direct and draft.verb.stem in section("happening"):
                 draft.direct.append(Phrase(first_of("singular_pronouns"), draft.verb.span.start, False, True))
         clauses = tuple(replace(draft.clause(self.text), text=text) for draft in drafts)
         aimed = purpose and opener.text not in section("reasons")  # "so that it dries" only says what for
-        return Condition(TO if aimed else opener.text, clauses, opener.negated, text)
+        return Condition(TO if aimed else opener.text, clauses, negated, text)
 
     def _relative(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
         """Add the content of a relative clause to its noun."""
@@ -568,6 +575,20 @@ def _is_pronoun(group: Tree[Leaf]) -> bool:
 
 def _is_fold(node: Node) -> bool:
     return isinstance(node, Leaf) and node.source.kind is Kind.MOD
+
+
+def _each_denied(condition: Condition) -> list[Condition]:
+    """Return a condition for each thing that something must not be so of: "if neither the pot nor the lid is hot"."""
+    said, *others = condition.clauses
+    if others or len(said.direct) < 2 or any(said.phrase(noun).either for noun in said.direct):
+        return [condition]
+    alone = (replace(said, direct=(noun,), relations=_relations_without(said, noun)) for noun in said.direct)
+    return [replace(condition, clauses=(clause,)) for clause in alone]
+
+
+def _relations_without(clause: Clause, noun: str) -> tuple[Relation, ...]:
+    """Return the relations of a clause that are not those of another thing that it acts on."""
+    return tuple(r for r in clause.relations if r.source == noun or r.source not in clause.direct)
 
 
 def _only_when(node: Tree[Leaf]) -> bool:

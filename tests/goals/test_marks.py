@@ -1,0 +1,54 @@
+"""Marks that are no objects: a label is on what is labelled."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tests.goals.conftest import assert_ends, plain_world
+
+DOMAIN = """
+(define (domain depot)
+  (:requirements :typing :negative-preconditions)
+  (:types crate place)
+  (:predicates (labelled ?c - crate) (sealed ?c - crate) (stamped ?c - crate) (at ?c - crate ?p - place)
+               (holding ?c - crate) (free))
+  (:action label :parameters (?c - crate) :precondition (not (labelled ?c)) :effect (labelled ?c))
+  (:action stamp :parameters (?c - crate) :precondition (not (stamped ?c)) :effect (stamped ?c))
+  (:action seal :parameters (?c - crate) :precondition (not (sealed ?c)) :effect (sealed ?c))
+  (:action pick-up :parameters (?c - crate ?p - place) :precondition (and (at ?c ?p) (free))
+    :effect (and (holding ?c) (not (free)) (not (at ?c ?p))))
+  (:action put-down :parameters (?c - crate ?p - place) :precondition (holding ?c)
+    :effect (and (at ?c ?p) (free) (not (holding ?c)))))
+"""
+PROBLEM = """
+(define (problem yard) (:domain depot)
+ (:objects crate1 crate2 crate3 - crate dock ramp - place)
+ (:init (at crate1 dock) (at crate2 dock) (at crate3 ramp) (labelled crate1) (stamped crate2) (free))
+ (:goal (and)))
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return plain_world(tmp_path_factory.mktemp("depot"), DOMAIN, PROBLEM)
+
+
+@pytest.mark.parametrize(
+    ("text", "held", "gone"),
+    [
+        ("Put a label on crate 2.", {"(labelled crate2)"}, {"(labelled crate3)"}),
+        ("Stick a stamp on crate 1.", {"(stamped crate1)"}, {"(stamped crate3)"}),
+        ("If crate 2 has no label, seal it.", {"(sealed crate2)"}, {"(labelled crate2)"}),
+        ("If crate 1 has no label, seal it.", set(), {"(sealed crate1)"}),
+        ("If crate 1 has a label, seal it.", {"(sealed crate1)"}, set()),
+        ("Every crate should have a label.", {"(labelled crate2)", "(labelled crate3)"}, set()),
+        ("No crate should be without a stamp.", {"(stamped crate1)", "(stamped crate3)"}, set()),
+        ("Seal the crates that have no label.", {"(sealed crate2)", "(sealed crate3)"}, {"(sealed crate1)"}),
+        ("Seal the crates without a label.", {"(sealed crate2)", "(sealed crate3)"}, {"(sealed crate1)"}),
+        ("Carry all crates that have a stamp to the ramp.", {"(at crate2 ramp)"}, {"(at crate1 ramp)"}),
+    ],
+)
+def test_a_mark_is_a_state_of_what_has_it(folder: Path, text: str, held: set[str], gone: set[str]) -> None:
+    assert_ends(folder, text, held, gone)
