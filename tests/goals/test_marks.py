@@ -1,4 +1,4 @@
-"""Marks that are no objects: a label is on what is labelled."""
+"""Relations that no preposition names: a label is on what is labelled, and who needs a crate shall receive it."""
 
 from __future__ import annotations
 
@@ -11,20 +11,22 @@ from tests.goals.conftest import assert_ends, plain_world
 DOMAIN = """
 (define (domain depot)
   (:requirements :typing :negative-preconditions)
-  (:types crate place)
+  (:types crate place clerk)
   (:predicates (labelled ?c - crate) (sealed ?c - crate) (stamped ?c - crate) (at ?c - crate ?p - place)
-               (holding ?c - crate) (free))
+               (holding ?c - crate) (free) (received ?k - clerk ?c - crate))
   (:action label :parameters (?c - crate) :precondition (not (labelled ?c)) :effect (labelled ?c))
   (:action stamp :parameters (?c - crate) :precondition (not (stamped ?c)) :effect (stamped ?c))
   (:action seal :parameters (?c - crate) :precondition (not (sealed ?c)) :effect (sealed ?c))
   (:action pick-up :parameters (?c - crate ?p - place) :precondition (and (at ?c ?p) (free))
     :effect (and (holding ?c) (not (free)) (not (at ?c ?p))))
   (:action put-down :parameters (?c - crate ?p - place) :precondition (holding ?c)
-    :effect (and (at ?c ?p) (free) (not (holding ?c)))))
+    :effect (and (at ?c ?p) (free) (not (holding ?c))))
+  (:action hand-over :parameters (?c - crate ?k - clerk) :precondition (holding ?c)
+    :effect (and (received ?k ?c) (free) (not (holding ?c)))))
 """
 PROBLEM = """
 (define (problem yard) (:domain depot)
- (:objects crate1 crate2 crate3 - crate dock ramp - place)
+ (:objects crate1 crate2 crate3 - crate dock ramp - place miller - clerk)
  (:init (at crate1 dock) (at crate2 dock) (at crate3 ramp) (labelled crate1) (stamped crate2) (free))
  (:goal (and)))
 """
@@ -52,3 +54,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 )
 def test_a_mark_is_a_state_of_what_has_it(folder: Path, text: str, held: set[str], gone: set[str]) -> None:
     assert_ends(folder, text, held, gone)
+
+
+@pytest.mark.parametrize("text", ["Miller needs crate 2.", "Give Miller crate 2.", "Miller should have crate 2."])
+def test_what_somebody_needs_is_what_the_only_such_predicate_says(folder: Path, text: str) -> None:
+    assert_ends(folder, text, {"(received miller crate2)"}, {"(received miller crate1)"})

@@ -145,10 +145,10 @@ class RuleDialogue(Dialogue):
         """Return whether a piece that belongs to no verb names something that is here."""
         nouns = self._goals.nouns
         words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
-        heading = self.parsed.text[piece.span.end :].lstrip().startswith(":")  # "tidy-up of the hall: …"
+        if self.parsed.text[piece.span.end :].lstrip().startswith(":"):
+            return False  # a title: "popcorn: …"
         objects = self._goals.world.profiles.objects
-        known = [word for word in words if nouns.lexicon.names_thing(word) or word in objects]
-        named = ["_".join(words)] if heading else known
+        named = [word for word in words if nouns.lexicon.names_thing(word) or word in objects]
         return piece.reason == NO_VERB and any(nouns.things(n, state) or nouns.substances(n) for n in named)
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:

@@ -115,7 +115,7 @@ class GoalReader:
             found = self.read(self._settled(clause), state, memory, decisions=decisions)
             if not isinstance(found, Refusal) or any(is_relation(r.relation, "place") for r in clause.relations):
                 return found  # "mug on the table" says where it shall be
-        treated = self._treated(clause) or self._phrasal(clause)
+        treated = self._treated(clause) or self._dative(clause) or self._phrasal(clause)
         if treated is not None:
             return self.read(treated, state, memory, decisions=decisions)
         if self._is_state(clause):
@@ -244,6 +244,21 @@ class GoalReader:
         if not deed or not gives or self.knows_of(deed):
             return None
         return replace(clause, verb=deed, direct=receivers, objects=receivers, relations=())
+
+    def _dative(self, clause: Clause) -> Clause | None:
+        """Return "give Ann bed 3" as "give bed 3 to Ann": two names that were read as one."""
+        noun = clause.direct[0] if len(clause.direct) == 1 and not clause.relations else ""
+        if not is_verb(clause.verb, "giving") or self.knows_of(noun):
+            return None
+        parts = noun.split("_")
+        for at in range(1, len(parts)):
+            person, thing = "_".join(parts[:at]), "_".join(parts[at:])
+            if self.knows_of(person) and self.knows_of(thing):
+                given = replace(clause.phrase(noun), name=thing)
+                to = (Relation(TO, thing, person),)
+                phrases = {**clause.phrases, thing: given}
+                return replace(clause, direct=(thing,), objects=(thing, person), relations=to, phrases=phrases)
+        return None
 
     def _is_verb(self, word: str) -> bool:
         """Return whether a table has the verb."""

@@ -57,6 +57,7 @@ def rows_of_actions(domain: Domain) -> GoalTable:
         *words.parts(),
         *words.participles(),
         *words.named_actions(shortened=True),
+        *words.receipts(),
     ]
     return GoalTable(tuple(rows))
 
@@ -369,6 +370,34 @@ class _Words:
             undoing = tuple(prefix + verb for prefix in section("undoing"))
             undone = Not(self._atom(predicate, {things[0].name: "?x"}))
             yield self._row(undoing, (Slot("?x"),), undone, f"{undoing[0]} X", why)
+
+    def receipts(self) -> Iterator[GoalRow]:
+        """Yield ``give X to Y`` and ``be Y with X`` for the only predicate that joins two such things.
+
+        *Mr Smith needs his aspirin*: what he can have to do with it is that he takes it.
+        """
+        made = [p for p in self.domain.predicates if p.name in self.made and p.name not in self.passing]
+        pairs = {p: self.things(p) for p in made if len(self.things(p)) == len(p.parameters) == 2}
+        for predicate, (one, other) in pairs.items():
+            rivals = [p for p, ends in pairs.items() if p != predicate and self._joins_such(ends, one, other)]
+            if rivals or self._alike(one, other):
+                continue
+            for thing, owner in ((one, other), (other, one)):
+                atom = self._atom(predicate, {thing.name: "?x", owner.name: "?y"})
+                why = f"{predicate.name} joins such things"
+                to, with_it = Slot("?y", _ROWS["whither"]), Slot("?x", _ROWS["with"])
+                yield self._row(_ROWS["give"], (Slot("?x"), to), atom, "give X to Y", why)
+                yield self._row(_ROWS["be"], (Slot("?y"), with_it), atom, "be Y with X", why)
+
+    def _joins_such(self, ends: Sequence[TypedName], one: TypedName, other: TypedName) -> bool:
+        """Return whether two parameters may be two things, in either order."""
+        first, last = ends
+        straight = self._alike(first, one) and self._alike(last, other)
+        return straight or (self._alike(first, other) and self._alike(last, one))
+
+    def _alike(self, one: TypedName, other: TypedName) -> bool:
+        """Return whether a thing may be both."""
+        return self.types.accepts(one.types, other.types) or self.types.accepts(other.types, one.types)
 
     @staticmethod
     def _leading_to(outcome: str) -> list[str]:

@@ -815,7 +815,8 @@ class Bracketer(ClauseEnds):
             there = any(
                 self.among(i - 1, "there_words") and self.past(i, "(AUX|NEG)*") == at for i in range(at - 3, at)
             )
-            if hosted or (last is K.AUX and not there and not self.lexicon.is_noun(token.text)):
+            named = self.lexicon.is_noun(token.text) or token.text[-1:].isdigit()  # "needs bed 4"
+            if hosted or (last is K.AUX and not (there or named)):
                 token.kind = K.STATE
         return self._keep(at)
 

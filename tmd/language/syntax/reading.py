@@ -382,7 +382,7 @@ class TextReading:
             drafts = saying.clauses(self._attach)
             allowed = any(t.text in section("modals") for t in saying.helpers)
             asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
-            if asked:
+            if asked and not saying.talk:
                 self._demand(node, drafts, conditions)
             else:
                 self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
@@ -390,7 +390,8 @@ class TextReading:
     def _demand(self, node: Tree[Leaf], drafts: Sequence[ClauseDraft], conditions: Sequence[Node]) -> None:
         """Ask for the states that a statement demands."""
         for draft in drafts:
-            demand(draft, denied=next(leaves(node)).negated)
+            nobody = any(t.text in section("nobodies") for t in leaves(node) if t.kind is not Kind.NEG)
+            demand(draft, denied=next(leaves(node)).negated or nobody)
             draft.verb.otherwise = any(t.otherwise for t in leaves(node))
             draft.spans += spans([node])
             self._demanded(draft, conditions)

@@ -54,16 +54,30 @@ class Saying:
         return bool(self.helpers) and not (self.verbs or self.complement)
 
     def asks(self) -> bool:
-        """Return whether it demands a state: a duty, "belongs", "would like"."""
+        """Return whether it demands a state: a duty, "belongs", "would like"; but not what somebody has done."""
+        if self._perfect():
+            return False
         words = [*self.verbs, *self.helpers]
         modal = any(t.text in section("modals") for t in words)
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
         settled = section("belonging") | section("staying") | section("returning")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
-        subject = {t.text.partition("'")[0] for node in self.subject for t in leaves(node)}
-        somebody = bool(subject) and subject <= section("tellers")  # "we have guests"
-        duty = any(t.text in section("duties") for t in words) and not somebody
+        duty = any(t.text in section("duties") for t in words) and not self._somebody()  # "we have guests"
         return wished or placed or duty or self._wants()
+
+    def _somebody(self) -> bool:
+        """Return whether its subject is somebody who is not asked."""
+        subject = {t.text.partition("'")[0] for node in self.subject for t in leaves(node)}
+        return bool(subject) and subject <= section("tellers")
+
+    def _perfect(self) -> bool:
+        """Return whether it says what somebody or something has done: "the little ones have left their toys there"."""
+        return self._helped("having") and bool(self.verbs) and self.verbs[0].kind is Kind.PARTICIPLE
+
+    @property
+    def talk(self) -> bool:
+        """Return whether it only says that somebody says something: "my aunt said so"."""
+        return bool(self.verbs) and all(verb.stem in section("talking") for verb in self.verbs)
 
     def _wants(self) -> bool:
         """Return whether somebody wants something: "Grandma wants the lamp on"."""
@@ -189,7 +203,7 @@ def demand(draft: ClauseDraft, *, denied: bool) -> None:
     _each_of_any(draft)
     verb.stem = pairs("demand_verbs").get(verb.stem, verb.stem)
     if verb.stem in section("wishing") or draft.result in section("welcome"):
-        verb.stem, verb.form, draft.result = HAVE, IMPLIED, None
+        _demand_wish(draft, denied=denied)
     elif verb.stem in section("staying"):
         verb.stem, draft.mood = (BE, None) if none or denied else (first_of("leaving"), Mood.KEEP)
     elif verb.stem == BE:
@@ -202,6 +216,15 @@ def demand(draft: ClauseDraft, *, denied: bool) -> None:
             verb.stem = BE if none else BRING if whither else PUT
     elif denied:
         draft.mood = Mood.AVOID
+
+
+def _demand_wish(draft: ClauseDraft, *, denied: bool) -> None:
+    """Demand what somebody wants: "grandma wants the window shut", "a tea would be nice"."""
+    if draft.result and draft.result not in section("welcome"):
+        draft.verb.stem = BE
+        _demand_state(draft, denied=denied, none=False)
+    else:
+        draft.verb.stem, draft.verb.form, draft.result = HAVE, IMPLIED, None
 
 
 def _each_of_any(draft: ClauseDraft) -> None:
