@@ -116,17 +116,16 @@ def test_a_misspelt_word_gets_the_nearest(arguments: list[str], meant: str, caps
     assert re.search(f"[Dd]id you mean .*['\"]{meant}['\"]", capsys.readouterr().err)
 
 
-RAMEN = ("kitchen1", "Make ramen.")
-
-
-def test_an_answer_fits_a_screen(tmd: Tmd) -> None:
-    ended, whole = tmd("ground", *RAMEN), tmd("ground", *RAMEN, "-v")
-    assert ended.code == ExitCode.OK and "energy" not in ended.out
-    goal = ended.out.partition("goals\n")[2].splitlines()[:2]
+def test_an_answer_fits_a_screen(learned: Path) -> None:
+    """The next test says that the command prints these texts."""
+    grounded = kit("kitchen").ground("Make ramen.", "kitchen1")
+    answer = grounded_text(grounded)
+    assert answer.startswith("clauses\n") and "energy" not in answer
+    goal = answer.partition("goals\n")[2].splitlines()[:2]
     words, pddl = (line.partition("   declared: ")[0].removeprefix("  1. ").strip() for line in goal)
     assert len(words) <= 200 and len(pddl) <= 200
-    assert pddl.endswith("…") and pddl.removesuffix(" …") in whole.out
-    energies = tmd("ground", *RAMEN, "--energies").out
+    assert pddl.endswith("…") and pddl.removesuffix(" …") in grounded_text(grounded, verbose=True)
+    energies = grounded_text(grounded, energies=True)
     assert "plan 1: energy " in energies and "  energy by factor: " in energies
 
 

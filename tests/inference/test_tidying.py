@@ -77,6 +77,7 @@ def test_a_copied_part_stays_as_it_is(kitchen: Corpus) -> None:
     assert better[0].instructions[: len(own)] == own
 
 
+@pytest.mark.usefixtures("learned")
 def test_hands_are_empty_unless_something_was_asked_into_them() -> None:
     scooped = said("kitchen", "kitchen4", "Put ice cream in the cup.")
     assert not any(fact.startswith("(holding") for fact in end(scooped))

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from dataclasses import replace as dataclass_replace
-from functools import cache
+from functools import cache, wraps
 from itertools import product
 from pathlib import Path
 from random import Random
@@ -47,7 +47,9 @@ from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[2]
-SEEDS = 150
+SEEDS = 15
+MANY, CHUNK = 150, 25
+"""Seeds of tests in this process, and how many of them are one test: each takes less time than to begin a test."""
 OWN = Path(__file__).parent / "cases"
 ENVIRONMENT = ROOT / "problems" / "02_table" / "environments" / "corner1.yaml"
 """A problem that is compiled, with an empty goal."""
@@ -91,7 +93,9 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     if "paths" in metafunc.fixturenames:
         metafunc.parametrize("paths", list(cases.values()), ids=list(cases))
     if "seed" in metafunc.fixturenames:
-        metafunc.parametrize("seed", range(getattr(metafunc.function, "seeds", SEEDS)))
+        metafunc.parametrize("seed", range(SEEDS))
+    if "seeds" in metafunc.fixturenames:
+        metafunc.parametrize("seeds", [range(n, n + CHUNK) for n in range(0, MANY, CHUNK)], ids=str)
     if "plan_path" in metafunc.fixturenames:
         plans = sorted(OWN.glob("*/plans/*.plan"))
         metafunc.parametrize("plan_path", plans, ids=[f"{p.parents[1].name}-{p.stem}" for p in plans])
@@ -421,3 +425,19 @@ class RandomProblems:
 def random_problem(seed: int) -> Problem:
     """A random problem for each seed."""
     return RandomProblems(seed).problem()
+
+
+def each_random_problem(test: Callable[[Problem], None]) -> Callable[[range], None]:
+    """A test of many random problems; a failure says which seed it was."""
+
+    @wraps(test)
+    def run(seeds: range) -> None:
+        for seed in seeds:
+            try:
+                test(RandomProblems(seed).problem())
+            except BaseException as error:
+                error.add_note(f"the seed is {seed}")
+                raise
+
+    del run.__wrapped__  # pytest would ask it for the parameters
+    return run

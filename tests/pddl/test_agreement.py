@@ -31,12 +31,6 @@ pytestmark = [
 ]
 
 
-def few_seeds(test: Outside) -> Outside:
-    """Fewer random problems: these tests start processes."""
-    test.seeds = 15
-    return test
-
-
 def _fact(atom: GroundAtom) -> str:
     """An atom as Fast Downward's translator names it."""
     return f"{atom.predicate}({', '.join(atom.args)})"
@@ -108,7 +102,6 @@ def _same_successors(task: Task, sas: Outside) -> None:
         bits, state = ours[chosen].apply(bits), theirs[chosen]
 
 
-@few_seeds
 def test_fast_downward_agrees_on_random_problems(
     random_problem: Problem, write: Callable[..., Any], translate: Callable[..., Any]
 ) -> None:
@@ -121,7 +114,6 @@ def test_fast_downward_agrees_on_random_problems(
     _same_successors(ground(problem), translate(write(problem)))
 
 
-@few_seeds
 def test_val_agrees_on_random_problems(random_problem: Problem, write: Callable[..., Any], val: Outside) -> None:
     """On random plans of any instructions: the verdict, and the step that fails."""
     assert val.parse(write(random_problem)) == "Errors: 0, warnings: 0"

@@ -14,6 +14,8 @@ from tmd.pddl.normalise import portable
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.writer import format_domain, format_problem
 
+from .conftest import each_random_problem
+
 HEAD = "(define (domain d) (:requirements :adl :action-costs) (:types a b c - object s - a) "
 
 
@@ -57,6 +59,7 @@ def test_comments_beside_predicates_are_kept() -> None:
     assert [p.comment for p in again.predicates] == [p.comment for p in domain.predicates]
 
 
+@each_random_problem
 def test_random_problems_survive(random_problem: Problem) -> None:
     domain = parse_domain(format_domain(random_problem.domain))
     assert domain == random_problem.domain
@@ -80,6 +83,7 @@ def _names(formula: Formula) -> Iterator[TypedName]:
             return
 
 
+@each_random_problem
 def test_portable_form_of_random_problems(random_problem: Problem) -> None:
     """The same operators and atoms, no either anywhere, every requirement by name."""
     plain = portable(random_problem)

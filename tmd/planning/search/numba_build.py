@@ -6,6 +6,7 @@ disk beside the source. ``python -m tmd.planning`` does it, and so does the firs
 
 from __future__ import annotations
 
+import re
 import sys
 from collections.abc import Callable
 from functools import cache
@@ -83,14 +84,38 @@ def _compiled() -> Functions:
     for module in MODULES:
         namespace.update(vars(module))
     namespace["zeros"], namespace["grown"] = jit(zeros), jit(grown)
-    version = digest()
-    for module in MODULES:
-        for name, member in vars(module).items():
-            if isinstance(member, FunctionType) and member.__module__ == module.__name__ and name not in REPLACED:
-                twin = FunctionType(member.__code__, namespace, name)
-                twin.__module__, twin.__qualname__ = module.__name__, f"{name}_{version}"
-                namespace[name] = jit(twin)
+    version, functions = digest(), _functions()
+    plain = _plain(functions)
+    for name, member in functions.items():
+        if name not in REPLACED:
+            twin = FunctionType(member.__code__, namespace, name)
+            twin.__module__, twin.__qualname__ = member.__module__, f"{name}_{version}"
+            namespace[name] = jit(twin, counted=name not in plain)
     return Functions(namespace["prepared"], namespace["search"], namespace["search_any"])
+
+
+def _functions() -> dict[str, FunctionType]:
+    """Return the functions of the kernel by name."""
+    return {
+        name: member
+        for module in MODULES
+        for name, member in vars(module).items()
+        if isinstance(member, FunctionType) and member.__module__ == module.__name__
+    }
+
+
+def _plain(functions: dict[str, FunctionType]) -> set[str]:
+    """Return the functions that make and return no array, nor does any that they call.
+
+    They need not count references to arrays, which takes longer than all that they compute.
+    """
+    plain = {name for name, function in functions.items() if _SCALARS.fullmatch(function.__annotations__["return"])}
+    while more := {n for n in plain if (functions.keys() - plain).intersection(functions[n].__code__.co_names)}:
+        plain -= more
+    return plain
+
+
+_SCALARS = re.compile(r"int|bool|None|tuple\[int(, int)*\]")
 
 
 class _Announcement:
@@ -115,18 +140,23 @@ def _announce_compiling() -> None:
 
 def digest() -> str:
     """Return a name for the present text of the kernel: what is cached of one module has others compiled into it."""
-    text = "".join(Path(module.__file__ or "").read_text(encoding="utf-8") for module in MODULES)
+    files = (*(module.__file__ or "" for module in MODULES), __file__)
+    text = "".join(Path(file).read_text(encoding="utf-8") for file in files)
     return sha256(text.encode()).hexdigest()[:12]
 
 
-def jit(function: Callable[..., object]) -> Callable[..., object]:
-    """Return ``function`` compiled, with the result kept on disk where there is a place for it."""
+def jit(function: Callable[..., object], *, counted: bool = True) -> Callable[..., object]:
+    """Return ``function`` compiled, with the result kept on disk where there is a place for it.
+
+    ``counted`` says whether references to arrays are counted.
+    """
     import numba
 
+    options: dict[str, Any] = {"nogil": True, "_nrt": counted}  # NRT is what numba calls its counting
     try:
-        kept: Callable[..., object] = numba.njit(cache=True, nogil=True)(function)
+        kept: Callable[..., object] = numba.njit(cache=True, **options)(function)
     except RuntimeError:  # no directory that numba may write to
-        kept = numba.njit(nogil=True)(function)
+        kept = numba.njit(**options)(function)
     return kept
 
 
