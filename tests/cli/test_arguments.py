@@ -15,7 +15,7 @@ from tmd.diagnostics import ExitCode
 from tmd.pddl.model import And, Atom, Or
 from tmd.pddl.writer import format_formula
 from tmd.view.answer_text import grounded_text
-from tmd.view.wording import folded, shortened
+from tmd.goals.wording import folded, shortened
 
 TEXT = "Put the cup on the first table."
 FILES = (BLOCKS / "domain.pddl", BLOCKS / "p01.pddl")

@@ -16,7 +16,7 @@ _Cell: TypeAlias = tuple[float, float, float] | None
 
 @dataclass(frozen=True, slots=True)
 class LearnedWeights:
-    """What one row learned.
+    """Weights that one row learned.
 
     Attributes:
         model: The row.
