@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
-from html import escape
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -32,6 +31,7 @@ from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.backends import AUTO, TIME_LIMIT, solve
 from tmd.planning.result import Solved, Unreachable
+from tmd.view import notebook as _notebook  # noqa: F401 - registers what notebooks show
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
@@ -373,12 +373,3 @@ def grounded_page(grounded: Grounded) -> str:
     from tmd.view.subject import text_subject
 
     return render(text_subject(grounded)).html
-
-
-def _in_notebook(grounded: Grounded) -> str:
-    """Return the page in a frame, so that its style stays its own."""
-    return f'<iframe srcdoc="{escape(grounded_page(grounded))}" width="100%" height="600"></iframe>'
-
-
-# Not written in the class: pages are of a higher layer.
-setattr(Grounded, "_repr_html_", _in_notebook)  # noqa: B010 - mypy knows no such attribute
