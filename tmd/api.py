@@ -11,7 +11,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import OptionError, TmdError
 from tmd.domain_kit import DomainKit
 from tmd.export.end_goal import asked_problem
 from tmd.export.pddl_package import from_pddl, to_pddl
@@ -270,8 +270,14 @@ def find_plan(
 
     Raises:
         NoPlanError: There is none, or none was found.
+        OptionError: It is not a problem, or there is no time for it.
         TmdError: There is no such planner, or it refuses the problem.
     """
+    if not isinstance(problem, Problem):
+        hint = "kit.problem(environment, goal=...) or tmd.load_problem(file) makes one"
+        raise OptionError(f"this is a {type(problem).__name__}, not a problem", hint=hint)
+    if time_limit <= 0:
+        raise OptionError(f"the time limit is {time_limit:g} s", hint="give more than 0")
     answer = solve(problem, planner, optimal=optimal, seconds=time_limit, memory=memory_limit)
     if isinstance(answer, Solved):
         return answer.plan
@@ -297,7 +303,7 @@ def export_plan(
     problem: Problem,
     plan: Iterable[Instruction],
     directory: str | Path,
-    formats: Sequence[str] = ("adl",),
+    formats: str | Sequence[str] = ("adl",),
     *,
     overwrite: bool = False,
 ) -> list[Path]:
@@ -307,7 +313,7 @@ def export_plan(
         problem: The problem.
         plan: A plan that works.
         directory: Where to; a directory that is empty or not there.
-        formats: One format fills the directory, several a directory each.
+        formats: One format, which fills the directory, or several, a directory each.
         overwrite: Whether the directory may hold files.
 
     Returns:
@@ -321,7 +327,7 @@ def export_plan(
     from tmd.export.formats import chosen_files
 
     target = Path(directory)
-    written = chosen_files(planned(problem, plan), formats)
+    written = chosen_files(planned(problem, plan), [formats] if isinstance(formats, str) else formats)
     for failure in written.failures.values():
         raise failure
     flat = {path: data for files in written.files.values() for path, data in files.items()}
