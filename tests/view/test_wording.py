@@ -79,6 +79,9 @@ def test_what_no_antonym_denies_keeps_its_verb() -> None:
     (lit ?x - t)      ; the lamp x is on
     (locked ?x - t)   ; the gate or door x is locked
     (fed ?x - t)      ; x got its food
+    (warm ?x - t)     ; what is in x is warm
+    (known ?x - t)    ; the robot knows where x is
+    (full ?x - t)     ; x is full, and its lid is shut
     (dirty ?x - t)))  ; x is dirty""",
         "d",
     )
@@ -89,6 +92,9 @@ def test_what_no_antonym_denies_keeps_its_verb() -> None:
 
     assert [told(name) for name in ("lit", "locked", "fed", "dirty")] == [
         "the lamp a is off", "a is unlocked", "not: a got its food", "a is clean"
+    ]  # fmt: skip
+    assert [told(name) for name in ("warm", "known", "full")] == [
+        "what is in a is not warm", "the robot does not know where a is", "not: a is full, and its lid is shut"
     ]  # fmt: skip
 
 

@@ -161,7 +161,7 @@ class Wording:
         if told.startswith(f"{listed} "):
             return _plural(told, listed, listed)
         follows = told.partition(listed)[2].split()[:1]
-        return "" if words_of("main_verbs") & set(follows) else told
+        return "" if set(follows) & set(table("denied_verbs")) else told
 
     def _alternatives(self, parts: Sequence[Formula]) -> _Parts:
         if among := self._among(parts):
@@ -404,20 +404,27 @@ def _denied(told: str) -> str:
     """Return the contrary of a sentence: *the door is closed*, *cup1 is not in sink1*, *there is nothing in cup1*."""
     if opposite := _opposite(told):
         return opposite
-    verbs = [found for word in words_of("main_verbs") for found in _whole(word).finditer(told)]
-    if len(verbs) > 1 and ", " in told[verbs[0].end() :]:
-        return f"not: {told}"
-    for word, (contrary, *more) in table("denials").items():
+    for word, (contrary, *_) in table("denied_amounts").items():
         if found := _whole(word).search(told):
-            return f"{told[: found.start()]}{' '.join((contrary, *more))}{told[found.end() :]}"
-    return f"not: {told}"
+            return f"{told[: found.start()]}{contrary}{told[found.end() :]}"
+    verbs = _verbs(told)
+    if not verbs or (len(verbs) > 1 and ", " in told[verbs[0].end() :]):
+        return f"not: {told}"
+    verb = verbs[-1 if told.partition(" ")[0] in words_of("clause_subjects") else 0]
+    return f"{told[: verb.start()]}{' '.join(table('denied_verbs')[verb[0]])}{told[verb.end() :]}"
+
+
+def _verbs(told: str) -> list[re.Match[str]]:
+    """Return the verbs of a sentence, in order."""
+    found = (match for verb in table("denied_verbs") for match in _whole(verb).finditer(told))
+    return sorted(found, key=re.Match.start)
 
 
 def _opposite(told: str) -> str:
     """Return a sentence with the antonym of its last word, where there is one: *fridge1_door is closed*."""
     head, _, last = told.rpartition(" ")
     antonyms = table("antonyms").get(last, ())
-    return f"{head} {antonyms[0]}" if antonyms and head.rpartition(" ")[2] in words_of("main_verbs") else ""
+    return f"{head} {antonyms[0]}" if antonyms and head.rpartition(" ")[2] in table("denied_verbs") else ""
 
 
 def _plural(told: str, subject: str, listed: str) -> str:
@@ -441,10 +448,10 @@ def _divided(sentence: str, word: str) -> tuple[str, str]:
     """Return a sentence up to its verb, with *not* where all of it is denied, and what follows; empty where unclear."""
     if sentence.startswith("("):
         return "", ""
-    verbs = sorted(found.span() for verb in words_of("main_verbs") for found in _whole(verb).finditer(sentence))
+    verbs = _verbs(sentence)
     if len(verbs) != 1:
         return "", ""
-    end = verbs[0][1]
+    end = verbs[0].end()
     end += len(" not") if word == _AND and sentence[end:].startswith(" not ") else 0
     return sentence[:end], sentence[end:].strip()
 
