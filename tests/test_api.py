@@ -6,7 +6,9 @@ import json
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -63,6 +65,36 @@ def test_no_plan_says_whether_that_is_proven() -> None:
     with pytest.raises(tmd.NoPlanError, match="there is no plan") as caught:
         tmd.find_plan(tmd.with_goal(problem, "(and (on a b) (on b a))"))
     assert caught.value.proven
+
+
+def test_mistakes_get_a_suggestion(tmp_path: Path) -> None:
+    kit = tmd.load_domain("02_table")
+    problem = kit.problem("corner2", goal="(at cup1 table1 on)")
+    run: dict[str, Any] = {"task": "set_table", "out": tmp_path}
+    mistakes: list[tuple[Callable[[], object], str]] = [
+        (lambda: tmd.load_domain("02_tabel"), 'did you mean "02_table"'),
+        (lambda: kit.ground("Take the cup.", "corner22"), 'did you mean "corner2"'),
+        (lambda: kit.ground("Take the cup.", "corner2", model="gaols"), 'did you mean "goals"'),
+        (lambda: kit.ground("Take the cup.", "corner2", reader="rulez"), 'did you mean "rules"'),
+        (lambda: kit.ground("Take the cup.", "corner2", top=0), "top is 0 .it is at least 1"),
+        (lambda: kit.ground("Take the cup.", "corner2", beam=-1), "beam is -1 .it is at least 0"),
+        (lambda: kit.ground(problem, "corner2"), "not a text .write kit.ground"),
+        (lambda: tmd.find_plan(problem, planner="in-proces"), 'did you mean "in-process"'),
+        (lambda: tmd.find_plan(problem, time_limit=0), "the time limit is 0 s .give more"),
+        (lambda: tmd.find_plan(kit), "this is a DomainKit, not a problem .kit.problem"),
+        (lambda: tmd.export_plan(problem, tmd.find_plan(problem), tmp_path, "stripz"), 'did you mean "strips"'),
+        (lambda: tmd.ExperimentConfig(**run, data="bundeld"), 'did you mean "bundled"'),
+        (lambda: tmd.ExperimentConfig(**run, backend="dusk"), 'did you mean "dask"'),
+        (lambda: tmd.carry_out_predictions(tmd.ExperimentConfig(**run), "kinematics"), 'did you mean "kinematic"'),
+    ]
+    for make, told in mistakes:
+        with pytest.raises(tmd.TmdError, match=told):
+            make()
+    with pytest.raises(AttributeError) as caught:
+        _ = tmd.load_domian
+    assert (caught.value.name, caught.value.obj) == ("load_domian", tmd), "what Python suggests names from"
+    assert tmd.ExperimentConfig("set_table", str(tmp_path)).out == tmp_path
+    assert tmd.export_plan(problem, tmd.find_plan(problem), tmp_path / "one", "strips")[0].parent == tmp_path / "one"
 
 
 def test_environments_become_problems(tmp_path: Path) -> None:

@@ -36,7 +36,7 @@ LAYERS = (
 """From the lowest to the highest; nothing imports from its own layer but its own package."""
 LAYER = {package: number for number, layer in enumerate(LAYERS) for package in layer}
 HEAVY = {
-    "unified_planning", "up_fast_downward", "numba", "pybullet", "rich", "joblib",
+    "unified_planning", "up_fast_downward", "numba", "pandas", "pybullet", "rich", "joblib",
     "matplotlib", "jinja2", "scipy", "distributed", "dask", "imageio", "PIL",
     "viser", "trimesh", "vhacdx", "mcap_ros2", "mujoco", "openai", "pygls", "lsprotocol",
 }  # fmt: skip

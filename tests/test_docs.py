@@ -22,6 +22,7 @@ from pathlib import Path
 import pytest
 from pydantic import TypeAdapter
 
+from tests import test_notebook
 from tests.cli.conftest import fork_server
 from tmd.records.schemas import FORMATS, schema_text, write_schemas
 
@@ -224,8 +225,9 @@ def test_the_page_on_json_links_to_every_schema() -> None:
 
 
 def rewrite() -> None:
-    """Write the output of every example into its page, and the schemas of the formats."""
+    """Write the output of every example into its page or into the notebook, and the schemas of the formats."""
     write_schemas(SCHEMAS)
+    test_notebook.rewrite()
     for page in pages():
         text = page.read_text(encoding="utf-8")
         page.write_text(_BLOCK.sub(lambda block, page=page: _again(page, block[0]), text), encoding="utf-8")

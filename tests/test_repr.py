@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import html
 import inspect
+import re
+import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from pathlib import Path
@@ -14,8 +16,9 @@ import tmd
 from tests.bundled import kit
 from tmd.datasets.veil500.report import DataReport
 from tmd.diagnostics import Refusal, RefusalKind
+from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import Instruction
-from tmd.records.run import RunRecord, RunRequest
+from tmd.records.run import RanStep, RunRecord, RunRequest
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 from tmd.short_repr import LONGEST, short_repr
 from tmd.world.scaffold import Scaffold
@@ -96,6 +99,84 @@ def test_a_notebook_shows_the_page_of_a_result(results: list[object]) -> None:
     shown = results[1]._repr_html_()
     page = shown.partition('srcdoc="')[2].partition('"')[0]
     assert html.unescape(page) == tmd.grounded_page(results[1])
+
+
+def cells(value: object) -> list[list[str]]:
+    """The table that a notebook shows, with its title in front."""
+    title, *rows = re.split(r"</caption>|</tr>", value._repr_html_())  # type: ignore[attr-defined]
+    found = [[html.unescape(cell) for cell in re.findall(r"<t[hd](?: [^>]*)?>(.*?)</t[hd]>", row)] for row in rows]
+    return [[html.unescape(re.sub(r"<[^>]*>", "", title)).strip()], *(row for row in found if row)]
+
+
+def test_a_notebook_shows_plans_environments_and_runs_as_tables() -> None:
+    table = kit("02_table")
+    plan = table.ground(TEXT, "corner2").plans[0]
+    (title,), head, *steps = cells(plan)
+    assert title == f"cup1 is on table1: energy {plan.energy:.4f}"
+    assert head == ["", "instruction", "for"]
+    assert steps == [[str(n), str(i), "clause 1"] for n, i in enumerate(plan.instructions, start=1)]
+
+    problem = table.problem("corner2", goal="(at cup1 table1 on)")
+    (title,), _, *kinds = cells(problem)
+    assert title.endswith("; goal: cup1 is on table1") and ["table", "table1, table2"] in kinds
+    assert "goal" not in cells(table.ground(TEXT, "corner2").world)[0][0]
+
+    step = ExecutedStep(plan.instructions[0], False, "<b>dropped</b>", "", (), (), 0, 9, frozenset())
+    execution = Execution(SkillStatus.STOPPED, "it fell", (step,), 0, frozenset())
+    made = run()
+    ran = RanStep(
+        number=1, action="moveto", args=("cup1",), repair=False, outcome="failed", failure="<b>dropped</b>",
+        evidence=None, effects=(), mismatches=(), begin=0, end=9,
+    )  # fmt: skip
+    record = RunRecord.of(RunRequest.model_validate(made.record.model_dump(include=set(RunRequest.model_fields))),
+                          (ran,), execution, 9)  # fmt: skip
+    (title,), _, row = cells(tmd.RecordedRun(execution, record))
+    assert title == f"{TEXT} (corner2): stopped, it fell"
+    assert row == ["1", "moveto(cup1)", "✗ failed", "<b>dropped</b>"]
+    assert "<b>" not in record._repr_html_()
+
+
+def test_a_notebook_shows_the_metrics_of_an_experiment(tmp_path: Path) -> None:
+    config = tmd.ExperimentConfig("set_table", tmp_path, models=("empty", "nearest"), domain="02_table")
+    metrics = tmd.run_experiment(config)
+    (title,), head, *rows = cells(metrics)
+    assert title == "set_table, bundled data" and head[:3] == ["model", "n", "success"]
+    assert [row[0] for row in rows] == ["empty", "nearest"]
+    assert rows[1][3] == f"{metrics.models['nearest'].IED:.1f} ±{metrics.models['nearest'].IED_se:.1f}"
+
+
+def test_what_has_no_html_is_left_to_its_repr(results: list[object]) -> None:
+    assert kit("02_table").lexicon._repr_html_() is None
+
+
+def test_goals_are_pddl_and_words(results: list[object]) -> None:
+    (goal,) = results[1].plans[0].goals
+    assert (str(goal), goal.words) == ("(at cup1 table1 on)", "cup1 is on table1")
+    assert str(StepGoal(0, "", None)) == ""
+
+
+def test_energies_are_a_frame_and_a_plot(results: list[object]) -> None:
+    pytest.importorskip("pandas", reason="needs the extra notebook")
+    pytest.importorskip("matplotlib", reason="needs the extra notebook").use("agg")
+    frame, plans = results[1].to_frame(), results[1].plans
+    assert list(frame.index) == [1, 2]
+    assert list(frame["steps"]) == [len(plan.steps) for plan in plans] and frame["valid"].all()
+    assert list(frame["energy"]) == [plan.energy for plan in plans]
+    assert list(frame.drop(columns=["energy", "steps", "valid"]).sum(axis=1)) == pytest.approx(list(frame["energy"]))
+    axes = results[1].plot()
+    ends = [max(bar.get_x() + bar.get_width() for bar in axes.patches if round(bar.get_y()) == n) for n in (0, 1)]
+    assert ends == pytest.approx(list(frame["energy"]))
+    refused = kit("02_table").ground("Put the zebra down.", "corner2")
+    assert len(refused.to_frame()) == 0 and not refused.plot().patches
+
+
+@pytest.mark.parametrize(("package", "method"), [("pandas", "to_frame"), ("matplotlib", "plot")])
+def test_a_missing_package_is_named(
+    results: list[object], monkeypatch: pytest.MonkeyPatch, package: str, method: str
+) -> None:
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(tmd.TmdError, match=rf"{package} is not installed \(pip install 'tell-me-dave\[notebook\]'"):
+        getattr(results[1], method)()
 
 
 def test_weights_of_single_factors() -> None:

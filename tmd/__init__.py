@@ -22,7 +22,8 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever stands in the modu
     api = import_module("tmd.api")
     if name == "__all__" or name in api.__all__:
         return getattr(api, name)
-    raise AttributeError(f"module 'tmd' has no attribute '{name}'")
+    # Python suggests the nearest name of the module
+    raise AttributeError(f"module 'tmd' has no attribute '{name}'", name=name, obj=import_module("tmd"))
 
 
 def __dir__() -> list[str]:

@@ -7,12 +7,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
-from html import escape
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import OptionError, TmdError
 from tmd.domain_kit import DomainKit
 from tmd.export.end_goal import asked_problem
 from tmd.export.pddl_package import from_pddl, to_pddl
@@ -32,6 +31,7 @@ from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.backends import AUTO, TIME_LIMIT, solve
 from tmd.planning.result import Solved, Unreachable
+from tmd.view import notebook as _notebook  # noqa: F401 - registers what notebooks show
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
@@ -270,8 +270,14 @@ def find_plan(
 
     Raises:
         NoPlanError: There is none, or none was found.
+        OptionError: It is not a problem, or there is no time for it.
         TmdError: There is no such planner, or it refuses the problem.
     """
+    if not isinstance(problem, Problem):
+        hint = "kit.problem(environment, goal=...) or tmd.load_problem(file) makes one"
+        raise OptionError(f"this is a {type(problem).__name__}, not a problem", hint=hint)
+    if time_limit <= 0:
+        raise OptionError(f"the time limit is {time_limit:g} s", hint="give more than 0")
     answer = solve(problem, planner, optimal=optimal, seconds=time_limit, memory=memory_limit)
     if isinstance(answer, Solved):
         return answer.plan
@@ -297,7 +303,7 @@ def export_plan(
     problem: Problem,
     plan: Iterable[Instruction],
     directory: str | Path,
-    formats: Sequence[str] = ("adl",),
+    formats: str | Sequence[str] = ("adl",),
     *,
     overwrite: bool = False,
 ) -> list[Path]:
@@ -307,7 +313,7 @@ def export_plan(
         problem: The problem.
         plan: A plan that works.
         directory: Where to; a directory that is empty or not there.
-        formats: One format fills the directory, several a directory each.
+        formats: One format, which fills the directory, or several, a directory each.
         overwrite: Whether the directory may hold files.
 
     Returns:
@@ -321,7 +327,7 @@ def export_plan(
     from tmd.export.formats import chosen_files
 
     target = Path(directory)
-    written = chosen_files(planned(problem, plan), formats)
+    written = chosen_files(planned(problem, plan), [formats] if isinstance(formats, str) else formats)
     for failure in written.failures.values():
         raise failure
     flat = {path: data for files in written.files.values() for path, data in files.items()}
@@ -373,12 +379,3 @@ def grounded_page(grounded: Grounded) -> str:
     from tmd.view.subject import text_subject
 
     return render(text_subject(grounded)).html
-
-
-def _in_notebook(grounded: Grounded) -> str:
-    """Return the page in a frame, so that its style stays its own."""
-    return f'<iframe srcdoc="{escape(grounded_page(grounded))}" width="100%" height="600"></iframe>'
-
-
-# Not written in the class: pages are of a higher layer.
-setattr(Grounded, "_repr_html_", _in_notebook)  # noqa: B010 - mypy knows no such attribute

@@ -125,8 +125,16 @@ class DomainKit:
             the text could not be used.
 
         Raises:
+            OptionError: The request is not a text, or a number is too small.
             TmdError: There is no such environment, planner, model or weights, or a file of the domain is wrong.
         """
+        if not isinstance(text, str):
+            raise OptionError(
+                f"the request is {text!r}, not a text", hint='write kit.ground("Take the cup.", environment)'
+            )
+        for name, number, least in (("top", top, 1), ("beam", beam, 0), ("trim", trim, 0)):
+            if number is not None and number < least:
+                raise OptionError(f"{name} is {number}", hint=f"it is at least {least}")
         config = replace(preset(model), guess=guess)
         if beam is not None:
             config = replace(config, beam=beam or None)

@@ -20,6 +20,7 @@ from weakref import WeakKeyDictionary
 from tmd.diagnostics import OptionError, Refusal, RefusalKind
 from tmd.goals.sources.table import LEARNED, GoalTable, PutBack
 from tmd.goals.tables import declared_goals
+from tmd.goals.wording import Wording
 from tmd.grounded import Grounded
 from tmd.inference.bayes_risk import PLANS, decided
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
@@ -27,11 +28,11 @@ from tmd.inference.energy import Energy, Weights, count, named_weights
 from tmd.inference.goal_pass import Inference
 from tmd.inference.policy.model import Policy, Reward
 from tmd.inference.proposers import proposers_of
-from tmd.inference.ranking import Inferred
+from tmd.inference.ranking import Inferred, RankedPlan
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.library.library import Library
 from tmd.pddl.grounding.ground_task import ground_condition
-from tmd.pddl.model import Atom, Formula
+from tmd.pddl.model import TRUE, Atom, Formula
 from tmd.pddl.task import Cube
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
@@ -118,12 +119,19 @@ def _grounded(
     """Return the result, with the validator's verdict on each plan."""
     unseen = tuple(dict.fromkeys(c.verb for c in dialogue.clauses if not library.propose(c)))
     known = config.goals or len(unseen) < len(dialogue.clauses)
-    plans = tuple(plan for plan in found.plans if plan.instructions or (known and dialogue.asks))
+    wording = Wording(world.task.problem)
+    plans = tuple(_worded(plan, wording) for plan in found.plans if plan.instructions or (known and dialogue.asks))
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
     open_question = question if plans else None
     return Grounded(
         dialogue, plans, verdicts, found.rejected, unseen, world, library, config, found.refused, open_question
     )
+
+
+def _worded(plan: RankedPlan, wording: Wording) -> RankedPlan:
+    """Return a plan whose goals have words."""
+    goals = (replace(g, words=wording.goal(g.formula)) if g.formula not in (None, TRUE) else g for g in plan.goals)
+    return replace(plan, goals=tuple(goals))
 
 
 def reader_of(config: InferenceConfig, library: Library, goals: GoalTable | None) -> RuleReader:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
+from typing import TYPE_CHECKING
 
-from tmd.diagnostics import Refusal
+from tmd.diagnostics import MissingToolError, Refusal, install_extra
 from tmd.inference.config import InferenceConfig
+from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan, RejectedProposal
 from tmd.language.clause import Parsed
 from tmd.language.lexicon.nouns import WORDNET
@@ -16,6 +18,10 @@ from tmd.pddl.validator import Verdict
 from tmd.readers.interface import Dialogue, Question, Usage
 from tmd.short_repr import short_repr
 from tmd.world.world import World
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
 
 # Maximum number of verbs that are suggested for an unknown one.
 _VERBS = 8
@@ -116,6 +122,47 @@ class Grounded:
             return ""
         clause, refused = self.refused
         return why_refused(clause, refused.message, refused.hint)
+
+    def to_frame(self) -> DataFrame:
+        """Return the plans as rows of a pandas table, cheapest first: energy, its factors, number of steps, validity.
+
+        Raises:
+            MissingToolError: pandas is not installed.
+        """
+        try:
+            from pandas import DataFrame, RangeIndex
+        except ImportError:
+            raise MissingToolError("pandas is not installed", hint=install_extra("notebook")) from None
+        factors = self._factors()
+        rows = [
+            {"energy": plan.energy, **{title(name): plan.factors.get(name, 0.0) for name in factors}}
+            | {"steps": len(plan.steps), "valid": verdict.valid}
+            for plan, verdict in zip(self.plans, self.verdicts, strict=True)
+        ]
+        return DataFrame(rows, index=RangeIndex(1, len(rows) + 1, name="plan"))
+
+    def plot(self) -> Axes:
+        """Draw the energies of the plans as bars, a colour for each factor that is not 0 everywhere.
+
+        Raises:
+            MissingToolError: pandas or matplotlib is not installed.
+        """
+        try:
+            from matplotlib import pyplot
+        except ImportError:
+            raise MissingToolError("matplotlib is not installed", hint=install_extra("notebook")) from None
+        shown = self.to_frame()
+        names = [title(name) for name in self._factors() if shown[title(name)].any()]
+        _, axes = pyplot.subplots(figsize=(8, 1.5 + len(shown) / 2), layout="constrained")
+        if names:
+            shown[names].plot.barh(stacked=True, ax=axes, xlabel="energy")
+            axes.legend(loc="upper left", bbox_to_anchor=(1, 1))
+            axes.invert_yaxis()
+        return axes
+
+    def _factors(self) -> list[str]:
+        """Return the factors of all plans, in order."""
+        return list(dict.fromkeys(name for plan in self.plans for name in plan.factors))
 
     def _nouns(self) -> Iterator[str]:
         return (noun for clause in self.parsed.clauses for noun in clause.resolved())

@@ -136,7 +136,7 @@
     (shut ?x - thing)                      ; the inside of x is behind a closed door
     (hidden ?x - thing)                    ; x is behind a closed door
     (active ?x - thing)                    ; x is working: television on, lamp lit, film playing
-    (set_to ?x - thing ?s - setting)       ; the knob x stands at s, the screen shows s, the speaker is s
+    (set_to ?x - thing ?s - setting)       ; x is set to s (a knob stands there, a screen shows it)
     (contains ?x - thing ?s - substance)   ; there is some s in x
     (filled ?x - thing)                    ; there is something in x
     (heating ?x - thing)                   ; x is exposed to heat

@@ -37,9 +37,9 @@ def test_the_goals_stand_after_the_clauses(tmd: Tmd) -> None:
         "     (holding pr2 key1)   declared: take|hold X",
         "  3. key1 is on table1",
         "     (at key1 table1 on)   declared: be|put|place|bring X in|on Y",
-        "  4. not: the drawer desk1_drawer is open",
+        "  4. the drawer desk1_drawer is closed",
         "     (not (opened desk1_drawer))   declared: close X",
-        "  5. not: the drawer desk1_drawer is open (already so)",
+        "  5. the drawer desk1_drawer is closed (already so)",
         "     (not (opened desk1_drawer))   declared: close X",
         "  6. nothing is done: the condition does not hold",
     ]

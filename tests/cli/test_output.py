@@ -13,6 +13,8 @@ import pytest
 
 from tests.cli.conftest import BLOCKS, ROOT, Tmd
 from tmd.diagnostics import ExitCode
+from tmd.evaluation.models.model import MODELS
+from tmd.inference.config import PRESETS
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 TEXT = "Fill the pot with water."
@@ -282,6 +284,12 @@ def test_a_list_names_what_ground_takes(tmd: Tmd) -> None:
     listed = tmd("list")
     assert listed.code == ExitCode.OK
     assert "kitchen\n  environments: kitchen1, kitchen2, " in listed.out
+    *_, models, rows, planners = listed.out.splitlines()
+    assert models == f"models: {', '.join(PRESETS)}"
+    assert rows == f"models of experiments: {', '.join(MODELS)}"
+    assert planners == "planners: auto, fast-downward, kairos, in-process, up:ENGINE"
+    help_of_plan = " ".join(tmd("plan", "--help").out.split())
+    assert all(name in help_of_plan for name in planners.removeprefix("planners: ").split(", "))
 
 
 def test_a_misspelt_command_gets_the_nearest(tmd: Tmd) -> None:

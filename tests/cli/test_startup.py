@@ -31,3 +31,11 @@ def test_help_imports_nothing_heavy() -> None:
         assert (code, said) == ("0", "True"), command
         assert "click" in modules
         assert not HEAVY & set(modules), command
+
+
+def test_help_loads_no_pddl() -> None:
+    code = "import sys; from tmd.cli.program import run; run(['--help']); print(*sys.modules, file=sys.stderr)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = set(done.stderr.split())
+    assert "tmd.world.roots" in loaded
+    assert not loaded & {"tmd.pddl.model", "tmd.pddl.reading.reader", "tmd.pddl.task"}

@@ -6,6 +6,7 @@ import errno
 import json
 import os
 import re
+import shlex
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -19,6 +20,7 @@ from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs import experiment
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.experiment import collect, run
+from tmd.evaluation.runs.provenance import read_provenance
 from tmd.evaluation.summary import summarise
 from tmd.pddl.plan_file import parse_instruction
 
@@ -75,6 +77,27 @@ def test_processes_and_interruptions_change_no_byte(tmp_path: Path) -> None:
     run(bench(two))
     assert outcome(one) == outcome(two)
     assert all(p.stat().st_mtime_ns == time for p, time in kept.items()), "finished work was done again"
+
+
+def test_the_provenance_adds_up_the_time_of_what_was_done(tmp_path: Path) -> None:
+    asked = bench(tmp_path, jobs=2)
+    run(asked)
+    first = read_provenance(tmp_path)
+    assert first is not None
+    text = (tmp_path / "provenance.json").read_text()
+    collect(asked)
+    run(asked)
+    assert (tmp_path / "provenance.json").read_text() == text, "nothing was left to do"
+    (tmp_path / "provenance.json").write_text(json.dumps(first.to_value() | {"seconds": 1000.0}))
+    next((tmp_path / "parts").iterdir()).unlink()
+    run(asked)
+    second = read_provenance(tmp_path)
+    assert second is not None and second.seconds >= 1000
+    assert shlex.split(second.command)[1:] == [
+        "--domains", str(ROOT / "domains"), "--problems", str(ROOT / "problems"),
+        "experiment", "--task", "bench_work", "--domain", "lab_bench", "--models", "empty,chance", "--jobs", "2",
+        "--out", str(tmp_path),
+    ]  # fmt: skip
 
 
 def test_a_seed_changes_chance_and_nothing_else(tmp_path: Path) -> None:

@@ -227,7 +227,7 @@ def test_a_page_on_tasks_with_and_without_goals(tmp_path: Path) -> None:
     page = write_report(tmp_path).read_text(encoding="utf-8")
     assert re.search(r'<td class="n">6</td><td class="n score">–', page), "a task without goals"
     assert re.search(r'<td class="n">6</td><td class="n score" style="--share: 1.000">100\.0', page), "one with goals"
-    assert re.search(r'full − empty</th><td class="n"><b>\+100\.0</b>', page)
+    assert re.search(r'<code>empty</code></th><td class="n"><b>\+100\.0</b>', page)
     assert page.index(">success %<") < page.index(">IED<")
 
 

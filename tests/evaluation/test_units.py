@@ -85,10 +85,9 @@ def config(out: Path, **changes: object) -> ExperimentConfig:
 
 
 def outcome(out: Path) -> dict[str, bytes]:
-    """All files but the log."""
-    return {
-        str(p.relative_to(out)): p.read_bytes() for p in sorted(out.rglob("*")) if p.is_file() and p.name != "log.txt"
-    }
+    """All files but the log and the provenance."""
+    files = sorted(p for p in out.rglob("*") if p.is_file() and p.name not in ("log.txt", "provenance.json"))
+    return {str(p.relative_to(out)): p.read_bytes() for p in files}
 
 
 def test_folds_with_one_training_set_share_a_fit(tmp_path: Path) -> None:

@@ -88,7 +88,7 @@ def test_a_trial_is_a_record_a_film_and_a_strip(made: tuple[ExperimentConfig, Tr
 
 def test_the_page_shows_it_and_loads_nothing(made: tuple[ExperimentConfig, Trials]) -> None:
     page = write_report(made[0].out).read_text(encoding="utf-8")
-    assert 'preload="none" width="400" poster="robot/kitchen1.jpg" src="robot/kitchen1.mp4"' in page
+    assert 'preload="none" poster="robot/kitchen1.jpg" src="robot/kitchen1.mp4"' in page
     assert 'src="robot/kitchen1.png"' in page
     assert not re.search(r'(?:src|href)="(?!data:|#|robot/)', page)
     assert "img-src 'self' file:; media-src 'self' file:" in page

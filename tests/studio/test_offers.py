@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from tmd.diagnostics import TmdError
+from tmd.goals.wording import Wording
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.task import Bits
 from tmd.studio.applicable_actions import Offers
-from tmd.view.wording import Wording
 from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 from tmd.world.world import World

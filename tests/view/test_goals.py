@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import pytest
 
+from tests.bundled import kit
 from tests.view.conftest import corpus
 from tests.view.reading import Reader
 from tmd.diagnostics import TmdError
@@ -170,6 +171,23 @@ def test_what_is_left_open_or_in_a_hand_is_doubtful_unless_it_was_asked_for(stud
     untidy = replace(grounded.plans[0], state=grounded.plans[0].state | opened)
     left = "left at the end, not asked for: the drawer desk1_drawer is open"
     assert doubts(grounded.parsed, untidy, study) == [left]
+
+
+@pytest.mark.parametrize(
+    ("domain", "environment", "text", "left"),
+    [
+        ("kitchen", "kitchen4", "Close the fridge.", ()),  # its inside is behind a closed door
+        ("kitchen", "kitchen5", "Turn the tap on.", ()),  # its handle stands at high
+        ("lab_bench", "lab2", "The hotplate should be on low.", ()),  # its plate is active
+        ("lab_bench", "lab1", "Put the sample in the centrifuge.", ("centrifuge1_lid is open",)),
+    ],
+)
+def test_what_follows_from_a_goal_is_not_doubtful(
+    domain: str, environment: str, text: str, left: tuple[str, ...]
+) -> None:
+    grounded = kit(domain).ground(text, environment)
+    lines = doubts(grounded.parsed, grounded.plans[0], grounded.world)
+    assert lines == [f"left at the end, not asked for: {words}" for words in left]
 
 
 def test_what_was_named_and_is_not_touched_is_doubtful(study: World) -> None:

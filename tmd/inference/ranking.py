@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from tmd.diagnostics import Refusal
 from tmd.inference.commitments import Commitment
@@ -11,6 +11,7 @@ from tmd.inference.energy import title
 from tmd.inference.tidying import Need
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
+from tmd.pddl.writer import format_formula
 from tmd.readers.interface import Question
 from tmd.short_repr import short_repr
 
@@ -92,6 +93,7 @@ class StepGoal:
         first: The first instruction of the plan that serves it, counted from 0.
         last: The one after the last.
         others: The other candidate goals of the step.
+        words: The goal in English, at most 200 characters; empty without a goal.
     """
 
     clause: int
@@ -104,6 +106,11 @@ class StepGoal:
     first: int = 0
     last: int = 0
     others: tuple[LostGoal, ...] = ()
+    words: str = field(default="", compare=False)
+
+    def __str__(self) -> str:
+        """Return the goal as PDDL; empty where there is none."""
+        return "" if self.formula is None else format_formula(self.formula)
 
     @property
     def origin(self) -> str:

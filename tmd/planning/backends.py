@@ -41,6 +41,9 @@ AUTO = "auto"
 UP_PREFIX = "up:"
 """Prefix of the names of all other engines of unified-planning."""
 
+PLANNERS = (AUTO, FAST_DOWNWARD, KAIROS, IN_PROCESS, f"{UP_PREFIX}ENGINE")
+"""The planners of whole problems, by name."""
+
 # Generated states up to which the greedy search's plans are about as cheap as Fast Downward's first ones.
 SOON = 2_000
 
@@ -298,7 +301,7 @@ def _solution(problem: Problem, planner: str, optimal: bool, deadline: Deadline)
     if engine := _engine(name):
         return solve_with_engine(problem, EngineSpec(engine, time_limit=deadline.seconds, memory=deadline.memory))
     if name != IN_PROCESS:
-        raise _unknown(name, [AUTO, FAST_DOWNWARD, KAIROS, IN_PROCESS, f"{UP_PREFIX}ENGINE"])
+        raise _unknown(name, PLANNERS)
     return _in_time(lambda: _in_process(problem, deadline), deadline)
 
 

@@ -16,6 +16,7 @@ from tmd.records.fit import Fit
 from tmd.records.grounding import GoalOnlyRecord, GroundingRecord
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
+from tmd.records.provenance import Provenance
 from tmd.records.run import RunEvent, RunRecord
 from tmd.records.sentence_test import SentenceReport
 from tmd.records.trajectory import TrajectoryLine
@@ -33,6 +34,7 @@ FORMATS: dict[str, Any] = {
     "prediction": PredictionRecord,
     "metrics": Metrics,
     "fit": Fit,
+    "provenance": Provenance,
     "trial": Trial,
     "trajectory": TrajectoryLine,
 }

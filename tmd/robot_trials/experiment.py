@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
+from tmd.diagnostics import OptionError
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.experiment import Progress, collect, run
 from tmd.evaluation.runs.finished_run import Trials
+from tmd.pddl.reading.syntax import nearest
 from tmd.records.metrics import Metrics
 from tmd.robot_trials.trials import Mode, run_trials
 
@@ -45,8 +49,11 @@ def carry_out_predictions(config: ExperimentConfig, mode: Mode, *, progress: Pro
     Raises:
         OutputError: The run's directory cannot be written.
         WorkerLostError: A process that simulated was killed.
+        OptionError: There is no such motion.
         TmdError: The directory does not hold a finished run.
     """
+    if mode not in get_args(Mode):
+        raise OptionError(f"there is no mode '{mode}'", hint=nearest(mode, get_args(Mode), what="modes"))
     trials = run_trials(config, mode, progress)
     write_report(config.out)
     return trials

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from tmd.goals.wording import Wording
 from tmd.pddl.task import Operator
 from tmd.studio.object_info import require_object
-from tmd.view.wording import Wording
 from tmd.world.world import World
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from itertools import zip_longest
 
+from tmd.goals.wording import folded, shortened
 from tmd.grounded import Grounded
 from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan
@@ -15,7 +16,6 @@ from tmd.pddl.validator import Verdict
 from tmd.readers.interface import Question, Usage
 from tmd.view.goals import ShownGoal, in_words
 from tmd.view.grounding_record import flat, option_texts
-from tmd.view.wording import folded, shortened
 
 _MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from tmd.goals.wording import Wording, names_in
 from tmd.inference.ranking import RankedPlan, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import TRUE, Formula, GroundAtom, Instruction, Problem, State, universe
 from tmd.pddl.semantics import holds
+from tmd.pddl.task import Bits, Operator
 from tmd.pddl.validator import Verdict, validate
 from tmd.view.meaning import meanings
-from tmd.view.wording import Wording, shortened
 from tmd.world.world import World
 
 # A note on a step without a goal begins with this where its instructions were guessed.
@@ -79,7 +80,7 @@ def in_words(goals: Iterable[StepGoal], problem: Problem) -> list[ShownGoal]:
 
 
 def _words(formula: Formula | None, wording: Wording) -> str:
-    return "" if formula in (None, TRUE) else shortened(wording.condition(formula))
+    return "" if formula in (None, TRUE) else wording.goal(formula)
 
 
 def followed(goals: Sequence[StepGoal], problem: Problem, plan: Iterable[Instruction]) -> list[ShownGoal]:
@@ -139,9 +140,11 @@ def doubts(parsed: Parsed, plan: RankedPlan, world: World) -> list[str]:
 
 
 def left_behind(plan: RankedPlan, world: World) -> list[GroundAtom]:
-    """Return the facts that a plan made true, nobody asked for, and one step with the same object ends.
+    """Return the facts that a plan made true, nobody asked for, and one step with the same object takes back.
 
-    A step with that thing is one that names it, or a part of the same whole, and nothing else.
+    A step with that thing is one that names it, or a part of the same whole, and nothing else. What follows from a
+    goal is asked for with it: no step takes it back without undoing the goal. Nor does a step take back what it only
+    exchanges for something else that is new.
     """
     task, wholes, constants = world.task, world.profiles.wholes, world.profiles.constants
 
@@ -149,33 +152,48 @@ def left_behind(plan: RankedPlan, world: World) -> list[GroundAtom]:
         names = {wholes.get(name, name) for name in args if name not in constants}
         return names.pop() if len(names) == 1 else None
 
-    formulas = [goal.formula for goal in plan.goals if goal.formula is not None]
+    objects, end, reached = universe(task.problem), task.decode(plan.state), _reached(plan, world)
+    alone = {operator: name for operator in task.operators if (name := thing(operator.instruction.args)) is not None}
+
+    def takes_back(operator: Operator, bit: Bits) -> bool:
+        after = operator.apply(plan.state)
+        if after & bit or after & ~plan.state & ~task.init:
+            return False
+        state = task.decode(after)
+        return all(holds(formula, state, objects) for formula in reached)
+
     found = []
     for atom in task.names(plan.state & ~task.init):
         name, bit = thing(atom.args), 1 << task.index[atom]
-        ends = any(
-            bit & operator.delete or any(bit & deleted for _, _, deleted in operator.conditional)
-            for operator in task.operators
-            if name is not None and thing(operator.instruction.args) == name
-        )
-        if ends and not any(_requires(formula, atom, task.decode(plan.state), task.problem) for formula in formulas):
+        ends = any(takes_back(operator, bit) for operator, other in alone.items() if other == name)
+        if ends and not any(_requires(formula, atom, end, task.problem) for formula in reached):
             found.append(atom)
     return sorted(found)
 
 
 def _requires(formula: Formula, atom: GroundAtom, state: State, problem: Problem) -> bool:
     """Return whether a goal that holds in a state would not without an atom."""
-    objects = universe(problem)
-    return holds(formula, state, objects) and not holds(formula, state - {atom}, objects)
+    return not holds(formula, state - {atom}, universe(problem))
+
+
+def _reached(plan: RankedPlan, world: World) -> list[Formula]:
+    """Return the goals that hold when the plan is done."""
+    end, objects = world.task.decode(plan.state), universe(world.task.problem)
+    return [goal.formula for goal in plan.goals if goal.formula is not None and holds(goal.formula, end, objects)]
 
 
 def not_touched(parsed: Parsed, plan: RankedPlan, world: World) -> list[tuple[str, str]]:
-    """Return the nouns of which a plan touches nothing, with likely meanings, where something was to be done."""
+    """Return the nouns of which a plan touches nothing, with likely meanings, where something was to be done.
+
+    A thing that a goal names is not among them, if the goal is reached.
+    """
     idle = {goal.clause for goal in plan.goals if goal.already or goal.formula in (None, TRUE)}
+    asked = {name for formula in _reached(plan, world) for name in names_in(formula)}
     found: dict[tuple[str, str], None] = {}
     for clause, meant in enumerate(meanings(parsed, plan, world)):
         for noun, names in meant.items():
             things = [name.strip("()") for name in names if name.strip("()") not in world.profiles.constants]
-            if clause not in idle and noun and things and all(name.startswith("(") for name in names):
+            useless = clause not in idle and all(name.startswith("(") for name in names)
+            if useless and noun and things and not asked & set(things):
                 found[noun.replace("_", " "), ", ".join(things)] = None
     return list(found)

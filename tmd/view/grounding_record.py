@@ -7,6 +7,7 @@ from typing import Any
 
 from tmd.diagnostics import Refusal
 from tmd.export.end_goal import end_goal
+from tmd.goals.wording import Wording
 from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan
 from tmd.json_record import rounded
@@ -31,7 +32,6 @@ from tmd.records.grounding import (
     RefusedText,
 )
 from tmd.view.goals import ShownGoal, in_words
-from tmd.view.wording import Wording
 
 
 def grounding_record(

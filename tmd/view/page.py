@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 
 from tmd import __version__
+from tmd.goals.wording import Wording
 from tmd.language.clause import Clause, print_clause
 from tmd.pddl.model import GroundAtom, Problem
 from tmd.pddl.semantics import apply
@@ -21,7 +22,6 @@ from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
 from tmd.view.subject import PlannedStep, Subject
-from tmd.view.wording import Wording
 
 # A plan with more steps than this has them folded.
 FEW = 60

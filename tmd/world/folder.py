@@ -16,12 +16,11 @@ from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
 from tmd.files import bundled
-from tmd.pddl.model import Domain
-from tmd.pddl.reading.reader import read_domain
 from tmd.pddl.reading.syntax import nearest
 
 if TYPE_CHECKING:
     from tmd.language.lexicon.lexicon import Lexicon
+    from tmd.pddl.model import Domain
     from tmd.world.classes import Classes
 
 
@@ -52,6 +51,8 @@ class DomainFolder:
         Raises:
             TmdError: It is missing or wrong.
         """
+        from tmd.pddl.reading.reader import read_domain
+
         return read_domain(self.path / self.file)
 
     @cached_property
@@ -61,6 +62,7 @@ class DomainFolder:
         Raises:
             TmdError: It is missing or wrong.
         """
+        from tmd.pddl.reading.reader import read_domain
         from tmd.world.classes import Classes
         from tmd.world.yaml_positions import YamlSource
 

@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import Location, TmdError
-from tmd.pddl.model import Domain, Problem
-from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.world.folder import DomainFolder, find_domain, find_problems, find_roots
 from tmd.world.problem_domain import domain_named_in, find_domain_file
 
 if TYPE_CHECKING:
+    from tmd.pddl.model import Domain, Problem
     from tmd.world.corpus import Corpus
     from tmd.world.environment import Environment
     from tmd.world.world import World
@@ -76,6 +75,8 @@ class Roots:
         Raises:
             TmdError: There is none, or it is wrong.
         """
+        from tmd.pddl.reading.reader import read_domain
+
         return read_domain(self.pddl_file(name))
 
     def problem(self, path: Path, domain: str | None = None) -> Problem:
@@ -86,6 +87,8 @@ class Roots:
         Raises:
             TmdError: One of them is missing or wrong.
         """
+        from tmd.pddl.reading.reader import read_problem
+
         return read_problem(path, self.domain(domain) if domain is not None else self.of_problem(path).domain)
 
     def of_problem(self, path: Path) -> DomainFolder:

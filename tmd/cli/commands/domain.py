@@ -12,6 +12,7 @@ from tmd.cli.errors import fault_of, one_line, pointed
 from tmd.cli.options import OUTPUT, PATH, VARIABLE, json_option, seed_option
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, OutputError, TmdError
+from tmd.inference.config import PRESETS
 from tmd.world.folder import known_domains
 from tmd.world.roots import Roots
 
@@ -23,16 +24,20 @@ if TYPE_CHECKING:
     from tmd.world.scaffold import Scaffold
 
 
-@click.command("list", short_help="List the domains and their environments.")
+@click.command("list", short_help="List domains, environments, tasks, models and planners.")
 @click.pass_obj
 def list_domains(roots: Roots) -> None:
-    """List the domains, each with its environments, and the tasks of its demonstrations."""
+    """List the domains, each with its environments, and the tasks of its demonstrations; then models and planners."""
+    from tmd.evaluation.models.model import MODELS
+    from tmd.planning.backends import PLANNERS
+
     for name in known_domains(roots.domains):
         corpus = roots.corpus(roots.folder(name))
         environments, tasks = corpus.environments(), corpus.tasks()
         lines = [name, *(["  environments: " + ", ".join(environments)] if environments else [])]
         lines += ["  tasks: " + ", ".join(tasks)] if tasks else []
         emit("\n".join(lines) + "\n")
+    emit(f"models: {', '.join(PRESETS)}\nmodels of experiments: {', '.join(MODELS)}\nplanners: {', '.join(PLANNERS)}\n")
 
 
 @click.command("new", short_help="Begin a domain of your own: a small one that works.")

@@ -8,6 +8,9 @@ from typing import Any
 
 from tmd import __version__
 from tmd.evaluation.report.alignment import Mark
+from tmd.evaluation.report.downloads import csv_table, data_address, latex_table
+from tmd.evaluation.report.headline import headline, sure
+from tmd.evaluation.report.paper_order import other_order, reasons
 from tmd.evaluation.report.predictions import NOTHING, SHOWN, SYMBOLS, best_and_worst, by_instruction
 from tmd.evaluation.report.rows import (
     ALPHA,
@@ -15,21 +18,21 @@ from tmd.evaluation.report.rows import (
     METRICS,
     TABLE_2,
     TASKS,
+    best_of,
+    by_merit,
     differing,
     in_order,
     reference,
     tasks_of,
 )
 from tmd.evaluation.report.rows import title as row_title
+from tmd.evaluation.report.weights import learned
 from tmd.evaluation.runs.finished_run import Run, Trials, films
 from tmd.evaluation.summary import EMPTY, average
 from tmd.inference.energy import title
-from tmd.records.fit import Fit
 from tmd.records.metrics import SUCCESS, Means, Metrics, Pair
 from tmd.view.markup import data, templates
 
-# How many weights the table of weights shows.
-_WEIGHTS = 40
 # Data whose texts may not be passed on.
 _VEIL500 = "veil500"
 
@@ -50,39 +53,13 @@ def table_2(metrics: Metrics, rows: Sequence[str]) -> dict[str, Any] | None:
         own = [metrics.models[model].tasks[task] for task in tasks]
         mean = Means.model_validate(average(task.model_dump() for task in own))
         found.append((model, own, mean, TABLE_2[model]))
-    return {"tasks": tasks, "rows": found, "all": len(tasks) == len(TASKS), "metrics": METRICS}
-
-
-def learned(fits: Sequence[Fit], model: str) -> dict[str, Any]:
-    """Return the weights that one row learned, over its training sets.
-
-    Returns:
-        ``{"model", "sets", "losses", "worlds", "weights", "smaller"}``: the row, the number of its training sets, the
-        mean loss of the first and of the last epoch (``None`` if no curve was kept), the kinds of world, the largest
-        weights as name and (mean, least, largest) over the training sets for each kind of world, and how many are left
-        out.
-    """
-    own = [fit for fit in fits if fit.model == model]
-    worlds = sorted({world for fit in own for world in fit.worlds})
-    names = dict.fromkeys(name for fit in own for found in fit.worlds.values() for name in found.weights)
-    weights = {name: [_spread(own, world, name) for world in worlds] for name in names}
-    order = sorted(weights, key=lambda name: -max(abs(cell[0]) for cell in weights[name] if cell))[:_WEIGHTS]
-    kept = [(name, cells) for name, cells in weights.items() if name in order]
-    curves = [[p.loss for p in found.curve if p.loss is not None] for fit in own for found in fit.worlds.values()]
-    ends = [(curve[0], curve[-1]) for curve in curves if curve]
-    losses = [sum(part) / len(ends) for part in zip(*ends, strict=True)] if ends else None
-    smaller = len(weights) - len(kept)
     return {
-        "model": model, "sets": len(own), "losses": losses, "worlds": worlds, "weights": kept, "smaller": smaller
-    }  # fmt: skip
-
-
-def _spread(fits: Sequence[Fit], world: str, name: str) -> tuple[float, float, float] | None:
-    """Return mean, least and largest weight of a factor over the training sets; ``None`` where no set has it."""
-    values = [
-        fit.worlds[world].weights[name] for fit in fits if world in fit.worlds and name in fit.worlds[world].weights
-    ]
-    return (sum(values) / len(values), min(values), max(values)) if values else None
+        "tasks": tasks,
+        "rows": found,
+        "average": len(tasks) > 1,
+        "all": len(tasks) == len(TASKS),
+        "metrics": METRICS,
+    }
 
 
 def errors(run: Run, model: str) -> dict[str, Any]:
@@ -107,11 +84,10 @@ def render(run: Run, trials: Trials | None = None) -> str:
         trials: The robot's trials of its predictions; ``None`` where there are none.
     """
     metrics, fits = run.metrics, list(run.fits.values())
-    paper, others = in_order(metrics.models)
-    others.sort(key=lambda model: model == EMPTY)
-    order = [*paper, *others]
-    chief = reference(metrics.models)
-    shown = sorted((m for m in order if m != EMPTY), key=lambda m: m != chief)
+    order, chief, tasks = by_merit(metrics), reference(metrics.models), tasks_of(metrics)
+    shown = [model for model in order if model != EMPTY]
+    paper = in_order(metrics.models)
+    otherwise, pairs = other_order(metrics)
     page = templates().get_template("report.html.j2")
     return page.render(
         version=__version__,
@@ -120,11 +96,17 @@ def render(run: Run, trials: Trials | None = None) -> str:
         factor_title=title,
         said=_said,
         metrics=metrics,
-        paper=paper,
-        others=others,
+        headline=headline(metrics),
+        provenance=run.provenance,
+        duration=_duration,
+        downloads={
+            "CSV": ("table.csv", data_address(csv_table(metrics, order), "csv")),
+            "LaTeX": ("table.tex", data_address(latex_table(metrics, order), "x-tex")),
+        },
         order=order,
         reference=chief,
         marked=differing(metrics.significance.pairs, chief) if chief else frozenset(),
+        best_of=best_of,
         alpha=ALPHA,
         against=differences(metrics, chief, order),
         columns=metrics.columns,
@@ -132,8 +114,14 @@ def render(run: Run, trials: Trials | None = None) -> str:
         labels=LABELS,
         success=SUCCESS,
         goals=_with_goal(metrics),
-        tasks=tasks_of(metrics),
+        tasks=tasks,
+        average={model: row.average for model, row in metrics.models.items()},
+        by_task={task: {m: r.tasks[task] for m, r in metrics.models.items() if task in r.tasks} for task in tasks},
         table_2=table_2(metrics, paper),
+        otherwise=otherwise,
+        pairs=pairs,
+        reasons=reasons(metrics) if otherwise else [],
+        sure=sure,
         learned=[learned(fits, model) for model in order if any(fit.model == model for fit in fits)],
         errors=[errors(run, model) for model in shown],
         examples=[(model, *best_and_worst(run.of(model))) for model in shown],
@@ -157,3 +145,11 @@ def _with_goal(metrics: Metrics) -> int | None:
 def _said(value: object) -> str:
     """Return a value of the configuration."""
     return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
+
+
+def _duration(seconds: float) -> str:
+    """Return a time for people: *48 s*, *7 min*, *2 h 05 min*."""
+    minutes = round(seconds / 60)
+    if seconds < 99.5:
+        return f"{seconds:.0f} s"
+    return f"{minutes} min" if minutes < 100 else f"{minutes // 60} h {minutes % 60:02} min"

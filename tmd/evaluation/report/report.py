@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tmd.evaluation.report.rows import ALPHA, differing, reference
+from tmd.evaluation.report.rows import ALPHA, by_merit, differing, reference
 from tmd.evaluation.summary import EMPTY
 from tmd.files import write_text
 from tmd.records.metrics import EXECUTABLE, SUCCESS, Means, Metrics
@@ -50,7 +50,7 @@ def print_table(metrics: Metrics, console: Console | None = None) -> None:
 
 
 def table(metrics: Metrics, *, narrow: bool = False) -> Table:
-    """Return the models as rows, the metrics as columns, each mean with its standard error; the floor is marked.
+    """Return the models as rows, the best first, the metrics as columns, each mean with its standard error.
 
     Success is the first metric, where any example has a goal. All rows together fit 80 columns in a ``narrow`` table.
     """
@@ -63,7 +63,8 @@ def table(metrics: Metrics, *, narrow: bool = False) -> Table:
     for column in ("n", *(metric.replace("_", "-") for metric in scored), "exec." if narrow else "exec. %"):
         found.add_column(column, justify="right", no_wrap=True)
     between = "" if narrow else " "
-    for name, row in metrics.models.items():
+    for name in by_merit(metrics):
+        row = metrics.models[name]
         cells = [_cell(row, m, between) + _star((name, m) in marked, bool(marked)) for m in scored]
         found.add_row(escape(name), str(row.n), *cells, f"{row.executable:.1f}")
     return found

@@ -6,11 +6,12 @@ number each row gave there, and compare with no other data.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from tmd.evaluation.summary import EMPTY
-from tmd.records.metrics import EXECUTABLE, SUCCESS, TESTED, Metrics, Pair
+from tmd.inference.config import DEFAULT
+from tmd.records.metrics import EXECUTABLE, SUCCESS, TESTED, Difference, Means, Metrics, Pair
 
 # What the columns are called.
 LABELS = {
@@ -21,6 +22,8 @@ LABELS = {
     "END": "END",
     EXECUTABLE: "executable %",
 }
+# The paper's full model.
+FULL = "full"
 # The tasks of Table II, in its order.
 TASKS = ("coffee", "boiling_water", "ramen", "affogato")
 # The metrics of Table II, normalised to 100, larger is better.
@@ -85,10 +88,10 @@ def title(model: str) -> str:
     return OURS.get(model, model)
 
 
-def in_order(models: Iterable[str]) -> tuple[list[str], list[str]]:
-    """Return the rows that the paper has, in its order, and the others, in their own."""
-    given = list(models)
-    return [name for name in TABLE_2 if name in given], [name for name in given if name not in TABLE_2]
+def in_order(models: Iterable[str]) -> list[str]:
+    """Return the rows that the paper has, in its order."""
+    given = set(models)
+    return [name for name in TABLE_2 if name in given]
 
 
 def tasks_of(metrics: Metrics) -> list[str]:
@@ -96,18 +99,43 @@ def tasks_of(metrics: Metrics) -> list[str]:
     return sorted({task for row in metrics.models.values() for task in row.tasks})
 
 
-# The paper's full model: the others are measured against it.
-FULL = "full"
 # A corrected p below this is marked.
 ALPHA = 0.05
 
 
+def by_merit(metrics: Metrics) -> list[str]:
+    """Return the rows, the best first: by the first column, then by the next; the row that predicts nothing is last."""
+
+    def merit(model: str) -> tuple[bool, list[float]]:
+        means = (metrics.models[model].mean(column) for column in metrics.columns)
+        return model == EMPTY, [-(mean or 0.0) for mean in means]
+
+    return sorted(metrics.models, key=merit)
+
+
+def best_of(rows: Mapping[str, Means], columns: Sequence[str]) -> frozenset[tuple[str, str]]:
+    """Return the best rows of each column, with the column; equal as printed is equally good.
+
+    The row that predicts nothing is never best, nor is any where all others are the same.
+    """
+    found = set()
+    for column in columns:
+        means = {row: round(m, 1) for row, own in rows.items() if row != EMPTY and (m := own.mean(column)) is not None}
+        if len(set(means.values())) > 1:
+            found |= {(row, column) for row, mean in means.items() if mean == max(means.values())}
+    return frozenset(found)
+
+
 def reference(models: Iterable[str]) -> str | None:
-    """Return the row that the others are measured against: ``full``, or the last one that predicts anything."""
+    """Return the row that the others are tested against: the default model, the paper's, or the last that predicts."""
     rows = [name for name in models if name != EMPTY]
-    if FULL in rows:
-        return FULL
-    return rows[-1] if rows else None
+    return next((name for name in (DEFAULT, FULL) if name in rows), rows[-1] if rows else None)
+
+
+def difference(metrics: Metrics, a: str, b: str, metric: str) -> Difference | None:
+    """Return how a row differs from another in a metric, as ``a`` minus ``b``; ``None`` where it was not tested."""
+    found = next((pair for pair in metrics.significance.pairs if {pair.a, pair.b} == {a, b}), None)
+    return found.seen_from(a).of(metric) if found is not None and metric in TESTED else None
 
 
 def differing(pairs: Iterable[Pair], against: str) -> frozenset[tuple[str, str]]:

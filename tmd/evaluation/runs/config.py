@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from tmd import __version__
+from tmd.diagnostics import OptionError
+from tmd.pddl.reading.syntax import nearest
 from tmd.short_repr import short_repr
 
 BUNDLED = "bundled"
@@ -32,7 +34,7 @@ class ExperimentConfig:
 
     Attributes:
         task: A task of the data, or ``all``.
-        out: The run's directory.
+        out: The run's directory; a text does as well.
         data: ``bundled`` or ``veil500``.
         veil500: Where VEIL-500 is.
         train_tasks: Tasks to train on; ``None`` leaves it to the protocol of the data.
@@ -65,6 +67,17 @@ class ExperimentConfig:
     backend: str = JOBLIB
     scheduler: str | None = None
     jobs: int = 1
+
+    def __post_init__(self) -> None:
+        """Take the run's directory as a text as well.
+
+        Raises:
+            OptionError: There are no such data, or there is no such backend.
+        """
+        object.__setattr__(self, "out", Path(self.out))
+        for what, name, known in (("data", self.data, (BUNDLED, VEIL500)), ("backend", self.backend, (JOBLIB, DASK))):
+            if name not in known:
+                raise OptionError(f"{what} is '{name}'", hint=nearest(name, known, what="names"))
 
     def identity(self, fingerprint: str) -> dict[str, Any]:
         """Return the settings that decide the outcome, without directories and the distribution of the work.

@@ -1,7 +1,7 @@
 """A run: every model on every fold, into a directory that holds all that is needed to do it again.
 
 A run that was stopped goes on where it was; what is finished is never done again. Same configuration, data and
-version: the same bytes (but for the log), however the work was shared out.
+version: the same bytes (but for log, date and run time), however the work was shared out.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from tmd.evaluation.runs.config import BUNDLED, DEFAULT_MODELS, ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.evaluation.runs.jobs import units_of
+from tmd.evaluation.runs.provenance import recorded
 from tmd.evaluation.runs.run_directory import RunDirectory
 from tmd.evaluation.summary import summarise
 from tmd.records.metrics import FoldSizes, Metrics
@@ -87,7 +88,10 @@ def _work(plan: _Plan, progress: Progress | None) -> None:
     if progress:
         progress(done, parts)
     if left:
-        with closing(outcomes(config, left, directory.fits, plan.data.fingerprint())) as ended:
+        with (
+            recorded(config),
+            closing(outcomes(config, left, directory.fits, plan.data.fingerprint())) as ended,
+        ):
             for outcome in ended:
                 directory.keep(outcome)
                 done += len(outcome.parts)

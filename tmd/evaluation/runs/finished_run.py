@@ -11,10 +11,12 @@ from pathlib import Path
 from urllib.parse import quote
 
 from tmd.diagnostics import TmdError
+from tmd.evaluation.runs.provenance import read_provenance
 from tmd.pddl.reading.syntax import read_text
 from tmd.records.fit import Fit
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
+from tmd.records.provenance import Provenance
 from tmd.records.trial import Skip, Trial
 
 FOLDER = "robot"
@@ -30,11 +32,13 @@ class Run:
         metrics: ``metrics.json``.
         lines: ``predictions.jsonl``.
         fits: ``fits/``, by file name; empty where nothing was learned or kept.
+        provenance: ``provenance.json``; ``None`` where there is none.
     """
 
     metrics: Metrics
     lines: tuple[PredictionRecord, ...]
     fits: dict[str, Fit] = field(default_factory=dict)
+    provenance: Provenance | None = None
 
     def of(self, model: str) -> list[PredictionRecord]:
         """Return the predictions of one row."""
@@ -57,7 +61,8 @@ def read_run(directory: Path) -> Run:
         raise TmdError(message, hint=PredictionRecord.REPAIR)
     folder = directory / "fits"
     files = sorted(folder.glob("*.json")) if folder.is_dir() else []
-    return Run(metrics, lines, {file.stem: Fit.from_text(read_text(file), str(file)) for file in files})
+    fits = {file.stem: Fit.from_text(read_text(file), str(file)) for file in files}
+    return Run(metrics, lines, fits, read_provenance(directory))
 
 
 def _text(path: Path) -> str:

@@ -2,14 +2,14 @@
 
 ``config.json`` what was asked for, ``fits/`` what was learned on each training set, ``parts/`` one file for each model
 and fold as soon as it is done, ``predictions.jsonl`` and ``metrics.json`` what came out, ``report.html`` the page,
-``log.txt`` what happened. Files appear whole or not at all, so several processes may work in one directory at once.
+``provenance.json`` when and where, ``log.txt`` what happened. Files appear whole or not at all, so several processes
+may work in one directory at once.
 """
 
 from __future__ import annotations
 
 import json
 import logging
-import subprocess
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -18,6 +18,7 @@ from typing import Any
 from tmd.diagnostics import OutputError, TmdError
 from tmd.evaluation.runs.folds import Fold
 from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, journal_files
+from tmd.evaluation.runs.provenance import revision
 from tmd.files import make_directory, write_text
 from tmd.pddl.reading.syntax import read_text
 from tmd.records.fit import Fit, WorldFit
@@ -71,7 +72,7 @@ class RunDirectory:
         logging.getLogger(LOG).propagate = False
         self.log.addHandler(handler)
         try:
-            self.log.info("revision: %s", _revision())
+            self.log.info("revision: %s", revision())
             yield
         except BaseException as error:
             self.log.info("stopped: %s", error if isinstance(error, Exception) else type(error).__name__)
@@ -189,15 +190,3 @@ def _difference(found: str, identity: dict[str, Any]) -> str:
             if other.get(name) != value:
                 return f": its {name} is {json.dumps(other.get(name))}, not {json.dumps(value)}"
     return ""
-
-
-def _revision() -> str:
-    """Return the revision of the checkout, if this is one."""
-    here = Path(__file__).resolve().parent
-    try:
-        found = subprocess.run(
-            ["git", "describe", "--always", "--dirty"], cwd=here, capture_output=True, text=True, timeout=10
-        )
-    except (OSError, subprocess.TimeoutExpired):
-        return "unknown"
-    return found.stdout.strip() or "unknown"

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from tmd.diagnostics import TmdError
+from tmd.goals.wording import Wording
 from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
@@ -22,7 +23,6 @@ from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
 from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, History, Session
 from tmd.studio.object_info import require_object
-from tmd.view.wording import Wording
 from tmd.world.world import World
 
 

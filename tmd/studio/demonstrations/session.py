@@ -11,13 +11,13 @@ from types import MappingProxyType
 from typing import Generic, TypeVar
 
 from tmd.diagnostics import TmdError
+from tmd.goals.wording import Wording
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import bind
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
 from tmd.studio.demonstrations.clause_spans import ClauseSpan, clean, cut
-from tmd.view.wording import Wording
 from tmd.world.demonstration import Segment
 from tmd.world.world import World
 

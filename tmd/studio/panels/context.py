@@ -10,13 +10,13 @@ from html import escape
 from typing import TYPE_CHECKING, Any, Protocol
 
 from tmd.diagnostics import TmdError
+from tmd.goals.wording import Wording
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel, Setting
 from tmd.studio.panels.html import fragment, notice
 from tmd.studio.studio import Studio
-from tmd.view.wording import Wording
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
