@@ -361,7 +361,7 @@ def test_a_correction_that_is_not_saved_is_there_again(server: Server) -> None:
         visitor.told("Planned in")
         visitor.press("Correct this plan")
         visitor.told("The plan is under Correct")
-        visitor.put("Change", "Later")
+        visitor.press("Later")
         visitor.shows("Step 1 does not apply.")
         visitor.put("What must hold at the end", "(at cup1 shelf1 on)")
         visitor.put("Environment", "corner2")  # it stays, and can be gone on with
@@ -382,7 +382,7 @@ def test_a_correction_that_is_not_saved_is_there_again(server: Server) -> None:
         again.find("Throw it away")
         again.press("Cancel")
         again.until(lambda: gone("Cancel"))
-        again.put("Change", "Later")
+        again.press("Later")
         again.shows("Every step applies.")
         again.press("Save the correction")
         again.told("Saved as shown-corner1-01")
@@ -411,9 +411,9 @@ def test_a_plan_is_edited_by_clicks(server: Server) -> None:
         visitor.shows("3 / 4 ")
         visitor.happens(step=1, list="correct")
         visitor.shows(f"▸ {SAID[STEPS[0]]}")
-        visitor.put("Change", "Later")
+        visitor.press("Later")
         visitor.shows("Step 1 does not apply.")
-        visitor.put("Change", "Earlier")
+        visitor.press("Earlier")
         visitor.shows("Every step applies.")
         for event in (
             {"step": 99, "list": "correct"},

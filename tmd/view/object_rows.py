@@ -9,9 +9,7 @@ from tmd.view.markup import macro
 from tmd.view.wording import Wording
 
 
-def object_rows(
-    plan: Sequence[Instruction], problem: Problem, current: int, wording: Wording, link: str = ""
-) -> str:
+def object_rows(plan: Sequence[Instruction], problem: Problem, current: int, wording: Wording, link: str = "") -> str:
     """Render the objects of a plan as rows and its steps as columns; empty for an empty plan.
 
     Args:

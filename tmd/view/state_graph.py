@@ -195,8 +195,8 @@ def placed(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]], layout:
 
 def _extent(places: Places, sizes: Mapping[str, Point], axis: int) -> Point:
     """Return the least and the greatest coordinate of the borders of some nodes."""
-    ends = [(place[axis] - sizes[name][axis] / 2, place[axis] + sizes[name][axis] / 2) for name, place in places.items()]
-    return min(end[0] for end in ends), max(end[1] for end in ends)
+    ends = [place[axis] + sign * sizes[name][axis] / 2 for name, place in places.items() for sign in (-1, 1)]
+    return min(ends), max(ends)
 
 
 def by_graphviz(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> Places:

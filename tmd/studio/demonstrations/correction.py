@@ -51,6 +51,7 @@ class Correction:
 
     Attributes:
         proposed: The plan as it was proposed.
+        history: The edits, to undo and to redo.
 
     Raises:
         TmdError: The environment has no such instruction as one of ``steps``.
@@ -70,16 +71,16 @@ class Correction:
         self._lexicon = lexicon
         self._planner: Planner | None = None
         self._wording = Wording(world.task.problem)
-        self._history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
+        self.history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
         if steps is not None:
             for step in steps:
                 bind(world.task.problem, step.instruction)
-            self._history.add(tuple(steps))
+            self.history.add(tuple(steps))
 
     @property
     def steps(self) -> tuple[DemonstratedStep, ...]:
         """The plan as it is now."""
-        return self._history.current
+        return self.history.current
 
     def delete(self, step: int) -> None:
         """Leave a step out.
@@ -88,7 +89,7 @@ class Correction:
             TmdError: There is no such step.
         """
         self._known(step)
-        self._history.add(self.steps[: step - 1] + self.steps[step:])
+        self.history.add(self.steps[: step - 1] + self.steps[step:])
 
     def insert(self, step: int, instruction: Instruction) -> None:
         """Put an instruction in, so that it becomes the step of that number, for the clause of the step behind it.
@@ -117,7 +118,7 @@ class Correction:
         self._known(to)
         kept = [*self.steps[: step - 1], *self.steps[step:]]
         kept.insert(to - 1, self.steps[step - 1])
-        self._history.add(tuple(kept))
+        self.history.add(tuple(kept))
 
     def swap(self, old: str, new: str, step: int | None = None) -> int:
         """Take another object instead of ``old``, and its parts instead of those of ``old``.
@@ -142,16 +143,8 @@ class Correction:
         for other in changed.values():
             bind(self.world.task.problem, other.instruction)
         if changed:
-            self._history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
+            self.history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
         return len(changed)
-
-    def undo(self) -> bool:
-        """Take the last edit back; false where there is none."""
-        return self._history.undo()
-
-    def redo(self) -> bool:
-        """Make the edit again that was taken back last; false where there is none."""
-        return self._history.redo()
 
     def broken(self) -> Break | None:
         """Return the first step that does not apply; ``None`` where all do."""
@@ -201,7 +194,7 @@ class Correction:
         beside = self.steps[step - 1 : step] or self.steps[-1:]
         owner = beside[0].clause if beside else 0
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
-        self._history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
+        self.history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
     def _played(self, steps: Sequence[DemonstratedStep]) -> tuple[Bits, Break | None]:
         """Return the state before the first step that does not apply, and that step; or the last state."""
