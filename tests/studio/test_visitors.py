@@ -171,7 +171,6 @@ def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[st
             "Save (K)",
             "Throw away",
             "Insert behind this step",
-            "Correct this plan",
         ):
             visitor.press(label)
         visitor.send({"type": "GuiUpdateMessage", "uuid": "none", "updates": {"value": 1}})
@@ -457,6 +456,6 @@ def test_what_has_no_picture_has_its_objects_listed_and_no_robot(
             visitor.put("Text", served.studio.examples(served.studio.start)[0])
             visitor.press("Plan it")
             visitor.told("Planned in")
-            assert not visitor.elements[visitor.find("Let the robot do it (simulated)")]["visible"]
+            assert not visitor.elements[visitor.find("Let the robot do it")]["visible"]
     finally:
         served.close()

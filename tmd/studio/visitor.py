@@ -58,6 +58,7 @@ class Visitor(PanelContext):
     def __init__(self, studio: Studio, client: ClientHandle, identity: str) -> None:
         super().__init__(studio, client, identity)
         self._pointed_at = -_CLICK
+        self._scenes = 0
         self.run: Run | None = None
         self._aimed: tuple[float, Vector, Vector] = _NOWHERE
         self.scenery: Scenery | None = None
@@ -173,6 +174,7 @@ class Visitor(PanelContext):
         self._build()
         for panel in (self.say, self.demonstrate, self.correct, self.object):
             panel.entered()
+        self.tell(f"This is {name}. Say what is to be done, or show it.")
         self.keep_link()
 
     def _build(self) -> None:
@@ -186,7 +188,10 @@ class Visitor(PanelContext):
             self._draw_graph()
             return
         with self.client.atomic():
-            self.scenery = Scenery(self.client.scene, look, self.studio.figure(), self._pointed, dark=self._dark)
+            self._scenes += 1
+            self.scenery = Scenery(
+                self.client.scene, look, self.studio.figure(), self._pointed, dark=self._dark, number=self._scenes
+            )
         self._camera()
         self._name()
         if self.studio.figure() is None:

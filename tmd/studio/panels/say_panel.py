@@ -93,7 +93,7 @@ class SayPanel:
         self._judged = gui.add_html("")
         self._which = visitor.dropdown("Plan", ("1",), self._choose, visible=False)
         self._steps = gui.add_html("")
-        self._robot = visitor.button("Let the robot do it (simulated)", self._execute, visible=False)
+        self._robot = visitor.button("Let the robot do it", self._execute, visible=False)
         self._stop = visitor.button("Stop", visitor.halt, color="red", visible=False)
         self._repair = visitor.button("Correct this plan", self._correct, visible=False)
         self._reached = gui.add_folder("Goals", visible=False)
@@ -137,8 +137,10 @@ class SayPanel:
         self._grounded, self._request, self._waiting, self._reels = None, None, None, []
         self._visitor.halt()
         self._run = None
+        self._robot.disabled, self._stop.disabled = False, True
         self._button.disabled = False
         self._understood.content = self._judged.content = self._steps.content = ""
+        self._goals.content = self._chart.content = ""
         self._question.visible = self._more.visible = False
         self._found(found=False)
         self._visitor.watch(Reel(self._visitor.setting), 0)
@@ -324,6 +326,7 @@ class SayPanel:
         found = bool(grounded.plans)
         self._visitor.halt()
         self._run = None
+        self._robot.disabled, self._stop.disabled = False, True
         self._found(found=found)
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]

@@ -61,6 +61,8 @@ class Scenery:
         figure: The robot; ``None`` where its model is not installed.
         pointed: Called with the name of an object that was clicked.
         dark: Whether the floor and the walls are dark.
+        number: Of the scenes of one view, so that no two have nodes of one name: what the browser still does for a
+            node that is removed, it does to the new one of that name.
     """
 
     def __init__(
@@ -71,7 +73,9 @@ class Scenery:
         pointed: Callable[[str], None],
         *,
         dark: bool = False,
+        number: int = 0,
     ) -> None:
+        self._root = f"/{number}"
         self._scene = scene
         self._look = look
         self._figure = figure
@@ -93,12 +97,12 @@ class Scenery:
         scene.set_up_direction("+z")
         scene.configure_default_lights(enabled=True, cast_shadow=False)
         for piece in look.room:
-            scene.add_glb(f"/room/{piece.link}", piece.glb(_DARK if self._dark else 1.0))
+            scene.add_glb(f"{self._root}/room/{piece.link}", piece.glb(_DARK if self._dark else 1.0))
         for name, parts in look.objects.items():
-            self._frames[name] = scene.add_frame(f"/objects/{name}", show_axes=False)
+            self._frames[name] = scene.add_frame(f"{self._root}/objects/{name}", show_axes=False)
             coloured = {link for owner, link in look.first.colours if owner == name}
             for piece in parts:
-                path = f"/objects/{name}/{piece.link}"
+                path = f"{self._root}/objects/{name}/{piece.link}"
                 node: GlbHandle | MeshHandle
                 if piece.link in coloured:
                     mesh = piece.mesh
@@ -109,7 +113,7 @@ class Scenery:
                 place = name, ROOT if piece.link == _ROOT else piece.link
                 self._links[place] = node
         for piece in self._figure.pieces if self._figure else ():
-            self._robot[piece.link] = scene.add_glb(f"/robot/{piece.link}", piece.glb())
+            self._robot[piece.link] = scene.add_glb(f"{self._root}/robot/{piece.link}", piece.glb())
 
     def draw(self, picture: Picture) -> None:
         """Show a symbolic state."""
@@ -170,7 +174,7 @@ class Scenery:
                 self._named[name].position = place
             else:
                 self._named[name] = self._scene.add_label(
-                    f"/names/{name}", name, position=place, anchor="bottom-center"
+                    f"{self._root}/names/{name}", name, position=place, anchor="bottom-center"
                 )
 
     def _free_places(self, camera: CameraHandle) -> dict[str, Vector]:
@@ -211,10 +215,10 @@ class Scenery:
         model = self._look.still.blueprints[name].model
         low = tuple(v - 0.01 for v in model.low)
         high = tuple(v + 0.01 for v in model.high)
-        path = f"/objects/{name}/selected"
+        path = f"{self._root}/objects/{name}/selected"
         self._marks = [
             self._scene.add_line_segments(path, _edges(low, high), ORANGE, thickness=3.0, thickness_units="screen"),
-            self._scene.add_label(f"/objects/{name}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
+            self._scene.add_label(f"{self._root}/objects/{name}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
         ]
 
     def eyes(self) -> Aim:
