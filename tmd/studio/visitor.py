@@ -301,7 +301,7 @@ class Visitor(PanelContext):
         if self.studio.figure() is None:
             raise TmdError("the PR2's model is not installed", hint=install_extra("robot"))
         self.halt()
-        self.run = run = Run(self.setting, plan)
+        self.run = run = self.studio.runs[self.identity] = Run(self.setting, plan)
         self.live = True
         self.tell("The simulation is being set up …", aloud=True)
 

@@ -7,15 +7,18 @@ out; it becomes a session when it can.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import accumulate
 
 from tmd.diagnostics import TmdError
-from tmd.inference.ranking import RankedPlan
+from tmd.grounded import Grounded
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import bind, get_constraints
 from tmd.pddl.task import Bits
+from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Planner, Unreachable
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
@@ -23,6 +26,7 @@ from tmd.studio.demonstrations.clause_spans import clean, cut
 from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, History, Session
 from tmd.studio.object_info import require_object
 from tmd.view.wording import Wording
+from tmd.world.demonstration import Demonstration
 from tmd.world.world import World
 
 
@@ -245,6 +249,34 @@ def steps_of(
     starts = [piece.start for piece in pieces]
     owners = [max((n for n, start in enumerate(starts) if start <= c.span.start), default=0) for c in clauses]
     return [DemonstratedStep(step.instruction, owners[step.clause]) for step in plan.steps]
+
+
+def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded:
+    """Return the plans for the text of a saved correction, the corrected one first, if it works."""
+    problem, task = grounded.world.task.problem, grounded.world.task
+    verdict = validate(problem, saved.instructions)
+    if not verdict.valid:
+        return grounded
+    starts = [clause.span.start for clause in grounded.parsed.clauses] or [0]
+    steps: list[list[PlanStep]] = [[] for _ in starts]
+    for segment in saved.segments:
+        owner = max((n for n, start in enumerate(starts) if start < segment.end), default=0)
+        steps[owner] += [PlanStep(instruction, owner, latent=False) for instruction in segment.instructions]
+    ends = list(accumulate(map(len, steps)))
+    goals = grounded.plans[0].goals if grounded.plans else ()
+    placed = tuple(
+        replace(each, first=ends[each.clause] - len(steps[each.clause]), last=ends[each.clause]) for each in goals
+    )
+    choices = tuple(Choice(saved.id, tuple(each), {}, {}) for each in steps)
+    state = task.init
+    for instruction in saved.instructions:
+        state = task.by_instruction[instruction].apply(state)
+    kept = [n for n, plan in enumerate(grounded.plans) if plan.instructions != saved.instructions]
+    return replace(
+        grounded,
+        plans=(RankedPlan(choices, state, goals=placed), *(grounded.plans[n] for n in kept)),
+        verdicts=(verdict, *(grounded.verdicts[n] for n in kept)),
+    )
 
 
 def _renamed(step: DemonstratedStep, names: Mapping[str, str]) -> DemonstratedStep:

@@ -20,7 +20,7 @@ from tmd.pddl.semantics import holds
 from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.clause_spans import clean
-from tmd.studio.demonstrations.correction import steps_of
+from tmd.studio.demonstrations.correction import as_corrected, steps_of
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext, chosen, put
@@ -77,6 +77,7 @@ class SayPanel:
         self._request: Request | None = None
         self._waiting: PageLink | None = None
         self._reels: list[Reel] = []
+        self._corrected = False
         self._run: Run | None = None
         self._ran = 0
         self._asked: list[ShownGoal] = []
@@ -197,7 +198,7 @@ class SayPanel:
             place = link.plan - 1 if link.plan <= len(grounded.plans) else 0
             self._show(grounded, place, link.step, watch=free, request=request)
             if free or request.reader is not None:
-                self._tell(grounded, took)
+                self._tell(self._grounded or grounded, took)
         visitor.keep_link()
 
     def _ground(self, request: Request) -> Grounded:
@@ -254,7 +255,7 @@ class SayPanel:
         grounded = self._again(demonstration)
         put(self._text, demonstration.text)
         self._show(grounded)
-        used = whether_used(demonstration.instructions, grounded, visitor.wording.instruction)
+        used = self._whether_used(demonstration, grounded)
         visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
 
     def learned(self) -> None:
@@ -266,12 +267,17 @@ class SayPanel:
             return
         grounded = self._again(saved)
         # what a language model read, or what was chosen in answer to a question, stays
-        same = self._request == Request(saved.text)
-        if same and not visitor.is_playing() and _plans(self._grounded) != _plans(grounded):
+        same = self._request == Request(saved.text) and not self._corrected
+        if same and self._run is None and not visitor.is_playing() and _plans(self._grounded) != _plans(grounded):
             self._show(grounded)
-        used = whether_used(saved.instructions, grounded, visitor.wording.instruction)
+        used = self._whether_used(saved, grounded)
         said = " ".join(saved.text.split())
         visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
+
+    def _whether_used(self, saved: Demonstration, grounded: Grounded) -> str:
+        if self._corrected and saved.proposed is not None:
+            return "This sentence now gives it here, as it was corrected."
+        return whether_used(saved.instructions, grounded, self._visitor.wording.instruction)
 
     def _again(self, saved: Demonstration) -> Grounded:
         """Return the text of a demonstration, planned where it was shown; a language model is not asked."""
@@ -282,7 +288,7 @@ class SayPanel:
         """Report the number of plans, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            more = _ASKED if grounded.question is not None else None
+            more = _ASKED if grounded.question is not None else f"{self._run.over} {_BACK}" if self._run else None
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
@@ -318,8 +324,15 @@ class SayPanel:
         request: Request | None = None,
     ) -> None:
         """Show what a text was grounded to: the plan at ``place``, after ``step`` steps, and its picture if wanted."""
-        self._grounded, self._waiting = grounded, None
+        self._waiting = None
         self._request = request or Request(grounded.parsed.text)
+        energies = grounded.plans
+        lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
+        corrected = self._visitor.studio.corrected(grounded.parsed.text, self._visitor.setting.name)
+        self._corrected = corrected is not None and self._request == Request(grounded.parsed.text)
+        if corrected is not None and self._corrected:
+            grounded = as_corrected(grounded, corrected)
+        self._grounded = grounded
         self._button.disabled = False
         self._put_question(grounded, self._request)
         self._reels = [self._played(plan.steps) for plan in grounded.plans]
@@ -329,9 +342,8 @@ class SayPanel:
         self._robot.disabled, self._stop.disabled = False, True
         self._found(found=found)
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
-        lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         self._energies.content = fragment(
-            candidates(grounded.plans, lines, grounded.rejected, narrow=True) + effort(grounded.usage)
+            candidates(energies, lines, grounded.rejected, narrow=True) + effort(grounded.usage)
         )
         if not found:
             unseen = () if grounded.refused is not None else grounded.unseen
@@ -342,8 +354,15 @@ class SayPanel:
             return
         self._which.options = tuple(
             f"{number} of {len(grounded.plans)}: {len(plan.steps)} step{'' if len(plan.steps) == 1 else 's'}"
+            + (", as it was corrected" if self._corrected and number == 1 else "")
             for number, plan in enumerate(grounded.plans, start=1)
         )
+        run = self._visitor.studio.runs.get(self._visitor.identity)  # from before the connection was lost
+        same = (n for n, plan in enumerate(grounded.plans) if run is not None and plan.instructions == run.planned)
+        self._ran = next(same, -1)
+        if run is not None and run.setting is self._visitor.setting and self._ran >= 0:
+            self._run = run
+            self._which.options = (*self._which.options, ROBOT)
         self._step = step
         put(self._which, self._which.options[place])
         self._choose(watch=watch)
@@ -403,7 +422,7 @@ class SayPanel:
         over = run.ended.is_set() and bool(run.over)
         self._robot.disabled, self._stop.disabled = not over, over
         if over:
-            self._visitor.tell(run.over, "It is under Plan, to look back." if run.done else None, aloud=True)
+            self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
         elif run.now is not None:
             said = self._visitor.wording.instruction(run.now.instruction)
             self._visitor.tell(f"The robot, step {run.now.number} of {run.now.of}: {said}")
@@ -495,6 +514,7 @@ class SayPanel:
 
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
+_BACK = "It is under Plan, to look back."
 _ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."

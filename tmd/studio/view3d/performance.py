@@ -56,6 +56,7 @@ class Run(Reel):
     """The robot's run of a plan: the observed states, and the moments in between.
 
     Attributes:
+        planned: The plan.
         done: The instructions that were done, each with its clause, *repair* for what the monitor put in.
         faults: What was not as predicted, by the number of the instruction.
         now: The instruction that is being done; ``None`` between two of them.
@@ -69,6 +70,7 @@ class Run(Reel):
         super().__init__(setting)
         self._orders = [Order(step.instruction, step.clause, step.latent) for step in plan.steps]
         self._lines = plan_lines(plan)
+        self.planned = plan.instructions
         self.done: list[StepLine] = []
         self.faults: dict[int, list[str]] = {}
         self.now: Title | None = None
