@@ -443,24 +443,6 @@ def test_what_is_not_possible_yet_is_done_with_what_it_needs(server: Server) -> 
     assert len(done) == len(STEPS) and done[-1] == STEPS[-1]
 
 
-def test_what_has_no_picture_has_its_objects_listed_and_no_robot(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
-    root = Path(__file__).parents[2]
-    blocks = Corpus(DomainFolder(root / "domains" / "01_blocks"), root / "problems" / "01_blocks")
-    served = Server(Studio(blocks, Teacher(blocks)), "127.0.0.1", 0)
-    try:
-        with Wire(served.url) as visitor:
-            visitor.shows(": block</h4>")
-            visitor.put("Text", served.studio.examples(served.studio.start)[0])
-            visitor.press("Plan it")
-            visitor.told("Planned in")
-            assert not visitor.elements[visitor.find("Let the robot do it")]["visible"]
-    finally:
-        served.close()
-
-
 def plan_it(visitor: Wire, text: str) -> None:
     visitor.put("Text", text)
     visitor.press("Plan it")
@@ -567,5 +549,6 @@ def test_what_has_no_places_is_a_graph(tmp_path: Path, monkeypatch: pytest.Monke
             visitor.happens(object="red_block")
             visitor.shows("marked")
             visitor.shows("red_block: block</h4>")
+            assert not value(visitor, "Let the robot do it", "visible")
     finally:
         served.close()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tmd.pddl.task import Operator
-from tmd.studio.object_info import require_object
+from tmd.view.panels import require_object
 from tmd.view.wording import Wording
 from tmd.world.world import World
 

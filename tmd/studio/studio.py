@@ -17,7 +17,7 @@ from tmd.studio.demonstrations.session import Session
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.meshes import Figure
-from tmd.studio.view3d.performance import Run
+from tmd.studio.view3d.performance import RobotRun
 from tmd.world.compile import compile_problem
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
@@ -48,7 +48,7 @@ class Studio:
         self.teacher = teacher
         self.archive = Archive(corpus)
         self.drafts = Drafts(place(corpus))
-        self.runs: dict[str, Run] = {}
+        self.runs: dict[str, RobotRun] = {}
         self._texts = example_texts(corpus)
         self._lock = RLock()
         self._settings: dict[str, Setting] = {}

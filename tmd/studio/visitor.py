@@ -20,13 +20,13 @@ from tmd.studio.page import Event, PageLink, Window
 from tmd.studio.panels.context import PanelContext, Played, put
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import DemonstratePanel
-from tmd.studio.panels.html import fragment, notice
 from tmd.studio.panels.object_panel import ObjectPanel
 from tmd.studio.panels.player_panel import PlayerPanel
 from tmd.studio.panels.say_panel import SayPanel
-from tmd.studio.view3d.performance import RATE, Run
+from tmd.studio.view3d.performance import RATE, RobotRun
 from tmd.studio.view3d.scenery import Scenery
 from tmd.view.markup import style
+from tmd.view.panels import fragment, notice
 from tmd.view.state_graph import StateGraph
 from tmd.world.demonstration import Demonstration
 
@@ -59,7 +59,7 @@ class Visitor(PanelContext):
         super().__init__(studio, client, identity)
         self._pointed_at = -_CLICK
         self._scenes = 0
-        self.run: Run | None = None
+        self.run: RobotRun | None = None
         self._aimed: tuple[float, Vector, Vector] = _NOWHERE
         self.scenery: Scenery | None = None
         with self.lock:  # who is quick waits until everything is there
@@ -200,7 +200,7 @@ class Visitor(PanelContext):
     def watch(self, reel: Reel, step: int, by: Played | None = None, instructions: Sequence[Instruction] = ()) -> None:
         """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
         self.reel, self.cursor, self.owner = reel, step, by
-        if isinstance(reel, Run):
+        if isinstance(reel, RobotRun):
             self.moment = len(reel.moments) - 1 if self.live and not reel.over else reel.after(step)
         self.player.show(tuple(instructions))
         self.draw()
@@ -213,9 +213,9 @@ class Visitor(PanelContext):
             self._draw_graph()
             return
         with self.client.atomic():  # half of the robot must not go before the rest
-            if isinstance(reel, Run) and reel.moments:
+            if isinstance(reel, RobotRun) and reel.moments:
                 scenery.replay(reel.moments[self.moment])
-            elif (picture := reel.picture(0 if isinstance(reel, Run) else self.cursor)) is not None:
+            elif (picture := reel.picture(0 if isinstance(reel, RobotRun) else self.cursor)) is not None:
                 scenery.draw(picture)
         if self._view.value != ROOM:
             self._camera()
@@ -294,14 +294,14 @@ class Visitor(PanelContext):
 
     # the robot
 
-    def execute(self, plan: RankedPlan) -> Run:
+    def execute(self, plan: RankedPlan) -> RobotRun:
         """Let the simulated robot carry a plan out, in the background."""
         if self.scenery is None:
             raise TmdError(f"the robot cannot do it here. {self.setting.blind}")
         if self.studio.figure() is None:
             raise TmdError("the PR2's model is not installed", hint=install_extra("robot"))
         self.halt()
-        self.run = run = self.studio.runs[self.identity] = Run(self.setting, plan)
+        self.run = run = self.studio.runs[self.identity] = RobotRun(self.setting, plan)
         self.live = True
         self.tell("The simulation is being set up …", aloud=True)
 
@@ -328,7 +328,7 @@ class Visitor(PanelContext):
     def seek(self, second: float) -> None:
         """Look at a moment of the run that is looked at."""
         run = self.reel
-        if not isinstance(run, Run) or not run.moments:
+        if not isinstance(run, RobotRun) or not run.moments:
             return
         self.stop()
         moment = min(max(round(second * RATE), 0), len(run.moments) - 1)

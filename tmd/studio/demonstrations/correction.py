@@ -24,7 +24,7 @@ from tmd.planning.result import Filled, Planner, Unreachable
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
 from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, History, Session
-from tmd.studio.object_info import require_object
+from tmd.view.panels import require_object
 from tmd.view.wording import Wording
 from tmd.world.demonstration import Demonstration
 from tmd.world.world import World

@@ -14,9 +14,9 @@ from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel, Setting
-from tmd.studio.panels.html import fragment, notice
 from tmd.studio.studio import Studio
-from tmd.studio.view3d.performance import Run
+from tmd.studio.view3d.performance import RobotRun
+from tmd.view.panels import fragment, notice
 from tmd.view.wording import Wording
 from tmd.world.demonstration import Demonstration
 
@@ -206,7 +206,7 @@ class PanelContext:
     def show_tab(self, name: str) -> None:
         """Open a tab."""
 
-    def execute(self, plan: RankedPlan) -> Run:
+    def execute(self, plan: RankedPlan) -> RobotRun:
         """Let the simulated robot carry a plan out, in the background; :meth:`halt` ends it."""
         raise NotImplementedError
 

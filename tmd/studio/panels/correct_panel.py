@@ -14,7 +14,7 @@ from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
 from tmd.studio.panels.context import PanelContext, chosen, put
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
-from tmd.studio.panels.html import StepLine, fragment, step_list
+from tmd.view.panels import StepLine, fragment, step_list
 
 EVERYWHERE = "in every step"
 HERE = "in this step"

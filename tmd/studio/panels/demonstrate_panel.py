@@ -15,7 +15,7 @@ from tmd.studio.demonstrations.drafts import Draft
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.environment_view import Reel
 from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.panels.html import StepLine, changed, step_list
+from tmd.view.panels import StepLine, changed, step_list
 
 if TYPE_CHECKING:
     from viser import GuiButtonHandle

@@ -8,7 +8,7 @@ from html import escape
 
 from tmd.pddl.model import Instruction
 from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.view3d.performance import RATE, Run
+from tmd.studio.view3d.performance import RATE, RobotRun
 
 BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
 
@@ -41,7 +41,7 @@ class PlayerPanel:
         visitor, step = self._visitor, self._visitor.cursor
         self.instructions, self._last = instructions, len(visitor.reel.states) - 1
         found = visitor.owner is not None and bool(instructions)
-        run = visitor.reel if isinstance(visitor.reel, Run) else None
+        run = visitor.reel if isinstance(visitor.reel, RobotRun) else None
         for handle, seen in ((self._slider, found), (self._buttons, found), (self._seconds, run is not None)):
             if handle.visible != seen:
                 handle.visible = seen
@@ -58,7 +58,7 @@ class PlayerPanel:
         else:
             self.say(f"{step} / {self._last} {done}" if found else "")
 
-    def time(self, run: Run) -> None:
+    def time(self, run: RobotRun) -> None:
         """Show how long a run is, and the moment that is looked at."""
         last = max(len(run.moments) - 1, 1) / RATE
         if not run.ended.is_set():

@@ -24,14 +24,14 @@ from tmd.studio.demonstrations.correction import as_corrected, steps_of
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.panels.html import StepLine, changed, effort, fragment, goal_list, judgement, step_list
-from tmd.studio.view3d.performance import Run, plan_lines
+from tmd.studio.view3d.performance import RobotRun, plan_lines
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
 from tmd.view.object_rows import object_rows
+from tmd.view.panels import StepLine, changed, effort, fragment, goal_list, judgement, step_list
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class SayPanel:
         self._waiting: PageLink | None = None
         self._reels: list[Reel] = []
         self._corrected = False
-        self._run: Run | None = None
+        self._run: RobotRun | None = None
         self._ran = 0
         self._asked: list[ShownGoal] = []
         self._step = 0
@@ -388,7 +388,7 @@ class SayPanel:
         """Return the number of the plan that is looked at, or that the robot does, from 0."""
         return self._ran if self._running() is not None else list(self._which.options).index(chosen(self._which))
 
-    def _running(self) -> Run | None:
+    def _running(self) -> RobotRun | None:
         """Return the run of the robot, if it is looked at."""
         return self._run if self._which.value == ROBOT else None
 
@@ -415,7 +415,7 @@ class SayPanel:
             self._visitor.live = self._run is not None and self._step == self._last()
             self._look()
 
-    def ran(self, run: Run) -> None:
+    def ran(self, run: RobotRun) -> None:
         """Show where the robot is, if it is followed, and how its run ended."""
         if run is not self._run:
             return

@@ -17,7 +17,7 @@ from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.pose import Pose
 from tmd.robot.video.symbolic_renderer import Colour
 from tmd.studio.environment_view import Reel, Setting
-from tmd.studio.panels.html import StepLine
+from tmd.view.panels import StepLine
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 
@@ -52,7 +52,7 @@ class _StoppedError(Exception):
     """The visitor stopped the run."""
 
 
-class Run(Reel):
+class RobotRun(Reel):
     """The robot's run of a plan: the observed states, and the moments in between.
 
     Attributes:
@@ -156,7 +156,7 @@ class _Witness:
     """Records a simulation, and tells of it."""
 
     def __init__(
-        self, run: Run, session: SimulationSession, moved: Callable[[], None], advanced: Callable[[], None]
+        self, run: RobotRun, session: SimulationSession, moved: Callable[[], None], advanced: Callable[[], None]
     ) -> None:
         assert run.setting.look is not None
         self._run, self._session, self._moved, self._advanced = run, session, moved, advanced
