@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+import shutil
 import socket
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -538,7 +539,13 @@ def test_the_robot_is_followed_and_its_run_can_be_looked_back_on(
 def test_what_has_no_places_is_a_graph(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
     root = Path(__file__).parents[2]
-    blocks = Corpus(DomainFolder(root / "domains" / "01_blocks"), root / "problems" / "01_blocks")
+    shutil.copytree(root / "problems" / "01_blocks", tmp_path / "blocks")
+    names = [f"b{number}" for number in range(2_000)]
+    facts = " ".join(f"(clear {name}) (on_table {name})" for name in names)
+    head = f"(define (problem huge) (:domain blocks) (:objects {' '.join(names)} - block)"
+    huge = f"{head} (:init (hand_empty) {facts}) (:goal (and)))"
+    (tmp_path / "blocks" / "environments" / "zz_huge.pddl").write_text(huge)
+    blocks = Corpus(DomainFolder(root / "domains" / "01_blocks"), tmp_path / "blocks")
     served = Server(Studio(blocks, Teacher(blocks)), "127.0.0.1", 0)
     try:
         with Wire(served.url) as visitor:
@@ -550,5 +557,9 @@ def test_what_has_no_places_is_a_graph(tmp_path: Path, monkeypatch: pytest.Monke
             visitor.shows("marked")
             visitor.shows("red_block: block</h4>")
             assert not value(visitor, "Let the robot do it", "visible")
+            visitor.put("Environment", "zz_huge")
+            visitor.told("grounding needs more than 500,000 combinations of objects")
+            visitor.until(lambda: value(visitor, "Environment") == "yard1")
+            visitor.shows("red_block: block</h4>")
     finally:
         served.close()

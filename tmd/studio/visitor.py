@@ -159,11 +159,15 @@ class Visitor(PanelContext):
 
     def _go(self) -> None:
         if self._where.value != self.setting.name:
-            self.enter(self._where.value)
+            try:
+                self.enter(self._where.value)
+            finally:  # it may be wrong, or too large
+                put(self._where, self.setting.name)
 
     def enter(self, name: str) -> None:
         """Go to another environment."""
         self.stop()
+        self.tell(f"Opening {name} …")
         self.setting = self.studio.setting(name)
         names = tuple(self.studio.environments())
         if self._where.options != names:
