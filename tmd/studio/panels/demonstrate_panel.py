@@ -48,8 +48,8 @@ class DemonstratePanel:
         with self._do:
             self._object = visitor.dropdown("With", (NONE, *visitor.setting.names()), self._point)
             self._buttons = gui.add_folder("Possible now")
-            self._others = visitor.dropdown("More", (NOTHING,))
-            visitor.button("Do that, and first what it needs", self._do_other)
+            self._others = visitor.dropdown("More", (NOTHING,), self._able)
+            self._other = visitor.button("Do that, and first what it needs", self._do_other, disabled=True)
         self._keep = gui.add_folder("Save", visible=False)
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
@@ -170,6 +170,9 @@ class DemonstratePanel:
         self.refresh()
         visitor.tell(f"Done, with {len(needed)} step{'' if len(needed) == 1 else 's'} before it.")
 
+    def _able(self) -> None:
+        self._other.disabled = self._others.value == NOTHING
+
     def undo(self) -> None:
         """Take the last change back."""
         if not self._going().undo():
@@ -254,3 +257,4 @@ class DemonstratePanel:
         options = (NOTHING, *self._more)
         if self._others.options != options:
             self._others.options = options
+        self._able()
