@@ -10,9 +10,11 @@ from xml.etree import ElementTree
 import pytest
 
 from tests.bundled import corpus
+from tmd.diagnostics import ExitCode
 from tmd.pddl.model import GroundAtom, Problem, State, TypedName
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
+from tmd.pddl.validator import validate
 from tmd.view import state_graph
 from tmd.view.object_rows import object_rows
 from tmd.view.state_graph import MOST, Layout, Places, Point, StateGraph, by_graphviz, by_networkx, placed
@@ -108,3 +110,16 @@ def test_the_page_draws_a_problem(tmp_path: Path) -> None:
     page = render(Subject("blocks", problem, tuple(PlannedStep(each) for each in PLAN))).html
     assert page.count("<svg") == 2 and "edge came" in page and "tmd-rows" in page
     assert render(Subject("no plan", problem, ())).html.count("<svg") == 1
+
+
+def test_a_problem_without_a_plan_is_drawn(tmp_path: Path) -> None:
+    from tmd.view.sources import ViewRequest, subject_of_file
+    from tmd.world.roots import Roots
+
+    file = tmp_path / "no.pddl"
+    goal = "(and (on a b) (on b a))"
+    init = "(hand_empty) (clear a) (clear b) (on_table a) (on_table b)"
+    file.write_text(f"(define (problem no) (:domain blocks) (:objects a b - block) (:init {init}) (:goal {goal}))")
+    found = subject_of_file(Roots(), ViewRequest(str(file), domain="01_blocks", problem=file))
+    assert found.subject.steps == () and "no plan was found" in found.remarks[0]
+    assert found.ending(validate(found.subject.problem, [])) == ExitCode.NOT_GROUNDED

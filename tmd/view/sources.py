@@ -72,7 +72,7 @@ class FoundSubject:
         subject: The subject of the page.
         remarks: Lines for standard error.
         locations: Where the steps of a plan file stand.
-        of_text: Whether there is a text that should have a plan.
+        of_text: Whether there is a text, or a problem, that should have a plan.
     """
 
     subject: Subject
@@ -130,7 +130,7 @@ def _planned(roots: Roots, asked: ViewRequest) -> FoundSubject:
     remarks = () if solved else (f"warning: {asked.name}: no plan was found; the page shows the initial state\n",)
     where = {"problem": asked.problem, "domain": problem.domain.name}
     title = f"{asked.path.name}: {'a plan in ' if solved else ''}{problem.name}"
-    return FoundSubject(Subject(title, problem, steps, made=made_rows(where)), remarks)
+    return FoundSubject(Subject(title, problem, steps, made=made_rows(where)), remarks, of_text=not solved)
 
 
 def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> FoundSubject:

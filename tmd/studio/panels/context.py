@@ -21,14 +21,7 @@ from tmd.view.wording import Wording
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
-    from viser import (
-        ClientHandle,
-        GuiButtonGroupHandle,
-        GuiButtonHandle,
-        GuiDropdownHandle,
-        GuiHtmlHandle,
-        NotificationHandle,
-    )
+    import viser
 
 # Of messages and of faults, as on the page.
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
@@ -71,7 +64,7 @@ class PanelContext:
     setting: Setting
     reel: Reel
 
-    def __init__(self, studio: Studio, client: ClientHandle, identity: str) -> None:
+    def __init__(self, studio: Studio, client: viser.ClientHandle, identity: str) -> None:
         self.studio = studio
         self.client = client
         self.identity = identity
@@ -81,9 +74,9 @@ class PanelContext:
         self.selected: str | None = None
         self.lock = threading.RLock()
         self._playing: threading.Event | None = None
-        self._message: GuiHtmlHandle | None = None
+        self._message: viser.GuiHtmlHandle | None = None
         self._voice = threading.Lock()
-        self._aloud: NotificationHandle | None = None
+        self._aloud: viser.NotificationHandle | None = None
 
     @property
     def wording(self) -> Wording:
@@ -92,13 +85,15 @@ class PanelContext:
 
     # widgets
 
-    def button(self, label: str, act: Act, *, color: Colour = "gray", **options: Any) -> GuiButtonHandle:  # noqa: ANN401
+    def button(self, label: str, act: Act, *, color: Colour = "gray", **options: Any) -> viser.GuiButtonHandle:  # noqa: ANN401
         """Add a button: blue is the main one of its panel, red throws something away, any other one is grey."""
         handle = self.client.gui.add_button(label, color=color, **options)
         handle.on_click(self.guarded(act))
         return handle
 
-    def buttons(self, label: str, names: Sequence[str], act: Act, *, visible: bool = True) -> GuiButtonGroupHandle:
+    def buttons(
+        self, label: str, names: Sequence[str], act: Act, *, visible: bool = True
+    ) -> viser.GuiButtonGroupHandle:
         """Add a row of buttons."""
         handle = self.client.gui.add_button_group(label, names, visible=visible)
         handle.on_click(self.guarded(act))
@@ -106,9 +101,9 @@ class PanelContext:
 
     def dropdown(
         self, label: str, options: Sequence[str], act: Act | None = None, *, visible: bool = True
-    ) -> GuiDropdownHandle[str]:
+    ) -> viser.GuiDropdownHandle[str]:
         """Add a list to choose from."""
-        handle: GuiDropdownHandle[str] = self.client.gui.add_dropdown(label, options, visible=visible)
+        handle: viser.GuiDropdownHandle[str] = self.client.gui.add_dropdown(label, options, visible=visible)
         if act is not None:
             handle.on_update(self.guarded(act))
         return handle
@@ -229,7 +224,7 @@ def put(handle: object, value: object) -> None:
         setattr(handle, _VALUE, value)
 
 
-def chosen(handle: GuiDropdownHandle[str] | GuiButtonGroupHandle) -> str:
+def chosen(handle: viser.GuiDropdownHandle[str] | viser.GuiButtonGroupHandle) -> str:
     """Return the chosen option of an input.
 
     Raises:

@@ -16,16 +16,7 @@ from tmd.studio.view3d.meshes import Figure
 from tmd.studio.view3d.performance import Moment
 
 if TYPE_CHECKING:
-    from viser import (
-        CameraHandle,
-        FrameHandle,
-        GlbHandle,
-        LabelHandle,
-        LineSegmentsHandle,
-        MeshHandle,
-        SceneApi,
-        SceneNodeHandle,
-    )
+    import viser
 
 # Of the selected object, which has lines and a label as well.
 ORANGE = (230, 159, 0)
@@ -67,7 +58,7 @@ class Scenery:
 
     def __init__(
         self,
-        scene: SceneApi,
+        scene: viser.SceneApi,
         look: Look,
         figure: Figure | None,
         pointed: Callable[[str], None],
@@ -81,11 +72,11 @@ class Scenery:
         self._figure = figure
         self._pointed = pointed
         self._dark = dark
-        self._frames: dict[str, FrameHandle] = {}
-        self._links: dict[tuple[str, str], GlbHandle | MeshHandle] = {}
-        self._robot: dict[str, GlbHandle] = {}
-        self._marks: list[LineSegmentsHandle | LabelHandle] = []
-        self._named: dict[str, LabelHandle] = {}
+        self._frames: dict[str, viser.FrameHandle] = {}
+        self._links: dict[tuple[str, str], viser.GlbHandle | viser.MeshHandle] = {}
+        self._robot: dict[str, viser.GlbHandle] = {}
+        self._marks: list[viser.LineSegmentsHandle | viser.LabelHandle] = []
+        self._named: dict[str, viser.LabelHandle] = {}
         self._base = look.first.robot
         self._poses: dict[str, Pose] = {}
         self._colours: dict[tuple[str, str], tuple[float, ...]] = {}
@@ -103,7 +94,7 @@ class Scenery:
             coloured = {link for owner, link in look.first.colours if owner == name}
             for piece in parts:
                 path = f"{self._root}/objects/{name}/{piece.link}"
-                node: GlbHandle | MeshHandle
+                node: viser.GlbHandle | viser.MeshHandle
                 if piece.link in coloured:
                     mesh = piece.mesh
                     node = scene.add_mesh_simple(path, mesh.vertices, mesh.faces, flat_shading=True, side="double")
@@ -143,7 +134,7 @@ class Scenery:
             if link == BASE:
                 self._base = pose
 
-    def _move(self, node: SceneNodeHandle, pose: Pose) -> None:
+    def _move(self, node: viser.SceneNodeHandle, pose: Pose) -> None:
         """Move a node, unless it is there: what does not move costs nothing."""
         if self._poses.get(node.name) == pose:
             return
@@ -161,7 +152,7 @@ class Scenery:
         node.visible = colour[3] > 0
         node.color = tuple(round(255 * part) for part in colour[:3])  # type: ignore[union-attr]
 
-    def names(self, camera: CameraHandle | None) -> None:
+    def names(self, camera: viser.CameraHandle | None) -> None:
         """Show the names of all objects as a camera sees them, none over another; hide them without a camera.
 
         The nearest come first; a name that is in the way goes up, and one that finds no place is left out.
@@ -177,7 +168,7 @@ class Scenery:
                     f"{self._root}/names/{name}", name, position=place, anchor="bottom-center"
                 )
 
-    def _free_places(self, camera: CameraHandle) -> dict[str, Vector]:
+    def _free_places(self, camera: viser.CameraHandle) -> dict[str, Vector]:
         """Return the places of the names that find one."""
         eye = np.asarray(camera.position)
         forward = np.asarray(camera.look_at) - eye
