@@ -136,9 +136,6 @@ class SayPanel:
     def _clear(self) -> None:
         """Remove all plans; the picture shows the beginning."""
         self._grounded, self._request, self._waiting, self._reels = None, None, None, []
-        self._visitor.halt()
-        self._run = None
-        self._robot.disabled, self._stop.disabled = False, True
         self._button.disabled = False
         self._understood.content = self._judged.content = self._steps.content = ""
         self._goals.content = self._chart.content = ""
@@ -147,7 +144,10 @@ class SayPanel:
         self._visitor.watch(Reel(self._visitor.setting), 0)
 
     def _found(self, *, found: bool) -> None:
-        """Show what a plan has, or hide it."""
+        """Show what a plan has, or hide it; a robot that does another plan is stopped."""
+        self._visitor.halt()
+        self._run = None
+        self._robot.disabled, self._stop.disabled = False, True
         for handle in (self._which, self._repair, self._reached, self._rows, self._files):
             handle.visible = found
         folder, look = self._visitor.studio.corpus.folder, self._visitor.setting.look
@@ -329,17 +329,15 @@ class SayPanel:
         energies = grounded.plans
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         corrected = self._visitor.studio.corrected(grounded.parsed.text, self._visitor.setting.name)
-        self._corrected = corrected is not None and self._request == Request(grounded.parsed.text)
-        if corrected is not None and self._corrected:
+        self._corrected = False
+        if corrected is not None and self._request == Request(grounded.parsed.text):
             grounded = as_corrected(grounded, corrected)
+            self._corrected = bool(grounded.plans) and grounded.plans[0].instructions == corrected.instructions
         self._grounded = grounded
         self._button.disabled = False
         self._put_question(grounded, self._request)
         self._reels = [self._played(plan.steps) for plan in grounded.plans]
         found = bool(grounded.plans)
-        self._visitor.halt()
-        self._run = None
-        self._robot.disabled, self._stop.disabled = False, True
         self._found(found=found)
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
         self._energies.content = fragment(
