@@ -8,7 +8,7 @@ from tmd.diagnostics import TmdError
 from tmd.goals.wording import Wording
 from tmd.pddl.model import GroundAtom
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.object_info import about
+from tmd.view.panels import about
 from tmd.world.corpus import Corpus
 from tmd.world.world import World
 

@@ -14,9 +14,9 @@ from tests.readers.fake_server import Answer, FakeServer, asked, reply, serve
 from tmd.pddl.model import Atom, Not
 from tmd.readers.interface import Question, QuestionOption, Usage
 from tmd.readers.llm.client import KEY, MODEL, URL, ModelError
-from tmd.studio.panels.html import effort
 from tmd.studio.panels.say_panel import Request
 from tmd.studio.teaching import Teacher
+from tmd.view.panels import effort
 from tmd.world.corpus import Corpus
 
 pytest.importorskip("openai", reason="needs the extra llm")

@@ -8,8 +8,8 @@ from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.studio.applicable_actions import Offers
-from tmd.studio.panels.html import StepLine, changed, goal_list, notice, object_facts, step_list
 from tmd.view.goals import in_words
+from tmd.view.panels import StepLine, changed, goal_list, notice, object_facts, step_list
 from tmd.world.world import World
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from io import BytesIO
+from itertools import combinations
 from math import tan
+from typing import Any
 from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
+import trimesh
 
 from tmd.studio.environment_view import Look, open_setting
 from tmd.studio.view3d.scenery import Scenery
@@ -21,17 +25,19 @@ def node(path: str, *_: object, **__: object) -> MagicMock:
     return made
 
 
-def furnished(kitchen: Corpus) -> tuple[Scenery, Look]:
+def furnished(kitchen: Corpus, *, dark: bool = False) -> tuple[Scenery, Look, MagicMock]:
     """The scenery of a kitchen; what draws it does nothing."""
     setting = open_setting(kitchen, kitchen.world("kitchen1"), kitchen.file("kitchen1"))
     assert setting.look is not None
-    scene = MagicMock(add_glb=node, add_mesh_simple=node, add_frame=node)
-    return Scenery(scene, setting.look, None, lambda _: None), setting.look
+    scene = MagicMock()
+    for each in (scene.add_glb, scene.add_mesh_simple, scene.add_frame, scene.add_label):
+        each.side_effect = node
+    return Scenery(scene, setting.look, None, lambda _: None, dark=dark), setting.look, scene
 
 
 @pytest.mark.parametrize("aspect", [1.1, 3.0, 0.5, 0.8, 0.3])
 def test_the_whole_room_is_in_view(kitchen: Corpus, aspect: float) -> None:
-    scenery, look = furnished(kitchen)
+    scenery, look, _ = furnished(kitchen)
     eye, target = (np.array(place) for place in scenery.overview(FOV, aspect))
     forward = (target - eye) / np.linalg.norm(target - eye)
     right = np.cross(forward, (0.0, 0.0, 1.0))
@@ -43,3 +49,44 @@ def test_the_whole_room_is_in_view(kitchen: Corpus, aspect: float) -> None:
         assert depth > 0
         assert abs(seen @ right) <= depth * aspect
         assert abs(seen @ up) <= depth
+
+
+def test_the_room_is_as_dark_as_the_page(kitchen: Corpus) -> None:
+    def brightness(*, dark: bool) -> float:
+        scene = furnished(kitchen, dark=dark)[2]
+        room = [call.args[1] for call in scene.add_glb.call_args_list if call.args[0].startswith("/0/room/")]
+        meshes: list[Any] = [trimesh.load(BytesIO(glb), file_type="glb", force="mesh") for glb in room]
+        return max(float(mesh.visual.vertex_colors[:, :3].mean()) for mesh in meshes)
+
+    assert brightness(dark=True) < 80 < 150 < brightness(dark=False)
+
+
+def test_names_are_not_over_one_another(kitchen: Corpus) -> None:
+    scenery, look, scene = furnished(kitchen)
+    eye, target = scenery.overview(FOV, 1.2)
+    camera = MagicMock(position=eye, look_at=target, up_direction=(0.0, 0.0, 1.0), fov=FOV, image_height=700)
+    scenery.names(camera)
+    shown = {call.args[1]: call.kwargs["position"] for call in scene.add_label.call_args_list}
+    assert len(shown) > 0.8 * len(look.first.poses)
+    forward = (np.array(target) - eye) / np.linalg.norm(np.array(target) - eye)
+    right = np.cross(forward, (0.0, 0.0, 1.0)) / np.linalg.norm(np.cross(forward, (0.0, 0.0, 1.0)))
+    boxes = []
+    for name, place in shown.items():
+        seen = np.array(place) - eye
+        pixels = 700 / (seen @ forward * 2 * tan(FOV / 2))
+        boxes.append((seen @ right * pixels, seen @ np.cross(right, forward) * pixels, 7 * len(name)))
+    for (x, y, wide), (a, b, broad) in combinations(boxes, 2):
+        assert abs(x - a) > (wide + broad) / 2 or abs(y - b) > 14
+
+
+def test_the_camera_looks_at_the_robot_and_at_an_object(kitchen: Corpus) -> None:
+    scenery, look, _ = furnished(kitchen)
+    robot = np.array(look.first.robot.position)
+    for eye, target in (scenery.behind(), scenery.eyes()):
+        assert np.linalg.norm((np.array(eye) - robot)[:2]) < 3
+        assert np.linalg.norm((np.array(target) - robot)[:2]) < 2
+    aim = scenery.near(["pr2", "kettle1"])
+    assert aim is not None
+    assert np.linalg.norm(np.array(aim[1]) - look.first.poses["kettle1"].position) < 0.3
+    assert aim[0][2] > aim[1][2]
+    assert scenery.near(["pr2"]) is None

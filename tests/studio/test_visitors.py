@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+import shutil
 import socket
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -171,7 +172,6 @@ def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[st
             "Save (K)",
             "Throw away",
             "Insert behind this step",
-            "Correct this plan",
         ):
             visitor.press(label)
         visitor.send({"type": "GuiUpdateMessage", "uuid": "none", "updates": {"value": 1}})
@@ -361,7 +361,7 @@ def test_a_correction_that_is_not_saved_is_there_again(server: Server) -> None:
         visitor.told("Planned in")
         visitor.press("Correct this plan")
         visitor.told("The plan is under Correct")
-        visitor.put("Change", "Later")
+        visitor.press("Later")
         visitor.shows("Step 1 does not apply.")
         visitor.put("What must hold at the end", "(at cup1 shelf1 on)")
         visitor.put("Environment", "corner2")  # it stays, and can be gone on with
@@ -382,7 +382,7 @@ def test_a_correction_that_is_not_saved_is_there_again(server: Server) -> None:
         again.find("Throw it away")
         again.press("Cancel")
         again.until(lambda: gone("Cancel"))
-        again.put("Change", "Later")
+        again.press("Later")
         again.shows("Every step applies.")
         again.press("Save the correction")
         again.told("Saved as shown-corner1-01")
@@ -411,9 +411,9 @@ def test_a_plan_is_edited_by_clicks(server: Server) -> None:
         visitor.shows("3 / 4 ")
         visitor.happens(step=1, list="correct")
         visitor.shows(f"▸ {SAID[STEPS[0]]}")
-        visitor.put("Change", "Later")
+        visitor.press("Later")
         visitor.shows("Step 1 does not apply.")
-        visitor.put("Change", "Earlier")
+        visitor.press("Earlier")
         visitor.shows("Every step applies.")
         for event in (
             {"step": 99, "list": "correct"},
@@ -444,19 +444,122 @@ def test_what_is_not_possible_yet_is_done_with_what_it_needs(server: Server) -> 
     assert len(done) == len(STEPS) and done[-1] == STEPS[-1]
 
 
-def test_what_has_no_picture_has_its_objects_listed_and_no_robot(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def plan_it(visitor: Wire, text: str) -> None:
+    visitor.put("Text", text)
+    visitor.press("Plan it")
+    visitor.told("Planned in")
+
+
+def value(visitor: Wire, label: str, key: str = "value") -> object:
+    return visitor.elements[visitor.find(label)][key]
+
+
+def test_a_correction_is_what_its_text_gives_at_once(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        plan_it(visitor, f"{TEXT}.")
+        visitor.press("Correct this plan")
+        visitor.told("The plan is under Correct")
+        assert value(visitor, "Let the planner put in what is missing", "disabled")
+        visitor.put("Insert with", "book1")
+        visitor.until(lambda: len(value(visitor, "Instruction", "options")) > 1)  # type: ignore[arg-type]
+        visitor.put("Instruction", "Go and stand before book1")
+        visitor.until(lambda: not value(visitor, "Insert behind this step", "disabled"))
+        visitor.press("Insert behind this step")
+        visitor.shows("▸ Go and stand before book1")
+        visitor.until(lambda: value(visitor, "Let the planner put in what is missing", "disabled") is False)
+        visitor.press("Let the planner put in what is missing")
+        visitor.shows("Every step applies.")
+        visitor.press("Save the correction")
+        visitor.told("This sentence now gives it here, as it was corrected.")
+        assert "as it was corrected" in str(value(visitor, "Plan"))
+    with Wire(server.url) as another:  # somebody else, and another environment
+        plan_it(another, f"{TEXT}.")
+        another.shows("Go and stand before book1")
+        another.put("Environment", "corner2")
+        another.told("This is corner2.")
+        plan_it(another, f"{TEXT}.")
+        assert "as it was corrected" not in str(value(another, "Plan"))
+
+
+def test_files_that_change_meanwhile_are_told_of(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        do(visitor, "cup1", STEPS[0])
+        file = server.studio.corpus.directory / "environments" / "corner1.yaml"
+        file.write_text(file.read_text() + "\n# changed\n")
+        visitor.told("Files of the domain have changed on disk: start tmd studio again to use them.")
+        do(visitor, "cup1", STEPS[1])
+
+
+def test_the_robot_is_followed_and_its_run_can_be_looked_back_on(
+    kitchen: Corpus, learned: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Under physics: the player, the ticks and the message are those of the run, during it and after it."""
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    served = Server(Studio(kitchen, Teacher(kitchen, learned), "kitchen1"), "127.0.0.1", 0)
+
+    def ticks(visitor: Wire) -> str:
+        return next(str(each["label"]) for each in visitor.elements.values() if str(each.get("label"))[:6] == "Goals:")
+
+    try:
+        with Wire(served.url) as visitor:
+            plan_it(visitor, "Take the bowl.")
+            assert value(visitor, "Stop", "disabled") and ticks(visitor) == "Goals: 0 of 1 hold now"
+            visitor.press("Let the robot do it")
+            visitor.told("The robot, step 2 of 3: Go and stand before bowl1")
+            visitor.shows("▸ Go and stand before bowl1")
+            assert value(visitor, "Let the robot do it", "disabled") and not value(visitor, "Stop", "disabled")
+            visitor.told("run ended: done.")
+            visitor.until(lambda: ticks(visitor) == "Goals: 1 of 1 hold now")
+            visitor.shows("3 / 3 Take bowl1 into a free hand")
+            assert (value(visitor, "Plan"), value(visitor, "Step")) == ("the robot's run", 3)
+            last = float(str(value(visitor, "Second of run")))
+            assert last > 1 and value(visitor, "Stop", "disabled")
+            visitor.put("Second of run", last / 2)
+            visitor.until(lambda: ticks(visitor) == "Goals: 0 of 1 hold now")
+            visitor.shows("2 / 3 Go and stand before bowl1")
+            assert "run ended: done." in visitor.said()
+            visitor.put("Step", 3)
+            visitor.until(lambda: value(visitor, "Second of run") == last)
+            identity = visitor.identity
+        with Wire(served.url, identity, "?environment=kitchen1&say=Take+the+bowl.") as again:  # the page is loaded anew
+            again.told("run ended: done. It is under Plan, to look back.")
+            again.put("Plan", "the robot's run")
+            again.until(lambda: float(str(value(again, "Second of run", "max"))) >= last)
+            again.press("Let the robot do it")
+            again.told("The robot, step")
+            again.put("Environment", "kitchen2")
+            again.told("This is kitchen2.")
+            identity = again.identity
+        assert served.studio.runs[str(identity).split(",")[0]].ended.is_set()
+    finally:
+        served.close()
+
+
+def test_what_has_no_places_is_a_graph(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
     root = Path(__file__).parents[2]
-    blocks = Corpus(DomainFolder(root / "domains" / "01_blocks"), root / "problems" / "01_blocks")
+    shutil.copytree(root / "problems" / "01_blocks", tmp_path / "blocks")
+    names = [f"b{number}" for number in range(2_000)]
+    facts = " ".join(f"(clear {name}) (on_table {name})" for name in names)
+    head = f"(define (problem huge) (:domain blocks) (:objects {' '.join(names)} - block)"
+    huge = f"{head} (:init (hand_empty) {facts}) (:goal (and)))"
+    (tmp_path / "blocks" / "environments" / "zz_huge.pddl").write_text(huge)
+    blocks = Corpus(DomainFolder(root / "domains" / "01_blocks"), tmp_path / "blocks")
     served = Server(Studio(blocks, Teacher(blocks)), "127.0.0.1", 0)
     try:
         with Wire(served.url) as visitor:
-            visitor.shows(": block</h4>")
-            visitor.put("Text", served.studio.examples(served.studio.start)[0])
-            visitor.press("Plan it")
-            visitor.told("Planned in")
-            assert not visitor.elements[visitor.find("Let the robot do it (simulated)")]["visible"]
+            visitor.shows('class="tmd-state"')
+            plan_it(visitor, "Put the red block on the green block.")
+            visitor.put("Step", 2)
+            visitor.shows('class="edge came"')
+            visitor.happens(object="red_block")
+            visitor.shows("marked")
+            visitor.shows("red_block: block</h4>")
+            assert not value(visitor, "Let the robot do it", "visible")
+            visitor.put("Environment", "zz_huge")
+            visitor.told("grounding needs more than 500,000 combinations of objects")
+            visitor.until(lambda: value(visitor, "Environment") == "yard1")
+            visitor.shows("red_block: block</h4>")
     finally:
         served.close()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from tmd.goals.wording import Wording
 from tmd.pddl.task import Operator
-from tmd.studio.object_info import require_object
+from tmd.view.panels import require_object
 from tmd.world.world import World
 
 

@@ -130,11 +130,11 @@ def open_setting(corpus: Corpus, world: World, path: Path) -> Setting:
         TmdError: The environment is wrong. Where only its shapes are, there is nothing to see, and it says why.
     """
     if path.suffix != ".yaml":
-        return Setting(world, path, None, "A PDDL problem does not say where things stand: there is no picture of it.")
+        return Setting(world, path, None, "A PDDL problem has no places: it is drawn as a graph.")
     try:
         return Setting(world, path, _look(corpus.folder, world, path))
     except TmdError as error:
-        return Setting(world, path, None, f"There is no picture of this environment: {error.message}.")
+        return Setting(world, path, None, f"This environment is drawn as a graph: {error.message}.")
 
 
 def _look(folder: DomainFolder, world: World, path: Path) -> Look:

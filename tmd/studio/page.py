@@ -117,6 +117,7 @@ class Event(BaseModel):
         tab: The tab that was opened.
         step: The step that was clicked, in ``list``.
         list: The panel of the step.
+        object: The object that was clicked in a graph.
         clicked: Whether the picture was clicked.
     """
 
@@ -125,6 +126,7 @@ class Event(BaseModel):
     tab: str = ""
     step: int | None = None
     list: str = ""
+    object: str = ""
     clicked: bool = False
 
 

@@ -10,6 +10,7 @@ import warnings
 from contextlib import redirect_stdout, suppress
 from importlib import import_module
 from io import StringIO
+from pathlib import Path
 from threading import Event, Lock, Thread
 from types import ModuleType
 from typing import TYPE_CHECKING
@@ -31,6 +32,7 @@ _WINDOWS = 8
 _LOOK = 0.5
 # Seconds that a browser may take to say who it is.
 _PATIENCE = 5.0
+_CHANGED = "Files of the domain have changed on disk: start tmd studio again to use them."
 
 # Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded.
 _WARMING = 5.0
@@ -112,19 +114,30 @@ class Server:
             visitor = self._visitors.pop(client.client_id, None)
         if visitor is not None:
             visitor.stop()
+            visitor.halt()
             self.studio.drafts.leave(visitor.identity)
 
     def _follow(self) -> None:
-        """Tell every visitor when learning begins and when it ends."""
-        told = False
+        """Tell every visitor when learning begins and when it ends, and when files of the domain change."""
+        told, files = False, self._files()
         while not self._ended.wait(_LOOK):
-            learning = self.studio.teacher.learning
-            if learning != told:
-                told = learning
-                with self._lock:
-                    visitors = list(self._visitors.values())
-                for visitor in visitors:
+            learning, now = self.studio.teacher.learning, self._files()
+            with self._lock:
+                visitors = list(self._visitors.values())
+            for visitor in visitors:
+                if learning != told:
                     visitor.learning(on=learning)
+                if now != files:
+                    visitor.tell(_CHANGED, "What was not saved is kept.", aloud=True)
+            told, files = learning, now
+
+    def _files(self) -> dict[Path, int]:
+        """Return when each file of the domain and of its environments was changed."""
+        corpus, found = self.studio.corpus, {}
+        for path in (*corpus.folder.path.iterdir(), *(corpus.directory / "environments").glob("*")):
+            with suppress(OSError):
+                found[path] = path.stat().st_mtime_ns
+        return found
 
     def serve(self, ended: Event | None = None) -> None:
         """Serve until ``ended`` is set, or until the user stops it."""

@@ -17,6 +17,7 @@ from tmd.studio.demonstrations.session import Session
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.meshes import Figure
+from tmd.studio.view3d.performance import RobotRun
 from tmd.world.compile import compile_problem
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
@@ -36,6 +37,7 @@ class Studio:
     Attributes:
         archive: Where demonstrations are saved.
         drafts: What was not saved yet.
+        runs: The last run of the robot in each window.
 
     Raises:
         TmdError: There is no such environment, or it is wrong.
@@ -46,6 +48,7 @@ class Studio:
         self.teacher = teacher
         self.archive = Archive(corpus)
         self.drafts = Drafts(place(corpus))
+        self.runs: dict[str, RobotRun] = {}
         self._texts = example_texts(corpus)
         self._lock = RLock()
         self._settings: dict[str, Setting] = {}
@@ -122,6 +125,11 @@ class Studio:
         self.teacher.learn_one(saved)
         self.teacher.retrain()
         return saved
+
+    def corrected(self, text: str, environment: str) -> Demonstration | None:
+        """Return the last correction of a plan for a text in an environment."""
+        found = [each for each in self.corpus.demonstrations() if each.proposed is not None]
+        return next((each for each in reversed(found) if (each.text, each.environment) == (text, environment)), None)
 
     def examples(self, name: str) -> list[str]:
         """Return the example texts of an environment."""

@@ -21,6 +21,8 @@ from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
+from tmd.view.object_rows import object_rows
+from tmd.view.state_graph import StateGraph
 from tmd.view.subject import PlannedStep, Subject
 
 # A plan with more steps than this has them folded.
@@ -69,6 +71,8 @@ def render(subject: Subject) -> Page:
             notation=print_clause,
             notes=_notes,
             candidates=_candidates(subject, verdict),
+            rows=object_rows([step.planned.instruction for step in steps], subject.problem, 0, wording, "#step-"),
+            graphs=_graphs(subject.problem, steps),
             version=__version__,
             style=style() + data("page.css"),
             script=script,
@@ -87,6 +91,18 @@ def _ticks(goals: Sequence[ShownGoal]) -> dict[int, list[tuple[str, str]]]:
         if shown.until:
             found[shown.until].append(("no longer", shown.words))
     return found
+
+
+def _graphs(problem: Problem, steps: Sequence[ShownStep]) -> list[tuple[str, str]]:
+    """Return the drawing of the first state, and that of the last one that is reached, each with a title."""
+    states = [problem.init]
+    for step in steps:
+        states.append(states[-1] - set(step.removed) | set(step.added))
+    graph = StateGraph(problem, states, [name for step in steps for name in step.planned.instruction.args])
+    begin = "At the beginning"
+    first = begin, graph.svg(states[0], title=begin)
+    end = "At the end; what the plan changed is marked" if steps else ""
+    return [first, (end, graph.svg(states[-1], states[0], title=end))] if steps else [first]
 
 
 def _candidates(subject: Subject, verdict: Verdict) -> str:

@@ -72,7 +72,7 @@ class FoundSubject:
         subject: The subject of the page.
         remarks: Lines for standard error.
         locations: Where the steps of a plan file stand.
-        of_text: Whether there is a text that should have a plan.
+        of_text: Whether there is a text, or a problem, that should have a plan.
     """
 
     subject: Subject
@@ -119,19 +119,18 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
 
 
 def _planned(roots: Roots, asked: ViewRequest) -> FoundSubject:
-    """Return a problem with a plan that is found for it."""
+    """Return a problem with a plan that is found for it, or without steps where none is found."""
     from tmd.planning.backends import solve
     from tmd.planning.result import Solved
 
     problem = roots.problem(asked.path, asked.domain)
     answer = solve(problem)
-    if not isinstance(answer, Solved):
-        raise TmdError(
-            f"{asked.name}: no plan was found to show", hint=f"tmd plan {asked.domain or 'DOMAIN'} {asked.name}"
-        )
-    steps = tuple(PlannedStep(instruction) for instruction in answer.plan)
+    solved = isinstance(answer, Solved)
+    steps = tuple(PlannedStep(instruction) for instruction in answer.plan) if isinstance(answer, Solved) else ()
+    remarks = () if solved else (f"warning: {asked.name}: no plan was found; the page shows the initial state\n",)
     where = {"problem": asked.problem, "domain": problem.domain.name}
-    return FoundSubject(Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where)))
+    title = f"{asked.path.name}: {'a plan in ' if solved else ''}{problem.name}"
+    return FoundSubject(Subject(title, problem, steps, made=made_rows(where)), remarks, of_text=not solved)
 
 
 def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> FoundSubject:

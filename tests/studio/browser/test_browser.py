@@ -154,6 +154,7 @@ def test_a_sentence_becomes_a_plan_and_is_stepped_through(
         steps = shown(page)
         assert len(steps) > 8 and steps[0].startswith(("Look around until pot1", "Look around until kettle1"))
         assert page.locator(".tmd-verb").count() >= 3
+        assert page.locator("[data-object]").count() == 0  # the room is drawn, not a graph
         for _ in range(5):
             press(page, "▶")
         page.locator("[aria-current=step]").filter(has_text=first_line(steps[4])).wait_for()
@@ -405,6 +406,58 @@ def test_a_question_of_the_language_model_is_answered(browser: Browser, tmp_path
     assert len(model.bodies) == 1
 
 
+ABOVE = """() => ['Plan it', 'Look around until bowl1 is in view', 'Put bowl1 on table1'].every((words) => {
+  const found = [...document.querySelectorAll('button, li')].find((each) => each.textContent.includes(words));
+  const box = found.getBoundingClientRect();
+  return box.top > 0 && box.bottom < 700;
+})"""
+"""Whether request and plan are seen without scrolling."""
+SPILLS = """() => [...document.querySelectorAll('.mantine-ScrollArea-viewport')].some((each) =>
+  each.scrollWidth > each.clientWidth + 1)"""
+FILLED = """() => [...document.querySelectorAll('button[data-block]')]
+  .filter((each) => each.offsetParent && !each.disabled)
+  .filter((each) => getComputedStyle(each).backgroundColor !== 'rgba(0, 0, 0, 0)')
+  .map((each) => each.textContent)"""
+"""The buttons that stand out."""
+
+
+def test_request_and_plan_are_above_the_fold(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
+    """Also one button stands out, and what is impossible is disabled."""
+    with visiting(browser, kitchen_studio, 1024, 700) as page:
+        say(page, "Put the bowl on the table.")
+        told(page, "Planned in")
+        page.locator("ol:visible > li").nth(4).wait_for()
+        eventually(page, ABOVE, True)
+        eventually(page, FILLED, ["Plan it"])
+        assert not page.evaluate(SPILLS)
+        assert page.get_by_role("button", name="Stop", exact=True).is_disabled()
+        page.screenshot(path=screens / "18-fold-light.png")
+        page.emulate_media(color_scheme="dark")
+        eventually(page, "() => document.documentElement.dataset.theme", "dark")
+        page.screenshot(path=screens / "19-fold-dark.png")
+        page.get_by_text("Objects and steps").click()
+        page.locator("td [data-step='3']").first.click()
+        page.locator("ol:visible > li:nth-child(3) [aria-current=step]").wait_for()
+
+
+def test_a_state_without_places_is_a_graph(browser: Browser, tmp_path: Path, screens: Path) -> None:
+    served = serve(tmp_path, "01_blocks")
+    served.start()
+    try:
+        with visiting(browser, served, 1024, 700) as page:
+            say(page, "Put the red block on the green block.")
+            told(page, "Planned in")
+            press(page, "▶|")
+            page.locator("#tmd-graph .came").get_by_text("+ on").wait_for()
+            page.locator("#tmd-graph [data-object=red_block]").click()
+            page.locator("#tmd-graph .marked").wait_for()
+            page.screenshot(path=screens / "20-graph.png")
+            tab(page, "Object")
+            page.get_by_role("heading", name="red_block: block").wait_for()
+    finally:
+        served.kill()
+
+
 def test_what_visitors_type_is_text(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
     with visiting(browser, kitchen_studio, 400, 820) as page:
         page.screenshot(path=screens / "11-narrow.png")
@@ -420,8 +473,7 @@ def test_what_visitors_type_is_text(kitchen_studio: Served, browser: Browser, sc
         page.locator("[role=status]").filter(has_text="plan").first.wait_for()
         assert page.title() != "1" and page.locator("img[src=x]").count() == 0
         begin(page, "Fill the pot.")
-        press(page, "Save (K)")
-        told(page, "nothing was demonstrated yet")
+        assert page.get_by_role("button", name="Save (K)", exact=True).is_disabled()  # nothing was demonstrated yet
         page.screenshot(path=screens / "12-narrow-fault.png")
 
 

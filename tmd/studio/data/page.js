@@ -192,6 +192,10 @@
     if (!found || (event.type === "keydown" && event.key !== "Enter")) return;
     send({ step: Number(found.dataset.step), list: found.closest("[data-list]")?.dataset.list || "" });
   }
+  addEventListener("click", (event) => {
+    const node = event.target instanceof Element && event.target.closest("#tmd-graph [data-object]");
+    if (node) send({ object: node.dataset.object });
+  });
   addEventListener("click", step);
   addEventListener("keydown", step);
 
@@ -256,6 +260,7 @@
     }
     theme();
     caption();
+    graph();
     follow();
   }
 
@@ -280,6 +285,26 @@
       over.style.left = `${place.left + place.width / 2}px`;
       over.style.maxWidth = `${Math.max(place.width - 24, 120)}px`;
     }
+  }
+
+  let shown = null;
+
+  function graph() { // what has no picture is drawn as a graph, over the empty one
+    const found = document.querySelector(".tmd-state");
+    let over = document.getElementById("tmd-graph");
+    if (!over) {
+      over = document.createElement("div");
+      over.id = "tmd-graph";
+      over.className = "tmd";
+      document.body.append(over);
+    }
+    if ((found && found.innerHTML) !== shown) {
+      shown = found && found.innerHTML;
+      over.innerHTML = shown || "";
+    }
+    over.hidden = !shown;
+    const place = document.querySelector("canvas")?.getBoundingClientRect();
+    if (place) over.style.width = `${place.width}px`;
   }
 
   function follow() {

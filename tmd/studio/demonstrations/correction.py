@@ -7,22 +7,26 @@ out; it becomes a session when it can.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import accumulate
 
 from tmd.diagnostics import TmdError
 from tmd.goals.wording import Wording
-from tmd.inference.ranking import RankedPlan
+from tmd.grounded import Grounded
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import bind, get_constraints
 from tmd.pddl.task import Bits
+from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Planner, Unreachable
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
 from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, History, Session
-from tmd.studio.object_info import require_object
+from tmd.view.panels import require_object
+from tmd.world.demonstration import Demonstration
 from tmd.world.world import World
 
 
@@ -51,6 +55,7 @@ class Correction:
 
     Attributes:
         proposed: The plan as it was proposed.
+        history: The edits, to undo and to redo.
 
     Raises:
         TmdError: The environment has no such instruction as one of ``steps``.
@@ -70,16 +75,16 @@ class Correction:
         self._lexicon = lexicon
         self._planner: Planner | None = None
         self._wording = Wording(world.task.problem)
-        self._history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
+        self.history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
         if steps is not None:
             for step in steps:
                 bind(world.task.problem, step.instruction)
-            self._history.add(tuple(steps))
+            self.history.add(tuple(steps))
 
     @property
     def steps(self) -> tuple[DemonstratedStep, ...]:
         """The plan as it is now."""
-        return self._history.current
+        return self.history.current
 
     def delete(self, step: int) -> None:
         """Leave a step out.
@@ -88,7 +93,7 @@ class Correction:
             TmdError: There is no such step.
         """
         self._known(step)
-        self._history.add(self.steps[: step - 1] + self.steps[step:])
+        self.history.add(self.steps[: step - 1] + self.steps[step:])
 
     def insert(self, step: int, instruction: Instruction) -> None:
         """Put an instruction in, so that it becomes the step of that number, for the clause of the step behind it.
@@ -117,7 +122,7 @@ class Correction:
         self._known(to)
         kept = [*self.steps[: step - 1], *self.steps[step:]]
         kept.insert(to - 1, self.steps[step - 1])
-        self._history.add(tuple(kept))
+        self.history.add(tuple(kept))
 
     def swap(self, old: str, new: str, step: int | None = None) -> int:
         """Take another object instead of ``old``, and its parts instead of those of ``old``.
@@ -142,16 +147,8 @@ class Correction:
         for other in changed.values():
             bind(self.world.task.problem, other.instruction)
         if changed:
-            self._history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
+            self.history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
         return len(changed)
-
-    def undo(self) -> bool:
-        """Take the last edit back; false where there is none."""
-        return self._history.undo()
-
-    def redo(self) -> bool:
-        """Make the edit again that was taken back last; false where there is none."""
-        return self._history.redo()
 
     def broken(self) -> Break | None:
         """Return the first step that does not apply; ``None`` where all do."""
@@ -201,7 +198,7 @@ class Correction:
         beside = self.steps[step - 1 : step] or self.steps[-1:]
         owner = beside[0].clause if beside else 0
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
-        self._history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
+        self.history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
     def _played(self, steps: Sequence[DemonstratedStep]) -> tuple[Bits, Break | None]:
         """Return the state before the first step that does not apply, and that step; or the last state."""
@@ -252,6 +249,34 @@ def steps_of(
     starts = [piece.start for piece in pieces]
     owners = [max((n for n, start in enumerate(starts) if start <= c.span.start), default=0) for c in clauses]
     return [DemonstratedStep(step.instruction, owners[step.clause]) for step in plan.steps]
+
+
+def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded:
+    """Return the plans for the text of a saved correction, the corrected one first, if it works."""
+    problem, task = grounded.world.task.problem, grounded.world.task
+    verdict = validate(problem, saved.instructions)
+    if not verdict.valid:
+        return grounded
+    starts = [clause.span.start for clause in grounded.parsed.clauses] or [0]
+    steps: list[list[PlanStep]] = [[] for _ in starts]
+    for segment in saved.segments:
+        owner = max((n for n, start in enumerate(starts) if start < segment.end), default=0)
+        steps[owner] += [PlanStep(instruction, owner, latent=False) for instruction in segment.instructions]
+    ends = list(accumulate(map(len, steps)))
+    goals = grounded.plans[0].goals if grounded.plans else ()
+    placed = tuple(
+        replace(each, first=ends[each.clause] - len(steps[each.clause]), last=ends[each.clause]) for each in goals
+    )
+    choices = tuple(Choice(saved.id, tuple(each), {}, {}) for each in steps)
+    state = task.init
+    for instruction in saved.instructions:
+        state = task.by_instruction[instruction].apply(state)
+    kept = [n for n, plan in enumerate(grounded.plans) if plan.instructions != saved.instructions]
+    return replace(
+        grounded,
+        plans=(RankedPlan(choices, state, goals=placed), *(grounded.plans[n] for n in kept)),
+        verdicts=(verdict, *(grounded.verdicts[n] for n in kept)),
+    )
 
 
 def _renamed(step: DemonstratedStep, names: Mapping[str, str]) -> DemonstratedStep:

@@ -45,15 +45,25 @@ class History(Generic[_T]):
         self._versions[self._at + 1 :] = [version]
         self._at += 1
 
+    @property
+    def before(self) -> bool:
+        """Return whether there is a version to go back to."""
+        return self._at > 0
+
+    @property
+    def after(self) -> bool:
+        """Return whether there is a version that was undone."""
+        return self._at + 1 < len(self._versions)
+
     def undo(self) -> bool:
         """Go back to the version before; return false if there is none."""
-        moved = self._at > 0
+        moved = self.before
         self._at -= moved
         return moved
 
     def redo(self) -> bool:
         """Go to the version after; return false if there is none."""
-        moved = self._at + 1 < len(self._versions)
+        moved = self.after
         self._at += moved
         return moved
 
@@ -98,6 +108,7 @@ class Session:
         world: The environment.
         text: The text, without control characters.
         clauses: The pieces of the text that steps serve, at least one.
+        history: What was done, and undone.
 
     Raises:
         TmdError: The text is empty or too long, an instruction does not apply, or there is no step or clause of a pin.
@@ -121,7 +132,7 @@ class Session:
         self._habits = habits
         self._wording = Wording(world.task.problem)
         self._cursor = 0
-        self._history = History(_Version((), (world.task.init,)))
+        self.history = History(_Version((), (world.task.init,)))
         for instruction in instructions:
             self.do(instruction)
         for step, clause in sorted((pins or {}).items()):
@@ -130,7 +141,7 @@ class Session:
     @property
     def steps(self) -> tuple[DemonstratedStep, ...]:
         """All that was done and not undone."""
-        return self._history.current.steps
+        return self.history.current.steps
 
     @property
     def instructions(self) -> tuple[Instruction, ...]:
@@ -140,7 +151,7 @@ class Session:
     @property
     def pins(self) -> dict[int, int]:
         """Numbers of the clauses that the person marked, from 0, by the number of the step, from 1."""
-        return {number + 1: clause for number, clause in sorted(self._history.current.pins.items())}
+        return {number + 1: clause for number, clause in sorted(self.history.current.pins.items())}
 
     @property
     def cursor(self) -> int:
@@ -150,12 +161,12 @@ class Session:
     @property
     def state(self) -> Bits:
         """The state that is looked at, as bits of the environment's task."""
-        return self._history.current.states[self._cursor]
+        return self.history.current.states[self._cursor]
 
     @property
     def states(self) -> tuple[Bits, ...]:
         """The states before the first step and after each, as bits of the environment's task."""
-        return self._history.current.states
+        return self.history.current.states
 
     def do(self, instruction: Instruction) -> DemonstratedStep:
         """Carry out ``instruction`` in the state that is looked at; steps behind it go, until this is undone.
@@ -163,7 +174,7 @@ class Session:
         Raises:
             TmdError: It does not apply, with the broken precondition; or the demonstration is too long.
         """
-        now, at = self._history.current, self._cursor
+        now, at = self.history.current, self._cursor
         if at >= MAX_STEPS:
             raise TmdError(f"a demonstration has at most {MAX_STEPS} steps", hint="save it, and begin another")
         after = self._applied(instruction, now.states[at], at + 1)
@@ -174,13 +185,13 @@ class Session:
 
     def undo(self) -> bool:
         """Take the last change back (a step, a mark); false where there is none."""
-        moved = self._history.undo()
+        moved = self.history.undo()
         self._cursor = len(self.steps) if moved else self._cursor
         return moved
 
     def redo(self) -> bool:
         """Make the change again that was taken back last; false where there is none."""
-        moved = self._history.redo()
+        moved = self.history.redo()
         self._cursor = len(self.steps) if moved else self._cursor
         return moved
 
@@ -207,7 +218,7 @@ class Session:
         Raises:
             TmdError: There is no such step or clause.
         """
-        now = self._history.current
+        now = self.history.current
         if not 0 < step <= len(self.steps):
             raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
         if not 0 <= clause < len(self.clauses):
@@ -224,7 +235,7 @@ class Session:
         return tuple(Segment(piece.start, piece.end, _own(steps, n)) for n, piece in enumerate(self.clauses))
 
     def _become(self, version: _Version) -> None:
-        self._history.add(version)
+        self.history.add(version)
         self._cursor = len(version.steps)
 
     def _version(self, done: tuple[Instruction, ...], states: tuple[Bits, ...], pins: Mapping[int, int]) -> _Version:

@@ -7,7 +7,7 @@ import threading
 import traceback
 from collections.abc import Callable, Sequence
 from html import escape
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Literal, Protocol
 
 from tmd.diagnostics import TmdError
 from tmd.goals.wording import Wording
@@ -15,19 +15,13 @@ from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel, Setting
-from tmd.studio.panels.html import fragment, notice
 from tmd.studio.studio import Studio
+from tmd.studio.view3d.performance import RobotRun
+from tmd.view.panels import fragment, notice
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
-    from viser import (
-        ClientHandle,
-        GuiButtonGroupHandle,
-        GuiButtonHandle,
-        GuiDropdownHandle,
-        GuiHtmlHandle,
-        NotificationHandle,
-    )
+    import viser
 
 # Of messages and of faults, as on the page.
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
@@ -35,6 +29,7 @@ BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
 ALOUD = 8.0
 
 Act = Callable[[], Any]
+Colour = Literal["gray", "blue", "red"]
 
 # Set by its name: the inputs' own types say that a program cannot set it.
 _VALUE = "value"
@@ -61,24 +56,27 @@ class PanelContext:
         cursor: The number of steps before the state that is seen.
         owner: The panel whose steps are looked at, if any.
         selected: The object that was pointed at.
+        moment: The moment of the run that is seen, where a run is looked at.
+        live: Whether the robot is followed in its run.
         lock: One thing at a time happens to what is looked at.
     """
 
     setting: Setting
     reel: Reel
 
-    def __init__(self, studio: Studio, client: ClientHandle, identity: str) -> None:
+    def __init__(self, studio: Studio, client: viser.ClientHandle, identity: str) -> None:
         self.studio = studio
         self.client = client
         self.identity = identity
-        self.cursor = 0
+        self.cursor = self.moment = 0
+        self.live = False
         self.owner: Played | None = None
         self.selected: str | None = None
         self.lock = threading.RLock()
         self._playing: threading.Event | None = None
-        self._message: GuiHtmlHandle | None = None
+        self._message: viser.GuiHtmlHandle | None = None
         self._voice = threading.Lock()
-        self._aloud: NotificationHandle | None = None
+        self._aloud: viser.NotificationHandle | None = None
 
     @property
     def wording(self) -> Wording:
@@ -87,13 +85,15 @@ class PanelContext:
 
     # widgets
 
-    def button(self, label: str, act: Act, **options: Any) -> GuiButtonHandle:  # noqa: ANN401 - as viser has them
-        """Add a button."""
-        handle = self.client.gui.add_button(label, **options)
+    def button(self, label: str, act: Act, *, color: Colour = "gray", **options: Any) -> viser.GuiButtonHandle:  # noqa: ANN401
+        """Add a button: blue is the main one of its panel, red throws something away, any other one is grey."""
+        handle = self.client.gui.add_button(label, color=color, **options)
         handle.on_click(self.guarded(act))
         return handle
 
-    def buttons(self, label: str, names: Sequence[str], act: Act, *, visible: bool = True) -> GuiButtonGroupHandle:
+    def buttons(
+        self, label: str, names: Sequence[str], act: Act, *, visible: bool = True
+    ) -> viser.GuiButtonGroupHandle:
         """Add a row of buttons."""
         handle = self.client.gui.add_button_group(label, names, visible=visible)
         handle.on_click(self.guarded(act))
@@ -101,9 +101,9 @@ class PanelContext:
 
     def dropdown(
         self, label: str, options: Sequence[str], act: Act | None = None, *, visible: bool = True
-    ) -> GuiDropdownHandle[str]:
+    ) -> viser.GuiDropdownHandle[str]:
         """Add a list to choose from."""
-        handle: GuiDropdownHandle[str] = self.client.gui.add_dropdown(label, options, visible=visible)
+        handle: viser.GuiDropdownHandle[str] = self.client.gui.add_dropdown(label, options, visible=visible)
         if act is not None:
             handle.on_update(self.guarded(act))
         return handle
@@ -164,7 +164,7 @@ class PanelContext:
 
         with box:
             self.client.gui.add_html(fragment(f"<p>{escape(question)}</p>"))
-            self.button(yes, agreed, color="orange")
+            self.button(yes, agreed, color="red")
             self.button("Cancel", box.close)
 
     # playing
@@ -201,8 +201,15 @@ class PanelContext:
     def show_tab(self, name: str) -> None:
         """Open a tab."""
 
-    def execute(self, plan: RankedPlan) -> None:
-        """Let the simulated robot carry a plan out, in the background; :meth:`stop` ends it."""
+    def execute(self, plan: RankedPlan) -> RobotRun:
+        """Let the simulated robot carry a plan out, in the background; :meth:`halt` ends it."""
+        raise NotImplementedError
+
+    def halt(self) -> None:
+        """Stop the robot."""
+
+    def seek(self, second: float) -> None:
+        """Look at a moment of the run that is looked at."""
 
     def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
@@ -217,7 +224,7 @@ def put(handle: object, value: object) -> None:
         setattr(handle, _VALUE, value)
 
 
-def chosen(handle: GuiDropdownHandle[str] | GuiButtonGroupHandle) -> str:
+def chosen(handle: viser.GuiDropdownHandle[str] | viser.GuiButtonGroupHandle) -> str:
     """Return the chosen option of an input.
 
     Raises:

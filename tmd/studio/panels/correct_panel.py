@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
@@ -13,14 +14,13 @@ from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
 from tmd.studio.panels.context import PanelContext, chosen, put
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
-from tmd.studio.panels.html import StepLine, fragment, step_list
+from tmd.view.panels import StepLine, fragment, step_list
 
 EVERYWHERE = "in every step"
 HERE = "in this step"
 NOTHING = "(nothing)"
 PLAN_FIRST = "<p>Plan something under Say, and press 'Correct this plan'.</p>"
 NO_STEPS = "No step is left: that nothing is to be done is a correction as well."
-_EDITS = ("Delete", "Earlier", "Later", "Undo", "Redo")
 
 
 class CorrectPanel:
@@ -37,17 +37,21 @@ class CorrectPanel:
         self._resume = visitor.button("Go on with the correction", self.resume, visible=False)
         self._all = gui.add_folder("Edit", visible=False)
         with self._all:
-            self._edits = visitor.buttons("Change", _EDITS, self._edit)
-            self._old = visitor.dropdown("Instead of", (NOTHING,))
-            self._new = visitor.dropdown("take", (NOTHING,))
-            self._where = visitor.buttons("Swap", (HERE, EVERYWHERE), self._swap)
+            self._delete = visitor.button("Delete", self._leave_out)
+            self._earlier = visitor.button("Earlier", partial(self._move, -1))
+            self._later = visitor.button("Later", partial(self._move, 1))
+            self._undo = visitor.button("Undo", partial(self._go_back, False))
+            self._redo = visitor.button("Redo", partial(self._go_back, True))
+            self._repair = visitor.button("Let the planner put in what is missing", self._mend)
+            self._old = visitor.dropdown("Instead of", (NOTHING,), self._able)
+            self._new = visitor.dropdown("take", (NOTHING,), self._able)
+            self._swaps = [visitor.button(f"Swap {where}", partial(self._swap, where)) for where in (HERE, EVERYWHERE)]
             self._with = visitor.dropdown("Insert with", (NOTHING,), self._instructions)
-            self._what = visitor.dropdown("Instruction", (NOTHING,))
-            visitor.button("Insert behind this step", self._insert)
-            visitor.button("Let the planner put in what is missing", self._mend)
+            self._what = visitor.dropdown("Instruction", (NOTHING,), self._able)
+            self._put_in = visitor.button("Insert behind this step", self._insert)
             self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
             self._goal.on_update(visitor.guarded(self._keep))
-            visitor.button("Save the correction", self._save, color="green")
+            visitor.button("Save the correction", self._save, color="blue")
         visitor.guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
@@ -131,25 +135,36 @@ class CorrectPanel:
         self._at = min(max(step, 0), len(self._going().steps))
         self._refresh()
 
-    def _edit(self) -> None:
+    def _able(self) -> None:
+        """Disable the buttons that would do nothing."""
         correction, at = self._going(), self._at
-        edit = chosen(self._edits)
-        if edit in ("Delete", "Earlier", "Later") and not at:
-            raise TmdError("no step is chosen", hint="click on one")
-        if edit == "Delete":
-            correction.delete(at)
-        elif edit in ("Earlier", "Later"):
-            self._at = min(max(at + (1 if edit == "Later" else -1), 1), len(correction.steps))
-            correction.move(at, self._at)
-        elif not (correction.undo() if edit == "Undo" else correction.redo()):
-            raise TmdError("there is nothing to take back" if edit == "Undo" else "nothing was taken back")
+        self._delete.disabled = not at
+        self._earlier.disabled, self._later.disabled = at < 2, not 0 < at < len(correction.steps)
+        self._undo.disabled, self._redo.disabled = not correction.history.before, not correction.history.after
+        self._repair.disabled = correction.broken() is None
+        self._put_in.disabled = self._what.value == NOTHING
+        for button in self._swaps:
+            button.disabled = NOTHING in (self._old.value, self._new.value)
+
+    def _leave_out(self) -> None:
+        self._going().delete(self._at)
         self._refresh()
 
-    def _swap(self) -> None:
+    def _move(self, by: int) -> None:
+        self._going().move(self._at, self._at + by)
+        self._at += by
+        self._refresh()
+
+    def _go_back(self, forward: bool) -> None:
+        history = self._going().history
+        history.redo() if forward else history.undo()
+        self._refresh()
+
+    def _swap(self, where: str) -> None:
         correction, old, new = self._going(), chosen(self._old), chosen(self._new)
         if NOTHING in (old, new):
             raise TmdError("choose the two objects first")
-        count = correction.swap(old, new, self._at if self._where.value == HERE else None)
+        count = correction.swap(old, new, self._at if where == HERE else None)
         self._refresh()
         self._visitor.tell(f"{count} step{'' if count == 1 else 's'} changed.")
 
@@ -159,6 +174,7 @@ class CorrectPanel:
         operators = self._visitor.studio.offers(self._visitor.setting.name).of(None if name == NOTHING else name)
         self._insertable = self._visitor.wording.by_words(operator.instruction for operator in operators)
         self._what.options = (NOTHING, *self._insertable)
+        self._able()
 
     def _insert(self) -> None:
         instruction = self._insertable.get(self._what.value)
@@ -204,3 +220,4 @@ class CorrectPanel:
         in_words = visitor.wording.instruction
         listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct")
         self._text.content = fragment(f"<p role='status'>{state}</p>") + listed
+        self._able()

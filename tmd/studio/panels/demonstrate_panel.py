@@ -15,7 +15,7 @@ from tmd.studio.demonstrations.drafts import Draft
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.environment_view import Reel
 from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.panels.html import StepLine, changed, step_list
+from tmd.view.panels import StepLine, changed, step_list
 
 if TYPE_CHECKING:
     from viser import GuiButtonHandle
@@ -42,19 +42,20 @@ class DemonstratePanel:
         self._resume = visitor.button("Go on with what was not saved", self.resume, visible=False)
         self._steps = gui.add_html("")
         self._clause = visitor.dropdown("It serves", ("1",), self._mark, visible=False)
-        self._edit = visitor.buttons("Change", ("Undo", "Redo"), self._changed, visible=False)
+        self._undo = visitor.button("Undo", self.undo, visible=False)
+        self._redo = visitor.button("Redo", self.redo, visible=False)
         self._do = gui.add_folder("Do", visible=False)
         with self._do:
             self._object = visitor.dropdown("With", (NONE, *visitor.setting.names()), self._point)
             self._buttons = gui.add_folder("Possible now")
-            self._others = visitor.dropdown("More", (NOTHING,))
-            visitor.button("Do that, and first what it needs", self._do_other)
+            self._others = visitor.dropdown("More", (NOTHING,), self._able)
+            self._other = visitor.button("Do that, and first what it needs", self._do_other, disabled=True)
         self._keep = gui.add_folder("Save", visible=False)
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
             self._goal = gui.add_text("Goal (optional)", "", hint=GOAL_HINT)
-            visitor.button("Save (K)", self.save, color="green")
-            visitor.button("Throw away", self.discard)
+            self._save = visitor.button("Save (K)", self.save, color="blue")
+            visitor.button("Throw away", self.discard, color="red")
         visitor.guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
@@ -85,17 +86,17 @@ class DemonstratePanel:
         self._session = session
         put(self._goal, "")
         self._reel = Reel(self._visitor.setting)
-        for handle in (self._edit, self._do, self._keep):
+        for handle in (self._undo, self._redo, self._do, self._keep):
             handle.visible = True
-        self._begin.label = "Start over"
+        self._begin.label, self._begin.color = "Start over", "gray"
         self._resume.visible = False
         self.refresh()
 
     def _close(self) -> None:
         self._session = None
-        for handle in (self._edit, self._do, self._keep, self._clause):
+        for handle in (self._undo, self._redo, self._do, self._keep, self._clause):
             handle.visible = False
-        self._begin.label = "Begin"
+        self._begin.label, self._begin.color = "Begin", "blue"
         self._steps.content = ""
         self._look_for_draft()
 
@@ -169,6 +170,9 @@ class DemonstratePanel:
         self.refresh()
         visitor.tell(f"Done, with {len(needed)} step{'' if len(needed) == 1 else 's'} before it.")
 
+    def _able(self) -> None:
+        self._other.disabled = self._others.value == NOTHING
+
     def undo(self) -> None:
         """Take the last change back."""
         if not self._going().undo():
@@ -180,9 +184,6 @@ class DemonstratePanel:
         if not self._going().redo():
             raise TmdError("nothing was taken back")
         self.refresh()
-
-    def _changed(self) -> None:
-        {"Undo": self.undo, "Redo": self.redo}[chosen(self._edit)]()
 
     def goto(self, step: int) -> None:
         """Look at the state after so many steps; nothing is undone."""
@@ -218,7 +219,8 @@ class DemonstratePanel:
                 for step in session.steps
             ]
             self._steps.content = step_list(lines, cursor, gains, in_words=wording.instruction, of="demonstrate")
-            self._clause.visible = bool(session.steps)
+            self._clause.visible, self._save.disabled = bool(session.steps), not session.steps
+            self._undo.disabled, self._redo.disabled = not session.history.before, not session.history.after
             if session.steps:
                 self._clause.options = tuple(titles)
                 put(self._clause, titles[session.steps[cursor - 1].clause if cursor else 0])
@@ -255,3 +257,4 @@ class DemonstratePanel:
         options = (NOTHING, *self._more)
         if self._others.options != options:
             self._others.options = options
+        self._able()

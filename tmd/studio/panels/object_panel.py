@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.panels.html import changed, fragment, object_facts
+from tmd.view.panels import changed, fragment, object_facts
 
 NOTHING = "(nothing)"
-# Maximum number of objects that are listed where there is no picture.
-LISTED = 24
 
 
 class ObjectPanel:
@@ -37,9 +35,7 @@ class ObjectPanel:
         said = visitor.wording.fact
         if name is None:
             hint = "<p>Click on an object, or choose one: its parts and states are shown.</p>"
-            listed = visitor.setting.names()[:LISTED] if visitor.setting.look is None else ()
-            facts = "".join(object_facts(each, world, reel.states[step], said) for each in listed)
-            self._facts.content = fragment(hint + facts)
+            self._facts.content = fragment(hint)
             return
         put(self._which, name)
         came, went = ([atom for atom in more if name in atom.args] for more in reel.changes(step))

@@ -8,36 +8,69 @@ from html import escape
 
 from tmd.pddl.model import Instruction
 from tmd.studio.panels.context import PanelContext, chosen, put
+from tmd.studio.view3d.performance import RATE, RobotRun
 
 BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
 
 
 class PlayerPanel:
-    """Panel that steps through, and plays, the plan of another panel."""
+    """Panel that steps through, and plays, the plan of another panel.
+
+    Attributes:
+        instructions: The steps of the panel that is looked at.
+    """
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
-        self._last = 0
+        self.instructions: tuple[Instruction, ...] = ()
+        self._last, self._shown = 0, 0.0
         gui = visitor.client.gui
         self._caption = gui.add_html("")
         self._slider = gui.add_slider("Step", 0, 1, 1, 0, visible=False)
         self._slider.on_update(visitor.guarded(self._slid))
         self._buttons = visitor.buttons("Steps", BUTTONS, self._pressed, visible=False)
-        self._speed = gui.add_slider("Steps a second", 1, 10, 1, 2, visible=False)
+        self._seconds = gui.add_slider("Second of run", 0.0, 1.0, 0.1, 0.0, visible=False)
+        self._seconds.on_update(visitor.guarded(lambda: self._sought()))
+
+    def settings(self) -> None:
+        """Add the input of the speed."""
+        self._speed = self._visitor.client.gui.add_slider("Steps a second", 1, 10, 1, 2)
 
     def show(self, instructions: tuple[Instruction, ...]) -> None:
         """Show the place in the steps of the panel that is looked at; nothing where there are none."""
         visitor, step = self._visitor, self._visitor.cursor
-        self._last = len(instructions)
+        self.instructions, self._last = instructions, len(visitor.reel.states) - 1
         found = visitor.owner is not None and bool(instructions)
-        for handle in (self._slider, self._buttons, self._speed):
-            if handle.visible != found:
-                handle.visible = found
-        if found:
+        run = visitor.reel if isinstance(visitor.reel, RobotRun) else None
+        for handle, seen in ((self._slider, found), (self._buttons, found), (self._seconds, run is not None)):
+            if handle.visible != seen:
+                handle.visible = seen
+        if run is not None:
+            self.time(run)
+        if found and self._last:
             self._slider.max = self._last
             put(self._slider, step)
         done = visitor.wording.instruction(instructions[step - 1]) if 0 < step <= self._last else "the beginning"
-        self.say(f"{step} / {self._last} {done}" if found else "")
+        now = run.now if run is not None and visitor.live else None
+        if now is not None:
+            said = ("repair: " if now.repair else "") + visitor.wording.instruction(now.instruction)
+            self.say(f"The robot, step {now.number} of {now.of}: {said}")
+        else:
+            self.say(f"{step} / {self._last} {done}" if found else "")
+
+    def time(self, run: RobotRun) -> None:
+        """Show how long a run is, and the moment that is looked at."""
+        last = max(len(run.moments) - 1, 1) / RATE
+        if not run.ended.is_set():
+            last = 20 * (last // 20 + 1)  # a slider that grows at each moment cannot be held
+        if self._seconds.max != last:
+            self._seconds.max = last
+        self._shown = round(self._visitor.moment / RATE, 1)
+        put(self._seconds, self._shown)
+
+    def _sought(self) -> None:
+        if self._seconds.value != self._shown:
+            self._visitor.seek(float(self._seconds.value))
 
     def say(self, words: str) -> None:
         """Put a caption over the picture."""

@@ -16,27 +16,22 @@ from tmd.grounded import Grounded, why_refused
 from tmd.inference.ranking import PlanStep
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.plan_file import format_plan
+from tmd.pddl.semantics import holds
 from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.clause_spans import clean
-from tmd.studio.demonstrations.correction import steps_of
+from tmd.studio.demonstrations.correction import as_corrected, steps_of
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.panels.html import (
-    StepLine,
-    changed,
-    effort,
-    fragment,
-    goal_list,
-    judgement,
-    step_list,
-)
+from tmd.studio.view3d.performance import RobotRun, plan_lines
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
+from tmd.view.object_rows import object_rows
+from tmd.view.panels import StepLine, changed, effort, fragment, goal_list, judgement, step_list
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
@@ -47,6 +42,7 @@ if TYPE_CHECKING:
 TOP = 3
 OWN = "(own words)"
 SKILLS = "skills.yaml"
+ROBOT = "the robot's run"
 RULES, LLM = "rules", "language model"
 _FILES = ("plan", "page")
 
@@ -81,33 +77,39 @@ class SayPanel:
         self._request: Request | None = None
         self._waiting: PageLink | None = None
         self._reels: list[Reel] = []
+        self._corrected = False
+        self._run: RobotRun | None = None
+        self._ran = 0
         self._asked: list[ShownGoal] = []
         self._step = 0
         self._saved: Demonstration | None = None
         gui = visitor.client.gui
-        self._examples = visitor.dropdown("Examples", (OWN, *self._texts()), self._take_example)
         self._text = gui.add_text("Text", "", multiline=True, hint="What is to be done, in English.")
         self._button = visitor.button("Plan it", self.plan, color="blue")
-        with gui.add_folder("Reader settings", expand_by_default=False):
-            self._add_settings()
         self._question = gui.add_folder("Which one is meant?", visible=False)
         with self._question:
             self._asked_for = gui.add_html("")
         self._options: list[GuiButtonHandle] = []
         self._understood = gui.add_html("")
         self._judged = gui.add_html("")
-        self._which = visitor.dropdown("Plan", ("1",), lambda: self._choose(self._number()), visible=False)
-        self._goals = gui.add_html("")
+        self._which = visitor.dropdown("Plan", ("1",), self._choose, visible=False)
         self._steps = gui.add_html("")
+        self._robot = visitor.button("Let the robot do it", self._execute, visible=False)
+        self._stop = visitor.button("Stop", visitor.halt, color="red", visible=False)
+        self._repair = visitor.button("Correct this plan", self._correct, visible=False)
+        self._reached = gui.add_folder("Goals", visible=False)
+        with self._reached:
+            self._goals = gui.add_html("")
+        self._rows = gui.add_folder("Objects and steps", expand_by_default=False, visible=False)
+        with self._rows:
+            self._chart = gui.add_html("")
         self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False, visible=False)
         with self._more:
             self._energies = gui.add_html("")
-        self._after = gui.add_folder("What next", visible=False)
-        with self._after:
-            visitor.button("Correct this plan", self._correct)
-            self._robot = visitor.button("Let the robot do it (simulated)", self._execute)
-            visitor.button("Stop", visitor.stop)
-            self._files = visitor.buttons("Download", _FILES, self._download)
+        self._files = visitor.buttons("Download", _FILES, self._download, visible=False)
+        self._examples = visitor.dropdown("Examples", (OWN, *self._texts()), self._take_example)
+        with gui.add_folder("Reader settings", expand_by_default=False):
+            self._add_settings()
 
     def _add_settings(self) -> None:
         """Add the settings of the reader. The key is not among them: the page never has it."""
@@ -135,10 +137,22 @@ class SayPanel:
         """Remove all plans; the picture shows the beginning."""
         self._grounded, self._request, self._waiting, self._reels = None, None, None, []
         self._button.disabled = False
-        self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
-        for handle in (self._question, self._which, self._more, self._after):
-            handle.visible = False
+        self._understood.content = self._judged.content = self._steps.content = ""
+        self._goals.content = self._chart.content = ""
+        self._question.visible = self._more.visible = False
+        self._found(found=False)
         self._visitor.watch(Reel(self._visitor.setting), 0)
+
+    def _found(self, *, found: bool) -> None:
+        """Show what a plan has, or hide it; a robot that does another plan is stopped."""
+        self._visitor.halt()
+        self._run = None
+        self._robot.disabled, self._stop.disabled = False, True
+        for handle in (self._which, self._repair, self._reached, self._rows, self._files):
+            handle.visible = found
+        folder, look = self._visitor.studio.corpus.folder, self._visitor.setting.look
+        robot = found and look is not None and (folder.path / SKILLS).is_file()
+        self._robot.visible = self._stop.visible = robot
 
     # planning
 
@@ -184,7 +198,7 @@ class SayPanel:
             place = link.plan - 1 if link.plan <= len(grounded.plans) else 0
             self._show(grounded, place, link.step, watch=free, request=request)
             if free or request.reader is not None:
-                self._tell(grounded, took)
+                self._tell(self._grounded or grounded, took)
         visitor.keep_link()
 
     def _ground(self, request: Request) -> Grounded:
@@ -241,7 +255,7 @@ class SayPanel:
         grounded = self._again(demonstration)
         put(self._text, demonstration.text)
         self._show(grounded)
-        used = whether_used(demonstration.instructions, grounded, visitor.wording.instruction)
+        used = self._whether_used(demonstration, grounded)
         visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
 
     def learned(self) -> None:
@@ -253,12 +267,17 @@ class SayPanel:
             return
         grounded = self._again(saved)
         # what a language model read, or what was chosen in answer to a question, stays
-        same = self._request == Request(saved.text)
-        if same and not visitor.is_playing() and _plans(self._grounded) != _plans(grounded):
+        same = self._request == Request(saved.text) and not self._corrected
+        if same and self._run is None and not visitor.is_playing() and _plans(self._grounded) != _plans(grounded):
             self._show(grounded)
-        used = whether_used(saved.instructions, grounded, visitor.wording.instruction)
+        used = self._whether_used(saved, grounded)
         said = " ".join(saved.text.split())
         visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
+
+    def _whether_used(self, saved: Demonstration, grounded: Grounded) -> str:
+        if self._corrected and saved.proposed is not None:
+            return "This sentence now gives it here, as it was corrected."
+        return whether_used(saved.instructions, grounded, self._visitor.wording.instruction)
 
     def _again(self, saved: Demonstration) -> Grounded:
         """Return the text of a demonstration, planned where it was shown; a language model is not asked."""
@@ -269,7 +288,7 @@ class SayPanel:
         """Report the number of plans, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            more = _ASKED if grounded.question is not None else None
+            more = _ASKED if grounded.question is not None else f"{self._run.over} {_BACK}" if self._run else None
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
@@ -305,34 +324,46 @@ class SayPanel:
         request: Request | None = None,
     ) -> None:
         """Show what a text was grounded to: the plan at ``place``, after ``step`` steps, and its picture if wanted."""
-        self._grounded, self._waiting = grounded, None
+        self._waiting = None
         self._request = request or Request(grounded.parsed.text)
+        energies = grounded.plans
+        lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
+        corrected = self._visitor.studio.corrected(grounded.parsed.text, self._visitor.setting.name)
+        self._corrected = False
+        if corrected is not None and self._request == Request(grounded.parsed.text):
+            grounded = as_corrected(grounded, corrected)
+            self._corrected = bool(grounded.plans) and grounded.plans[0].instructions == corrected.instructions
+        self._grounded = grounded
         self._button.disabled = False
         self._put_question(grounded, self._request)
         self._reels = [self._played(plan.steps) for plan in grounded.plans]
         found = bool(grounded.plans)
-        for handle in (self._which, self._after):
-            handle.visible = found
-        folder, look = self._visitor.studio.corpus.folder, self._visitor.setting.look
-        self._robot.visible = look is not None and (folder.path / SKILLS).is_file()
+        self._found(found=found)
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
-        lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         self._energies.content = fragment(
-            candidates(grounded.plans, lines, grounded.rejected, narrow=True) + effort(grounded.usage)
+            candidates(energies, lines, grounded.rejected, narrow=True) + effort(grounded.usage)
         )
         if not found:
             unseen = () if grounded.refused is not None else grounded.unseen
             self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
-            self._judged.content = self._goals.content = self._steps.content = ""
+            self._judged.content = self._steps.content = ""
             if watch:
                 self._visitor.watch(Reel(self._visitor.setting), 0)
             return
         self._which.options = tuple(
             f"{number} of {len(grounded.plans)}: {len(plan.steps)} step{'' if len(plan.steps) == 1 else 's'}"
+            + (", as it was corrected" if self._corrected and number == 1 else "")
             for number, plan in enumerate(grounded.plans, start=1)
         )
+        run = self._visitor.studio.runs.get(self._visitor.identity)  # from before the connection was lost
+        same = (n for n, plan in enumerate(grounded.plans) if run is not None and plan.instructions == run.planned)
+        self._ran = next(same, -1)
+        if run is not None and run.setting is self._visitor.setting and self._ran >= 0:
+            self._run = run
+            self._which.options = (*self._which.options, ROBOT)
+        self._step = step
         put(self._which, self._which.options[place])
-        self._choose(place, step, watch=watch)
+        self._choose(watch=watch)
 
     def _put_question(self, grounded: Grounded, request: Request) -> None:
         """Show the question that was not answered, with a button for each option; nothing where there is none."""
@@ -352,21 +383,25 @@ class SayPanel:
                 self._options.append(visitor.button(text, answer, hint=flat(option.formula)))
 
     def _number(self) -> int:
-        return list(self._which.options).index(chosen(self._which))
+        """Return the number of the plan that is looked at, or that the robot does, from 0."""
+        return self._ran if self._running() is not None else list(self._which.options).index(chosen(self._which))
 
-    def _choose(self, number: int, step: int = 0, *, watch: bool = True) -> None:
-        if self._grounded is None or number >= len(self._grounded.plans):
+    def _running(self) -> RobotRun | None:
+        """Return the run of the robot, if it is looked at."""
+        return self._run if self._which.value == ROBOT else None
+
+    def _choose(self, *, watch: bool = True) -> None:
+        if self._grounded is None or self._number() >= len(self._grounded.plans):
             return
-        plan = self._grounded.plans[number]
-        world = self._visitor.setting.world
-        self._understood.content = _styled(lit_choice(self._grounded.parsed, plan, world))
+        grounded, plan, world = self._grounded, self._grounded.plans[self._number()], self._visitor.setting.world
+        self._understood.content = _styled(lit_choice(grounded.parsed, plan, world))
         self._asked = in_words(plan.goals, world.task.problem)
         reached = followed(plan.goals, world.task.problem, plan.instructions)
-        verdict = self._grounded.verdicts[number]
-        told = [*(self._grounded.warnings if not number else ()), *doubts(self._grounded.parsed, plan, world)]
+        verdict = grounded.verdicts[self._number()]
+        told = [*(grounded.warnings if not self._number() else ()), *doubts(grounded.parsed, plan, world)]
         good = outcome(verdict, reached) + (f": {verdict.reason}" if verdict.reason else "")
         self._judged.content = judgement(good, told)
-        self._step = min(step, self._last())
+        self._step = min(self._step, self._last())
         self._look(watch=watch)
 
     # stepping
@@ -375,44 +410,63 @@ class SayPanel:
         """Look at the state after so many steps."""
         if self._reels:
             self._step = min(max(step, 0), self._last())
+            self._visitor.live = self._run is not None and self._step == self._last()
             self._look()
 
-    def mark(self, step: int) -> None:
-        """Mark a step as the one that is being done; the picture stays."""
-        if self._reels:
-            self._step = min(max(step, 0), self._last())
-            self._list()
+    def ran(self, run: RobotRun) -> None:
+        """Show where the robot is, if it is followed, and how its run ended."""
+        if run is not self._run:
+            return
+        over = run.ended.is_set() and bool(run.over)
+        self._robot.disabled, self._stop.disabled = not over, over
+        if over:
+            self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
+        elif run.now is not None:
+            said = self._visitor.wording.instruction(run.now.instruction)
+            self._visitor.tell(f"The robot, step {run.now.number} of {run.now.of}: {said}")
+        if self._running() is not None:
+            if self._visitor.live:
+                self._step = self._last()
+            if self._visitor.owner is self:
+                self._look()
 
-    def _listed(self) -> tuple[PlanStep, ...]:
-        """Return the plan that is shown; empty for none."""
-        return self._grounded.plans[self._number()].steps if self._grounded is not None and self._reels else ()
+    def _reel(self) -> Reel:
+        return self._running() or self._reels[self._number()]
 
     def _last(self) -> int:
-        return len(self._reels[self._number()].states) - 1 if self._reels else 0
+        return len(self._reel().states) - 1 if self._reels else 0
 
     def _look(self, *, watch: bool = True) -> None:
         if not self._reels:
             return
-        reel = self._reels[self._number()]
+        reel, lines = self._reel(), self._lines()
         if watch:
-            self._visitor.watch(reel, self._step, self, [step.instruction for step in self._listed()])
+            self._visitor.watch(reel, self._step, self, [line.instruction for line in lines])
         problem = self._visitor.setting.world.task.problem
-        self._goals.content = goal_list(self._asked, reel.facts(self._step), problem)
-        self._list()
+        facts, shown = reel.facts(self._step), [goal for goal in self._asked if goal.asked]
+        true = sum(holds(goal.goal.formula, facts, problem) for goal in shown if goal.goal.formula is not None)
+        self._reached.label = f"Goals: {true} of {len(shown)} hold now"
+        self._goals.content = goal_list(self._asked, facts, problem)
+        self._list(lines)
         self._visitor.keep_link()
 
-    def _list(self) -> None:
+    def _lines(self) -> list[StepLine]:
+        """Return the steps of the plan or the run that is looked at; none where there is neither."""
+        if self._grounded is None or not self._reels:
+            return []
+        run = self._running()
+        return run.lines if run else plan_lines(self._grounded.plans[self._number()])
+
+    def _list(self, lines: list[StepLine]) -> None:
         """List the steps, with what the one that is looked at changed."""
-        if not self._reels:
-            return
-        reel = self._reels[self._number()]
-        wording = self._visitor.wording
-        gains = changed(*reel.changes(self._step), wording.fact)
-        lines = [
-            StepLine(s.instruction, f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
-            for s in self._listed()
-        ]
-        self._steps.content = step_list(lines, self._step, gains, in_words=wording.instruction, of="say")
+        wording, run, reel = self._visitor.wording, self._running(), self._reel()
+        doing = run is not None and run.now is not None and self._visitor.live
+        gains = () if doing else changed(*reel.changes(self._step), wording.fact)
+        faults, current = run.faults if run else None, self._step + doing
+        self._steps.content = step_list(lines, current, gains, faults, in_words=wording.instruction, of="say")
+        instructions = [line.instruction for line in lines]
+        problem = self._visitor.setting.world.task.problem
+        self._chart.content = _styled(object_rows(instructions, problem, current, wording))
 
     # what next
 
@@ -446,11 +500,19 @@ class SayPanel:
         grounded = self._grounded
         if grounded is None or not grounded.plans:
             raise TmdError("there is no plan to carry out", hint="plan something first")
-        self._visitor.execute(grounded.plans[self._number()])
+        visitor, number = self._visitor, self._number()
+        visitor.stop()
+        self._run, self._ran, self._step = visitor.execute(grounded.plans[number]), number, 0
+        self._robot.disabled, self._stop.disabled = True, False
+        plans = tuple(each for each in self._which.options if each != ROBOT)
+        self._which.options = (*plans, ROBOT)
+        put(self._which, ROBOT)
+        self._look()
 
 
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
+_BACK = "It is under Plan, to look back."
 _ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."

@@ -44,10 +44,14 @@ class MeshPiece:
     link: str
     mesh: trimesh.Trimesh
 
-    def glb(self) -> bytes:
-        """Return the mesh as binary glTF."""
+    def glb(self, brightness: float = 1.0) -> bytes:
+        """Return the mesh as binary glTF, its colours times ``brightness``."""
         buffer = io.BytesIO()
-        self.mesh.export(buffer, file_type="glb")
+        mesh: Any = self.mesh.copy()
+        colours = mesh.visual.vertex_colors.copy()
+        colours[:, :3] = colours[:, :3] * brightness
+        mesh.visual.vertex_colors = colours
+        mesh.export(buffer, file_type="glb")
         return buffer.getvalue()
 
 

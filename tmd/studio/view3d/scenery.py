@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,17 +13,10 @@ from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.video.symbolic_renderer import Picture
 from tmd.studio.environment_view import Look
 from tmd.studio.view3d.meshes import Figure
+from tmd.studio.view3d.performance import Moment
 
 if TYPE_CHECKING:
-    from viser import (
-        FrameHandle,
-        GlbHandle,
-        LabelHandle,
-        LineSegmentsHandle,
-        MeshHandle,
-        SceneApi,
-        SceneNodeHandle,
-    )
+    import viser
 
 # Of the selected object, which has lines and a label as well.
 ORANGE = (230, 159, 0)
@@ -31,12 +24,23 @@ ORANGE = (230, 159, 0)
 _EYE = 1.35
 # Radians: how far the view of the whole room looks down.
 _ELEVATION = 0.66
+# Radians: how far beside the robot the view of one object is.
+_ASIDE = 0.7
 # How much of the view the room takes.
 _FILL = 0.94
 # Metres: the distances that the room may be seen from.
 _LEAST, _MOST = 2.0, 60.0
+# Pixels: of a letter of a name, and of its line; how many lines a name goes up at most.
+_LETTER, _ROW, _LIFTS = 7.5, 17, 6
+# How bright the room is on a dark page.
+_DARK = 0.28
+# The link of the robot that is where the robot is.
+BASE = "base_footprint"
 # The root link of an object's URDF.
 _ROOT = "root"
+
+# A place to look from, and the point that is looked at.
+Aim = tuple[Vector, Vector]
 
 
 class Scenery:
@@ -47,18 +51,33 @@ class Scenery:
         look: The environment.
         figure: The robot; ``None`` where its model is not installed.
         pointed: Called with the name of an object that was clicked.
+        dark: Whether the floor and the walls are dark.
+        number: Of the scenes of one view, so that no two have nodes of one name: what the browser still does for a
+            node that is removed, it does to the new one of that name.
     """
 
-    def __init__(self, scene: SceneApi, look: Look, figure: Figure | None, pointed: Callable[[str], None]) -> None:
+    def __init__(
+        self,
+        scene: viser.SceneApi,
+        look: Look,
+        figure: Figure | None,
+        pointed: Callable[[str], None],
+        *,
+        dark: bool = False,
+        number: int = 0,
+    ) -> None:
+        self._root = f"/{number}"
         self._scene = scene
         self._look = look
         self._figure = figure
         self._pointed = pointed
-        self._frames: dict[str, FrameHandle] = {}
-        self._links: dict[tuple[str, str], GlbHandle | MeshHandle] = {}
-        self._robot: dict[str, GlbHandle] = {}
-        self._marks: list[LineSegmentsHandle | LabelHandle] = []
-        self._named: list[LabelHandle] = []
+        self._dark = dark
+        self._frames: dict[str, viser.FrameHandle] = {}
+        self._links: dict[tuple[str, str], viser.GlbHandle | viser.MeshHandle] = {}
+        self._robot: dict[str, viser.GlbHandle] = {}
+        self._marks: list[viser.LineSegmentsHandle | viser.LabelHandle] = []
+        self._named: dict[str, viser.LabelHandle] = {}
+        self._base = look.first.robot
         self._poses: dict[str, Pose] = {}
         self._colours: dict[tuple[str, str], tuple[float, ...]] = {}
         self._build()
@@ -69,13 +88,13 @@ class Scenery:
         scene.set_up_direction("+z")
         scene.configure_default_lights(enabled=True, cast_shadow=False)
         for piece in look.room:
-            scene.add_glb(f"/room/{piece.link}", piece.glb())
+            scene.add_glb(f"{self._root}/room/{piece.link}", piece.glb(_DARK if self._dark else 1.0))
         for name, parts in look.objects.items():
-            self._frames[name] = scene.add_frame(f"/objects/{name}", show_axes=False)
+            self._frames[name] = scene.add_frame(f"{self._root}/objects/{name}", show_axes=False)
             coloured = {link for owner, link in look.first.colours if owner == name}
             for piece in parts:
-                path = f"/objects/{name}/{piece.link}"
-                node: GlbHandle | MeshHandle
+                path = f"{self._root}/objects/{name}/{piece.link}"
+                node: viser.GlbHandle | viser.MeshHandle
                 if piece.link in coloured:
                     mesh = piece.mesh
                     node = scene.add_mesh_simple(path, mesh.vertices, mesh.faces, flat_shading=True, side="double")
@@ -85,7 +104,7 @@ class Scenery:
                 place = name, ROOT if piece.link == _ROOT else piece.link
                 self._links[place] = node
         for piece in self._figure.pieces if self._figure else ():
-            self._robot[piece.link] = scene.add_glb(f"/robot/{piece.link}", piece.glb())
+            self._robot[piece.link] = scene.add_glb(f"{self._root}/robot/{piece.link}", piece.glb())
 
     def draw(self, picture: Picture) -> None:
         """Show a symbolic state."""
@@ -99,27 +118,23 @@ class Scenery:
         if self._figure is not None:
             for link, pose in self._figure.links(self._figure.posture(held)).items():
                 self._move(self._robot[link], picture.robot * pose)
+        self._base = picture.robot
 
-    def move(
-        self, objects: Mapping[str, Pose], links: Mapping[tuple[str, str], Pose], robot: Mapping[str, Pose]
-    ) -> None:
-        """Show poses that a simulation went through.
-
-        Args:
-            objects: Of objects, in the world.
-            links: Of the links of objects, in the frames of their objects.
-            robot: Of the robot's links, in the world.
-        """
-        for name, pose in objects.items():
+    def replay(self, moment: Moment) -> None:
+        """Show a moment of a simulation."""
+        for name, pose in moment.objects.items():
             self._move(self._frames[name], pose)
-        for place, pose in links.items():
+        for place, pose in moment.links.items():
             if place in self._links:
                 self._move(self._links[place], pose)
-        for link, pose in robot.items():
-            if link in self._robot:
-                self._move(self._robot[link], pose)
+        for place, colour in moment.colours.items():
+            self.paint(place, colour)
+        for link, pose in self._figure.links(moment.joints).items() if self._figure else ():
+            self._move(self._robot[link], pose)
+            if link == BASE:
+                self._base = pose
 
-    def _move(self, node: SceneNodeHandle, pose: Pose) -> None:
+    def _move(self, node: viser.SceneNodeHandle, pose: Pose) -> None:
         """Move a node, unless it is there: what does not move costs nothing."""
         if self._poses.get(node.name) == pose:
             return
@@ -137,16 +152,49 @@ class Scenery:
         node.visible = colour[3] > 0
         node.color = tuple(round(255 * part) for part in colour[:3])  # type: ignore[union-attr]
 
-    def names(self, *, shown: bool) -> None:
-        """Show the names of all objects, or hide them."""
-        for old in self._named:
-            old.remove()
-        self._named = []
-        for name in self._frames if shown else ():
-            high = self._look.still.blueprints[name].model.high
-            self._named.append(
-                self._scene.add_label(f"/objects/{name}/called", name, position=(0.0, 0.0, high[2] + 0.03))
-            )
+    def names(self, camera: viser.CameraHandle | None) -> None:
+        """Show the names of all objects as a camera sees them, none over another; hide them without a camera.
+
+        The nearest come first; a name that is in the way goes up, and one that finds no place is left out.
+        """
+        places = {} if camera is None else self._free_places(camera)
+        for name, label in self._named.items():
+            label.visible = name in places
+        for name, place in places.items():
+            if name in self._named:
+                self._named[name].position = place
+            else:
+                self._named[name] = self._scene.add_label(
+                    f"{self._root}/names/{name}", name, position=place, anchor="bottom-center"
+                )
+
+    def _free_places(self, camera: viser.CameraHandle) -> dict[str, Vector]:
+        """Return the places of the names that find one."""
+        eye = np.asarray(camera.position)
+        forward = np.asarray(camera.look_at) - eye
+        right = np.cross(forward, np.asarray(camera.up_direction))
+        up = np.cross(right, forward)
+        forward, right, up = (axis / max(float(np.linalg.norm(axis)), 1e-6) for axis in (forward, right, up))
+        pixel = 2 * np.tan(camera.fov / 2) / max(camera.image_height, 1)
+        tops = {name: self._top(name) - eye for name in self._frames}
+        taken: list[tuple[float, float, float]] = []
+        found = {}
+        for name, top in sorted(tops.items(), key=lambda each: float(each[1] @ forward)):
+            metres = float(top @ forward) * pixel
+            if metres <= 0:
+                continue
+            x, y, half = float(top @ right) / metres, float(top @ up) / metres, len(name) * _LETTER / 2 + 4
+            for high in np.arange(_LIFTS) * _ROW + y:
+                if all(abs(x - other) >= half + wide or abs(high - at) >= _ROW for other, at, wide in taken):
+                    taken.append((x, float(high), half))
+                    found[name] = _vector(eye + top + up * (high - y) * metres)
+                    break
+        return found
+
+    def _top(self, name: str) -> NDArray[np.float64]:
+        """Return the middle of the upper side of an object's box in the world."""
+        corners = self._corners(name, self._poses[self._frames[name].name])
+        return np.array((*corners[:, :2].mean(axis=0), corners[:, 2].max() + 0.03))
 
     def mark(self, name: str | None) -> None:
         """Draw lines around an object, and its name above it; nothing for ``None``."""
@@ -158,25 +206,41 @@ class Scenery:
         model = self._look.still.blueprints[name].model
         low = tuple(v - 0.01 for v in model.low)
         high = tuple(v + 0.01 for v in model.high)
-        path = f"/objects/{name}/selected"
+        path = f"{self._root}/objects/{name}/selected"
         self._marks = [
             self._scene.add_line_segments(path, _edges(low, high), ORANGE, thickness=3.0, thickness_units="screen"),
-            self._scene.add_label(f"/objects/{name}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
+            self._scene.add_label(f"{self._root}/objects/{name}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
         ]
 
-    def eyes(self, picture: Picture) -> tuple[Vector, Vector]:
+    def eyes(self) -> Aim:
         """Return the place of the robot's camera, and the point that it looks at."""
-        robot = picture.robot
-        return robot.apply((0.2, 0.0, _EYE)), robot.apply((0.9, 0.0, 1.0))
+        return self._base.apply((0.2, 0.0, _EYE)), self._base.apply((0.9, 0.0, 1.0))
 
-    def overview(self, fov: float, aspect: float) -> tuple[Vector, Vector]:
+    def behind(self) -> Aim:
+        """Return a place behind and above the robot, and the point in front of it."""
+        return self._base.apply((-1.6, 0.5, 2.3)), self._base.apply((0.7, 0.0, 0.7))
+
+    def near(self, names: Iterable[str]) -> Aim | None:
+        """Return a place beside the robot that the first of some objects is seen from, and its middle; or ``None``."""
+        name = next((each for each in names if each in self._frames), None)
+        if name is None:
+            return None
+        corners = self._corners(name, self._poses[self._frames[name].name])
+        middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+        away = np.array(self._base.position) - middle
+        turned = np.arctan2(away[1], away[0]) + _ASIDE
+        distance = 0.9 + 2 * float(np.linalg.norm(corners[0] - middle))
+        level, high = distance * np.cos(_ELEVATION), distance * np.sin(_ELEVATION)
+        return _vector(middle + np.array((level * np.cos(turned), level * np.sin(turned), high))), _vector(middle)
+
+    def overview(self, fov: float, aspect: float) -> Aim:
         """Return the nearest place, from the open side of the room, from where everything is seen; and what to look at.
 
         Args:
             fov: Radians that are seen from the lower to the upper edge of the view.
             aspect: The view's width divided by its height.
         """
-        points = np.concatenate([self._corners(name) for name in self._frames])
+        points = np.concatenate([self._corners(name, self._look.first.poses[name]) for name in self._frames])
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
         forward = np.array((np.cos(_ELEVATION), 0.0, -np.sin(_ELEVATION)))
         up = np.array((np.sin(_ELEVATION), 0.0, np.cos(_ELEVATION)))
@@ -193,9 +257,9 @@ class Scenery:
         eye = middle - distance * forward + shift * up
         return _vector(eye), _vector(eye + distance * forward)
 
-    def _corners(self, name: str) -> NDArray[np.float64]:
-        """Return the corners of an object's box in the world."""
-        model, pose = self._look.still.blueprints[name].model, self._look.first.poses[name]
+    def _corners(self, name: str, pose: Pose) -> NDArray[np.float64]:
+        """Return the corners of an object's box in the world, where the object has a pose."""
+        model = self._look.still.blueprints[name].model
         box = [(model.low[i], model.high[i]) for i in range(3)]
         return np.array([pose.apply((x, y, z)) for x in box[0] for y in box[1] for z in box[2]])
 

@@ -1,4 +1,4 @@
-"""The HTML of the studio's panels, made by ``studio.html.j2`` of :mod:`tmd.view`, which escapes all text.
+"""The HTML of the studio's panels, made by ``studio.html.j2``, which escapes all text.
 
 Colours are those of Okabe and Ito, which colour-blind people can tell apart; each has a sign or a word beside it.
 """
@@ -8,14 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.semantics import holds
 from tmd.pddl.task import Bits
 from tmd.readers.interface import Usage
-from tmd.studio.object_info import about
 from tmd.view.goals import ShownGoal
 from tmd.view.markup import data, macro
-from tmd.world.world import World
+from tmd.world.world import PART_OF, World
 
 _TEMPLATE = "studio.html.j2"
 
@@ -105,3 +106,39 @@ def object_facts(name: str, world: World, state: Bits, in_words: Callable[[Groun
 def effort(usage: Usage | None) -> str:
     """Render the effort of a language model; empty where none was asked."""
     return "" if usage is None else macro(_TEMPLATE, "effort", usage)
+
+
+def about(name: str, world: World, state: Bits) -> dict[str, list[GroundAtom]]:
+    """Return the facts about ``name`` in ``state`` by heading, each sorted.
+
+    States are those of it alone (*mug1 is hot*), relations those of it and another object (*mug1 is on counter1*), and
+    the rest never changes (*stove1_knob1 controls stove1_burner1*); edges that hold both ways add nothing, and are left
+    out.
+
+    Raises:
+        TmdError: There is no such object.
+    """
+    require_object(name, world)
+    static, constants = world.task.static, world.profiles.constants
+
+    def shared(atom: GroundAtom) -> bool:
+        return any(argument != name and argument not in constants for argument in atom.args)
+
+    now = [atom for atom in world.task.names(state) if name in atom.args]
+    always = [atom for atom in sorted(static) if name in atom.args and atom.predicate != PART_OF and shared(atom)]
+    return {
+        "States": [atom for atom in now if not shared(atom)],
+        "Relations": [atom for atom in now if shared(atom)],
+        "What controls what": [atom for atom in always if atom._replace(args=atom.args[::-1]) not in static],
+    }
+
+
+def require_object(name: str, world: World) -> None:
+    """Make sure that an environment has an object.
+
+    Raises:
+        TmdError: It has none of that name.
+    """
+    known = world.objects.types_of
+    if name not in known:
+        raise TmdError(f"there is no object '{name}'", hint=nearest(name, list(known), what="objects"))
