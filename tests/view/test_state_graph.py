@@ -8,7 +8,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from tmd.view.wording import Wording
+from tmd.goals.wording import Wording
 
 from tests.bundled import corpus
 from tmd.diagnostics import ExitCode
