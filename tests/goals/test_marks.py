@@ -49,6 +49,9 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("No crate should be without a stamp.", {"(stamped crate1)", "(stamped crate3)"}, set()),
         ("Seal the crates that have no label.", {"(sealed crate2)", "(sealed crate3)"}, {"(sealed crate1)"}),
         ("Seal the crates without a label.", {"(sealed crate2)", "(sealed crate3)"}, {"(sealed crate1)"}),
+        ("Seal the crates if they are labelled.", {"(sealed crate1)"}, {"(sealed crate2)", "(sealed crate3)"}),
+        ("Seal the crates, but only if they have no label.", {"(sealed crate2)"}, {"(sealed crate1)"}),
+        ("Stamp all crates if they are at the ramp.", {"(stamped crate3)"}, {"(stamped crate1)"}),
         ("Carry all crates that have a stamp to the ramp.", {"(at crate2 ramp)"}, {"(at crate1 ramp)"}),
     ],
 )

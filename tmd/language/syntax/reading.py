@@ -29,7 +29,7 @@ from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft, as_one
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
-from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, give_back, name_verb
+from tmd.language.syntax.sayings import EXISTS, Saying, demand, described, empty_draft, give_back, name_verb
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 
 _ASIDES = ("demand", "statement")
@@ -236,6 +236,8 @@ class TextReading:
 
     def _add_condition(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
         """Add a condition or a purpose; *if it isn't* is "otherwise" behind the condition that something is so."""
+        if node.data == "condition" and self._of_each(draft, node):
+            return
         condition, before = self._condition(node), self.conditioned
         said = condition.clauses
         if before is not None and node.data == "condition" and said and all(map(_says_nothing, said)):
@@ -245,6 +247,24 @@ class TextReading:
             condition = replace(condition, clauses=before.clauses)
         self.conditioned = condition if node.data == "condition" else before
         draft.conditions += _each_denied(condition) if condition.negated and condition.clauses else [condition]
+
+    def _of_each(self, draft: ClauseDraft, node: Tree[Leaf]) -> bool:
+        """Read "water the plants if they are dry" as to water those that are dry, if there are any."""
+        opener, said = next(leaves(node)), self._said(node)
+        things = [p for p in draft.direct if p.place < opener.span.start and not p.pronoun]
+        several = len(things) == 1 and (things[0].plural or things[0].said().quantifier is Quantifier.ALL)
+        if not several or opener.text not in section("of_each") or not all(map(_is_of_them, said)):
+            return False
+        before = len(draft.relations)
+        for state in said:
+            self._describe(draft, things[0], opener, state)
+        some = empty_draft(BE, [node])
+        some.verb.form, some.relations = EXISTS, draft.relations[before:]
+        some.direct = [replace(things[0], plural=False, lead=(first_of("indefinite"),))]
+        some.further = dict(draft.further)
+        text = " ".join(self.text[slice(*hull(spans([node])))].split()).lower()
+        draft.conditions.append(Condition(opener.text, (replace(some.clause(self.text), text=text),), False, text))
+        return True
 
     def _condition(self, node: Tree[Leaf]) -> Condition:
         """Read a condition or a purpose."""
@@ -626,6 +646,12 @@ def _says_nothing(clause: Clause) -> bool:
     said = clause.result or clause.setting or clause.relations
     about = section("pronouns") | section("subjects")
     return clause.verb == BE and not said and about.issuperset(clause.objects)
+
+
+def _is_of_them(said: ClauseDraft) -> bool:
+    """Return whether a clause says in what state things are that were named before: "they are dry"."""
+    them = bool(said.direct) and all(p.name in section("plural_pronouns") for p in said.direct)
+    return said.verb.stem == BE and them and bool(said.result or said.relations)
 
 
 def _telling(said: ClauseDraft, opener: Token) -> list[str]:

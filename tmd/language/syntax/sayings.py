@@ -151,7 +151,7 @@ class Saying:
         named = about_things(self.subject)
         if not named and not about_things(self.rest) and trees([*self.subject, *self.rest], "state", "place"):
             start = min(t.span.start for t in leaves(self.part))
-            draft.direct.append(Phrase(first_of("singular_pronouns"), start, False, True))
+            draft.direct += [] if self._plural() else [Phrase(first_of("singular_pronouns"), start, False, True)]
         elif not named and about_things(self.rest):
             draft.verb.form = EXISTS
             self.subject = [n for n in self.subject if not is_a(n, "group")]
@@ -159,6 +159,10 @@ class Saying:
         if draft.result is None and draft.settings() and not draft.landmarks:
             draft.result = draft.settings()[-1]  # "until it is two thirds full"
         return draft
+
+    def _plural(self) -> bool:
+        """Return whether its subject is a pronoun that may mean several things: "they"."""
+        return any(t.text in section("plural_pronouns") for node in self.subject for t in leaves(node))
 
     def _done(self, verb: Token, attach: Attach) -> ClauseDraft:
         """*The kettle is filled with water*: a state that a participle names."""
@@ -179,7 +183,7 @@ class Saying:
     def _owned(self, attach: Attach) -> ClauseDraft:
         """*The cup has milk in it*: a state with a relation."""
         draft = empty_draft(BE, [self.part])
-        if not about_things(self.subject):
+        if not (about_things(self.subject) or self._plural()):
             attach(draft, self.rest, ())
             return draft
         attach(draft, self.subject, ())
