@@ -521,7 +521,7 @@ class Referents:
         if context.noun in bound:
             return referent.only(n for n in referent.names if n not in bound[context.noun].names)
         left = self._places_now(referent, context.reading) if context.place else ()
-        return referent.only([n for n in referent.names if n not in left] or referent.names)
+        return referent.only(n for n in referent.names if n not in left)
 
     def _unspoken(self, referent: Referent, reading: ClauseReading) -> Referent:
         """Return those of several things that no noun meant: "the red cup in the sink, the other cups on the table"."""
@@ -771,6 +771,8 @@ class Referents:
             return Refusal(
                 RefusalKind.NO_SUCH_THING, f"no {said} here is {words(place.relation)} the {words(place.target)}"
             )
+        if known and clause.phrase(noun).other:
+            return Refusal(RefusalKind.NO_SUCH_THING, f"there is no other {said} here")
         if known:
             message = f"'{words(clause.verb)}' does not apply to '{said}' here"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message)

@@ -482,7 +482,8 @@ class RowReader:
         further = [(r.relation, r.target) for r in clause.relations if r.source and r.source not in clause.direct]
         for relation, target in (*leftover, *further):
             named = not (self.referents.points_back(target) or is_noun(target, "degrees") or is_none(target, clause))
-            if named and is_relation(relation, "naming") and not self.referents.targets(target, reading):
+            fewest = 1 + clause.phrase(target).other  # "the other table", where there is one
+            if named and is_relation(relation, "naming") and len(self.referents.targets(target, reading)) < fewest:
                 return self.referents.missing(Referent(target, ()), reading)
         return None
 
