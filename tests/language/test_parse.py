@@ -244,6 +244,7 @@ def test_questions_that_ask_for_something(text: str, expected: list[str]) -> Non
     ("text", "expected"),
     [
         ("Put the pen in the chest, no wait, in the crate.", ["(put, [pen, crate], in: pen -> crate)"]),
+        ("Serve Ann the tea, no, sorry, the soup.", ["(serve, [ann, soup], to: soup -> ann)"]),
         ("Put the pen, I mean the rope, in the chest.", ["(put, [rope, chest], in: rope -> chest)"]),
         ("Both chests, open them.", ["(open, [chest])"]),
         ("The chest's open, shut it.", ["(shut, [it])"]),

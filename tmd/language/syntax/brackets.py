@@ -451,6 +451,17 @@ class Bracketer(ClauseEnds):
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
         if thing and (end := self._correct_object(at, begin)):
             return end
+        start = self._taken_back(place=place, thing=thing)
+        self.dropped += noted([self.tokens[at]], CORRECTED)
+        start = max(start - place, 0)
+        taken = self.out[start:]
+        self._take_back(start, CORRECTED)
+        if not (place or thing):
+            self._mention(taken, CORRECTED)
+        return begin
+
+    def _taken_back(self, *, place: bool, thing: bool) -> int:
+        """Return where the last place, thing or sentence begins."""
         start = len(self.out) - (self._last() is K.SEP)
         while start and (
             self.out[start - 1].kind in LINKS | {K.SEP} or self.out[start - 1].text in section("none_words")
@@ -461,13 +472,9 @@ class Bracketer(ClauseEnds):
             start -= 1
         while start and thing and self.out[start - 1].kind in NP:
             start -= 1
-        self.dropped += noted([self.tokens[at]], CORRECTED)
-        start = max(start - place, 0)
-        taken = self.out[start:]
-        self._take_back(start, CORRECTED)
-        if not (place or thing):
-            self._mention(taken, CORRECTED)
-        return begin
+            if self.out[start].kind is K.DET and self.out[start - 1].kind in HEADS:
+                break  # "serve Ann the tea, no, the soup"
+        return start
 
     def _correct_object(self, at: int, begin: int) -> int:
         """Put a thing in the place of what the sentence before acts on: "the rope to the shed. No, the hose".
@@ -670,6 +677,7 @@ class Bracketer(ClauseEnds):
         """Return whether a particle or adverb names the state that something is in or should be in."""
         ends = self.follows(at + 1, "IDLE* (BREAK|SUB|V|EXC|MOD|PURP|REL)")
         if self._open:
+            ends = ends or (self._last() is K.AUX and self.follows(at + 1, "P"))  # "the lamp is on in the hall"
             # what must not stay up shall be otherwise; what must stay up is left so
             stays = self._last() is K.V and self.out[-1].stem in section("staying") and self._open[-1].negated
             return ends and (stays or self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE})
