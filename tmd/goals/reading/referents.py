@@ -410,9 +410,23 @@ class Referents:
             return other
         if pronoun == ONE and plain and antecedent in reading.memory.bound:  # "… the other plate. Wash that one."
             return self._antecedent(antecedent, IT, types, reading)
+        return self._of_kind(antecedent, said, relations, types, reading)
+
+    def _of_kind(
+        self,
+        antecedent: str,
+        said: NounPhrase,
+        relations: list[tuple[str, str]],
+        types: tuple[str, ...],
+        reading: ClauseReading,
+    ) -> Referent:
+        """Return *one* as a thing like its antecedent: "take the front wheel off and put the spare one on"."""
         kind = self._kind_of_one(antecedent, relations, reading)
         relations += self.relations_of(antecedent, reading.clause) if antecedent not in reading.clause.objects else []
-        return self._named(kind, replace(said, name=kind), types, relations, reading)
+        kinds = dict.fromkeys((kind, split_name(antecedent)[-1]))
+        named = (self._named(each, replace(said, name=each), types, relations, reading) for each in kinds)
+        found = next((referent for referent in named if referent.names), None)
+        return found or Referent(kind, ())
 
     def _kind_of_one(self, noun: str, relations: Sequence[tuple[str, str]], reading: ClauseReading) -> str:
         """Return what *one* stands for: after "the roof vent", *the one on the side* is another vent."""

@@ -18,7 +18,7 @@ from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Pairs, Requirements
 from tmd.goals.reasons import forms, placed, why_impossible
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
-from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said, the_word
+from tmd.goals.words import ends_as, is_noun, is_one, is_relation, is_verb, relations_said, table, the_word
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.pddl.ground_formula import (
@@ -407,6 +407,12 @@ class RowReader:
             failure = Refusal(RefusalKind.NOT_UNDERSTOOD, *_misfit(rows, unit, reading))
         return replace(failure, rows=tuple(tried))
 
+    def _is_anywhere(self, row: GoalRow, found: Formula, reading: ClauseReading) -> bool:
+        """Return whether a clause puts a thing without saying where, and it is somewhere by now."""
+        verb, _, particle = reading.clause.verb.partition("_")
+        put = is_verb(verb, "placing") and (not particle or particle in table("particles"))
+        return put and row.source == ACTIONS and not row.places and self.grounder.truth(found, reading.state)
+
     def _still_to_do(
         self, others: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
     ) -> tuple[GoalRow, Formula]:
@@ -447,7 +453,10 @@ class RowReader:
             return refused
         choices = product(*([(slot, *filler) for filler in said] for slot, said in fillers))
         found = [self._combination(RowUse(row, unit.direct, choice, leftover, reading)) for choice in choices]
-        return self._joined_ways(found, reading, alternatives=alternatives)
+        asked = self._joined_ways(found, reading, alternatives=alternatives)
+        if not isinstance(asked, Refusal) and self._is_anywhere(row, asked, reading):
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, f"'{text_of(clause)}' does not say where")
+        return asked
 
     def _joined_ways(
         self, found: Sequence[Formula | Refusal], reading: ClauseReading, *, alternatives: bool

@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cache, lru_cache
+from itertools import pairwise
 from typing import Any
 
 from tmd.language.clause import NOWHERE
@@ -295,7 +296,11 @@ def _each(table: str, tokens: list[Token], lexicon: Lexicon) -> list[tuple[Token
 
 
 def _compounds(tokens: list[Token], lexicon: Lexicon) -> None:
-    """Keep all words of names of the domain with a particle inside."""
+    """Keep all words of names of the domain with a particle inside, and of "head light" for ``headlight``."""
+    for first, last in pairwise(tokens):
+        if first.kind is last.kind is Kind.WORD and f"{first.text}{singular(last.text)}" in lexicon.kinds:
+            for token in (first, last):
+                token.kind, token.stem, token.strength = Kind.N, "", 0
     for words in lexicon.compounds:
         for at in (at for at, token in enumerate(tokens) if token.text == words[0]):
             run = tokens[at : at + len(words)]
