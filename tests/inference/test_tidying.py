@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.goals.conftest import end, said, steps
+import tmd
+from tests.goals.conftest import end, plain_world, said, steps
 from tmd.diagnostics import TmdError
 from tmd.ground import restored_in
 from tmd.inference.tidying import Need, PlanPart, Tidying
@@ -125,6 +126,27 @@ def test_a_lexicon_says_what_is_restored(kitchen: Corpus, tmp_path: Path) -> Non
     assert door in restored_in(world, kitchen.lexicon)
     (tmp_path / "lexicon.yaml").write_text("restored: []\n", encoding="utf-8")
     assert restored_in(world, read_lexicon(tmp_path / "lexicon.yaml")) == ()
+
+
+FARM = """
+(define (domain farm) (:requirements :typing) (:types cow field)
+  (:predicates (herder ?f - field) (grazes ?c - cow ?f - field) (shut ?f - field))
+  (:action drive :parameters (?c - cow ?a ?b - field) :precondition (and (herder ?a) (grazes ?c ?a))
+    :effect (and (herder ?b) (grazes ?c ?b) (not (herder ?a)) (not (grazes ?c ?a))))
+  (:action walk :parameters (?a ?b - field) :precondition (herder ?a)
+    :effect (and (herder ?b) (not (herder ?a))))
+  (:action close :parameters (?f - field) :precondition (herder ?f) :effect (shut ?f)))
+"""
+FIELDS = """
+(define (problem two) (:domain farm) (:objects rosa lotte - cow north south - field)
+  (:init (herder south) (grazes rosa north) (grazes lotte south)) (:goal (and)))
+"""
+
+
+def test_of_ways_of_one_length_that_is_taken_which_moves_less(tmp_path: Path) -> None:
+    folder = plain_world(tmp_path, FARM, FIELDS)
+    grounded = tmd.load_domain(str(folder)).ground("Close the north field.", folder / "problem.pddl")
+    assert [str(step) for step in steps(grounded)] == ["walk(south, north)", "close(north)"]
 
 
 @pytest.mark.parametrize("text", ["restored: opened\n", "restored: {opened: true}\n", "restored: [[a]]\n"])

@@ -136,7 +136,7 @@ class _Improvement:
         before = None
         while plan != before:
             before = plan
-            plan = self._with_windows(self.pruned(plan))
+            plan = self._with_others(self._with_windows(self.pruned(plan)))
         return plan
 
     def pruned(self, plan: Plan) -> Plan:
@@ -318,6 +318,15 @@ class _Improvement:
                 continue
             plan = self._better(plan, [self._executable(plan, but=(place, at))])
             at = min(at, len(plan[place].instructions))
+        return plan
+
+    def _with_others(self, plan: Plan) -> Plan:
+        """Return the plan with instructions that change less: nobody drives a cow along to get to the next field."""
+        for place in range(len(plan)):
+            for at in range(0 if plan[place].need.fixed else len(plan[place].instructions)):
+                state, goal = self._states(plan)[place][at], self._relied_on(plan, place, at + 1)
+                usable = (o for o in self.task.operators if o.applicable(state) and goal.holds(o.apply(state)))
+                plan = self._better(plan, (self._with(plan, place, at, at + 1, (o.instruction,)) for o in usable))
         return plan
 
     def _with_windows(self, plan: Plan) -> Plan:

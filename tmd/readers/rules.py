@@ -183,15 +183,16 @@ class RuleDialogue(Dialogue):
     def _is_aside(self, step: RuleStep, refusal: Refusal) -> bool:
         """Return whether a step that is refused may be left out, since another one asks for something.
 
-        It tells what somebody does who is not asked (*they are starving*), or has no verb and names nothing that the
-        domain knows (*what a day!*).
+        It tells what somebody does who is not asked (*they are starving*), says only that somebody leaves, or has no
+        verb and names nothing that the domain knows (*what a day!*).
         """
         clause, referents = step.clause, self._goals.referents
         named = (noun for noun in clause.objects if not (referents.points_back(noun) or noun in PERSONS))
         nothing = refusal.kind is RefusalKind.NO_SUCH_THING and not any(map(self._goals.knows_of, named))
         others = (other for other in self.steps if isinstance(other, RuleStep) and other is not step)
         asked = any(other.main and not (other.optional or other.clause.told) for other in others)
-        return asked and (clause.told or (clause.implied and nothing))
+        bare = not clause.objects and is_verb(clause.verb, "parting")  # "time to go home"
+        return asked and (clause.told or bare or (clause.implied and nothing))
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``: what its nouns turned out to mean."""

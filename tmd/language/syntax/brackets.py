@@ -634,7 +634,7 @@ class Bracketer(ClauseEnds):
     def _moves_at(self, at: int) -> bool:
         """Return whether the open verb moves something, whose place is said by a word that ends the clause."""
         moves = self._verb is not None and self._verb.stem.partition("_")[0] in section("moving")
-        return moves and not self._open and self._last() in HEADS and self.follows(at + 1, "BREAK|TO|P")
+        return moves and not self._open and self._last() in HEADS and self.follows(at + 1, "BREAK|P")
 
     def _is_first_back(self, at: int) -> bool:
         """Return whether "back" says where something named before goes, or with its place, what was mentioned."""
