@@ -11,7 +11,7 @@ from tmd.goals.reading.noun_phrases import Bound, Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents
 from tmd.goals.sources.table import GoalRow, Slot
 from tmd.goals.words import BE, IT, NEGATED, is_noun, is_pronoun, is_relation, is_verb, the_word
-from tmd.language.clause import PERSONS
+from tmd.language.clause import PERSONS, Relation
 from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction
 from tmd.pddl.model import Atom, Formula
 from tmd.world.world import CONTAINED
@@ -52,6 +52,8 @@ class States:
         constants = self._substance(noun, reading) if noun and not is_pronoun(noun) else ()
         if constants:
             return self._substance_state(noun, constants, relations, reading)
+        # where "every book on the desk" is tells which books; it is not what is asked for
+        relations = [(r, t) for r, t in relations if Relation(r, noun, t) not in reading.clause.stated]
         return self._object_state(noun, relations, [pair for pair in said if pair not in relations], reading)
 
     def _object_state(

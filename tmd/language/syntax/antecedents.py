@@ -21,6 +21,8 @@ _REACH = 5
 """Clauses that a pronoun looks back."""
 _AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
 """Penalties of a mention: per clause of age, under "of", behind a preposition, in a coordination."""
+_REPLACEMENT = -1
+"""Penalty of what came in the place of something else."""
 
 
 class _Mention(NamedTuple):
@@ -336,6 +338,8 @@ def _landmark(landmark: Phrase, clause: Clause) -> list[_Mention]:
     for part in landmark.all():
         behind = next((r.relation for r in clause.relations if r.target == part.name), "")
         distance = _LANDMARK + _PART * (part is not landmark)
+        if clause.verb in section("replacing") and behind in section("replacement"):
+            distance = _REPLACEMENT
         found += [_Mention(name, part.plural, distance, behind=behind) for name in _meant(part, clause)]
     return found
 

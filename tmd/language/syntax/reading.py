@@ -423,9 +423,10 @@ class TextReading:
         self.skipped.append(Token(Kind.SKIP, self.text[slice(*span)], span, note=note))
 
     def _demanded(self, draft: ClauseDraft, conditions: Sequence[Node]) -> None:
-        if draft.none() and len(draft.direct) > 1:
-            for single in draft.each():
-                self._demanded(single, conditions)
+        parts = _denied_apart(draft)
+        if len(parts) > 1:
+            for part in parts:
+                self._demanded(part, conditions)
             return
         empty = not draft.landmarks and draft.result is None
         vague = draft.verb.stem == HAVE and all(p.pronoun for p in draft.direct)
@@ -646,6 +647,19 @@ def _says_nothing(clause: Clause) -> bool:
     said = clause.result or clause.setting or clause.relations
     about = section("pronouns") | section("subjects")
     return clause.verb == BE and not said and about.issuperset(clause.objects)
+
+
+def _denied_apart(draft: ClauseDraft) -> list[ClauseDraft]:
+    """Return the parts of what no thing may be: neither this nor that, "none may be unweighed or without a stamp"."""
+    lacking = [r for r in draft.relations if r.relation in section("without_words")]
+    if not draft.none():
+        return [draft]
+    if len(draft.direct) > 1:
+        return list(draft.each())
+    if draft.result and lacking:
+        plain = [r for r in draft.relations if r not in lacking]
+        return [replace(draft, relations=plain), replace(draft, result=None)]
+    return [draft]
 
 
 def _is_of_them(said: ClauseDraft) -> bool:

@@ -187,6 +187,7 @@ class Saying:
             attach(draft, self.rest, ())
             return draft
         attach(draft, self.subject, ())
+        draft.stated += draft.relations  # "every book on the desk should get a label"
         contents = named_in(self.rest)
         draft.landmarks += contents
         owner = draft.direct[-1].name if draft.direct else None

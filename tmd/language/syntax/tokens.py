@@ -311,7 +311,7 @@ def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
         after = tokens[at + 1].kind if at + 1 < len(tokens) else Kind.STOP
         if token.text in section("endearments") and opened and after in (Kind.COMMA, Kind.STOP):
             dropped += tokens[begin : at + 1]
-            gone.update(map(id, tokens[begin - 1 : at + 1 + (after is Kind.COMMA)]))  # without the commas
+            gone.update(map(id, tokens[begin - 1 : at + 1]))  # without the comma before
         if token.text in section("hesitations"):
             gone.update(map(id, tokens[at : at + 1 + (after is Kind.COMMA)]))
     return [token for token in tokens if id(token) not in gone], noted(dropped, ADDRESS)
