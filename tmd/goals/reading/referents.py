@@ -785,7 +785,7 @@ class Referents:
             return Refusal(
                 RefusalKind.NO_SUCH_THING, f"no {said} here is {words(place.relation)} the {words(place.target)}"
             )
-        if known and clause.phrase(noun).other:
+        if len(known) == 1 and clause.phrase(noun).other:
             return Refusal(RefusalKind.NO_SUCH_THING, f"there is no other {said} here")
         if known:
             message = f"'{words(clause.verb)}' does not apply to '{said}' here"

@@ -47,8 +47,7 @@ class States:
         said = self.referents.relations_of(noun, reading.clause)
         relations = [pair for pair in said if not is_relation(pair[0], "excepting")]
         if is_noun(noun, "some") and relations and not reading.clause.result:
-            ends = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
-            return conjunction(disjunction(self._something(r, p, reading) for p in places) for r, places in ends)
+            return conjunction(self._something_at(relation, target, reading) for relation, target in relations)
         constants = self._substance(noun, reading) if noun and not is_pronoun(noun) else ()
         if constants:
             return self._substance_state(noun, constants, relations, reading)
@@ -153,6 +152,10 @@ class States:
         message = f"nothing here says whether {words(referent.noun)} is {words(str(reading.clause.result))}"
         hint = "declare the adjective under 'attributes' in lexicon.yaml"
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message, hint)
+
+    def _something_at(self, relation: str, target: str, reading: ClauseReading) -> Formula:
+        places = self.referents.targets(target, reading)
+        return disjunction(self._something(relation, place, reading) for place in places)
 
     def _something(self, relation: str, place: str, reading: ClauseReading) -> Formula:
         """Return that there is anything in or on a place: an object that is no part of it, or a substance."""

@@ -221,6 +221,7 @@ def demand(draft: ClauseDraft, *, denied: bool) -> None:
             verb.stem = BE if none else BRING if whither else PUT
     elif denied:
         draft.mood = Mood.AVOID
+    give_back(draft)
 
 
 def _demand_wish(draft: ClauseDraft, *, denied: bool) -> None:
