@@ -418,7 +418,7 @@ class Executor:
         back = _missing(replace(plain, init=after), (), (again[0] | lost, again[1]))
         if isinstance(back, str):
             back = ()
-        after = _end(plain, after, back)
+        after = plain.trace(after, back)[-1]
         # what the way does itself is not done a second time
         for rest in (waiting[1:], waiting) if waiting and waiting[0] in way else (waiting, waiting[1:]):
             more = _missing(replace(plain, init=after), rest, wanted)
@@ -446,7 +446,7 @@ class Executor:
             if isinstance(more, str):
                 return None
             way += more
-            after = _end(plain, after, more)
+            after = plain.trace(after, more)[-1]
         return way, after
 
     def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
@@ -517,14 +517,8 @@ def _missing(
     return f"replanning gave up: {answer.limit}"
 
 
-def _end(task: Task, state: Bits, plan: Sequence[Instruction]) -> Bits:
-    for instruction in plan:
-        state = task.by_instruction[instruction].apply(state)
-    return state
-
-
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
-    return _satisfied(wanted, task.decode(_end(task, task.init, plan)))
+    return _satisfied(wanted, task.decode(task.trace(task.init, plan)[-1]))
 
 
 def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:
