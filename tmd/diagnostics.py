@@ -167,6 +167,11 @@ class DataError(TmdError):
     exit_code = ExitCode.BAD_DATA
 
 
+def one_line(text: str) -> str:
+    """Return a text on one line, without control characters: nothing in it moves the cursor of a terminal."""
+    return " ".join("".join(sign if sign.isprintable() else " " for sign in text).split())
+
+
 def install_extra(extra: str) -> str:
     """Return the command that installs an extra of this distribution, for hints."""
     return f"pip install 'tell-me-dave[{extra}]'"

@@ -162,9 +162,7 @@ def _template(template: Template, number: Callable[[Profile], int]) -> TemplateR
 
 def _read_template(data: TemplateRecord, profiles: Sequence[Profile]) -> Template:
     variables = data.variables
-    named = {word for _, *args in data.instructions for word in args if word.startswith("?")}
-    named |= {*data.wanted, *data.mentions.values(), *(z for link in data.links for z in link[:2])}
-    if not named <= variables.keys() or data.wanted.keys() != variables.keys():
+    if not _named(data) <= variables.keys() or data.wanted.keys() != variables.keys():
         raise ValueError("a variable has no object")
     return Template(
         source=data.source,
@@ -180,6 +178,12 @@ def _read_template(data: TemplateRecord, profiles: Sequence[Profile]) -> Templat
         ends={z: profiles[entry[3]] for z, entry in variables.items()},
         subjects=tuple((kind, profiles[number]) for kind, number in data.subjects),
     )
+
+
+def _named(data: TemplateRecord) -> set[str]:
+    """Return the variables that a template names."""
+    named = {word for _, *args in data.instructions for word in args if word.startswith("?")}
+    return named | {*data.wanted, *data.mentions.values(), *(z for link in data.links for z in link[:2])}
 
 
 def reward_to_json(reward: Reward) -> bytes:

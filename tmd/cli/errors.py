@@ -18,6 +18,7 @@ from tmd.diagnostics import (
     OutputError,
     PlannerError,
     TmdError,
+    one_line,
 )
 
 _CANNOT_WRITE = {errno.ENOSPC, errno.EROFS, errno.EDQUOT, errno.EFBIG, errno.EIO}
@@ -140,11 +141,6 @@ def _internal(error: BaseException) -> Fault:
     return Fault(
         ExitCode.INTERNAL, f"internal error: {what}; please report", hint="tmd --debug … shows where it happened"
     )
-
-
-def one_line(text: str) -> str:
-    """Return the text without anything that could move the cursor of a terminal."""
-    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
 
 def pointed(source: str, column: int) -> list[str]:

@@ -124,12 +124,19 @@ def _defaults(table: dict[str, Any], command: click.Command, place: str) -> dict
         elif option is None:
             known = [*options, *(COMMANDS if command is program else ())]
             raise OptionError(f"{place}: there is no option '{name}'", hint=nearest(name, known, what="options"))
-        elif not isinstance(value, bool if option.is_flag else str | int | float):
-            kind = "true or false" if option.is_flag else "a text or a number"
-            raise OptionError(f"{place}: {name} is {value!r}", hint=f"write {kind}")
         else:
-            found[str(option.name)] = value if option.is_flag else [str(value)] if option.multiple else str(value)
+            found[str(option.name)] = _default(value, option, f"{place}: {name}")
     return found
+
+
+def _default(value: object, option: click.Option, place: str) -> object:
+    """Return the setting of an option as the command line gives it."""
+    if not isinstance(value, bool if option.is_flag else str | int | float):
+        kind = "true or false" if option.is_flag else "a text or a number"
+        raise OptionError(f"{place} is {value!r}", hint=f"write {kind}")
+    if option.is_flag:
+        return value
+    return [str(value)] if option.multiple else str(value)
 
 
 class Stopped(KeyboardInterrupt):

@@ -138,30 +138,31 @@ def _tokens(text: str) -> list[_Token]:
 
 def _broken(tokens: list[_Token]) -> Iterator[_Token]:
     """Yield the tokens with sections and the parts of actions on their own lines."""
-    heads: list[str] = []
-    counts: list[int] = []
+    groups: list[tuple[str, int]] = []  # of each that is open: its head, and how many parts it has
     for place, token in enumerate(tokens):
+        closes = token.text == ")"
         new = token.breaks
-        if heads and not token.is_comment and token.text != ")":
-            section = heads[-1] == "define" and token.text == "(" and counts[-1] >= 2
-            part = heads[-1] == ":action" and token.text.lower() in _PARTS
-            if (section or part) and not new:
-                new = 1
-        if token.text == ")" and new and not (place and tokens[place - 1].is_comment):
+        if closes and not (place and tokens[place - 1].is_comment):
+            new = min(new, 1)
+        elif groups and not new and _begins_line(token, *groups[-1]):
             new = 1
         yield replace(token, breaks=new)
         if token.is_comment:
             continue
-        if counts and token.text != ")":
-            if counts[-1] == 0 and token.text != "(":
-                heads[-1] = token.text.lower()
-            counts[-1] += 1
+        if closes:
+            groups.pop()
+            continue
+        if groups:
+            head, count = groups[-1]
+            groups[-1] = (token.text.lower() if count == 0 and token.text != "(" else head), count + 1
         if token.text == "(":
-            heads.append("")
-            counts.append(0)
-        elif token.text == ")":
-            heads.pop()
-            counts.pop()
+            groups.append(("", 0))
+
+
+def _begins_line(token: _Token, head: str, count: int) -> bool:
+    """Return whether ``token``, part ``count`` of the group of ``head``, begins a section or a part of an action."""
+    section = head == "define" and token.text == "(" and count >= 2
+    return section or (head == ":action" and token.text.lower() in _PARTS)
 
 
 def _lay_out(tokens: list[_Token]) -> tuple[list[str], list[int]]:

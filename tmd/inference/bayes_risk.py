@@ -24,7 +24,7 @@ from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits
 from tmd.planning.result import Filled, Planner
 from tmd.world.verb_clause import VerbClause
-from tmd.world.world import World
+from tmd.world.world import World, run
 
 PLANS = 10
 """Number of plans of least energy that are considered."""
@@ -124,11 +124,7 @@ def similarities(
 
 def _changed(sequence: Sequence[Instruction], world: World) -> Bits:
     """Return the atoms that are otherwise after a sequence, without instructions that are impossible here."""
-    state = world.task.init
-    for instruction in sequence:
-        operator = world.task.by_instruction.get(instruction)
-        state = operator.apply(state) if operator is not None else state
-    return state ^ world.task.init
+    return run(world, world.task.init, sequence) ^ world.task.init
 
 
 def _alike(a: Bits, b: Bits) -> float:

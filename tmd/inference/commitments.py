@@ -165,19 +165,13 @@ def _without(operator: Operator, forbidden: Iterable[Cube], task: Task) -> Opera
             if further is None:
                 # this effect undoes the cube: the unconditional ones bring it about only where its condition fails
                 fails = [Cube(negative, positive) for (positive, negative), _ in _literals(condition, task)]
-                unconditional = [both for c, f in product(unconditional, fails) if (both := _both(c, f)) is not None]
-            elif (both := _both(further, condition)) is not None:
+                unconditional = [both for c, f in product(unconditional, fails) if (both := c.joined(f)) is not None]
+            elif (both := further.joined(condition)) is not None:
                 states[both] = None
         states.update(dict.fromkeys(unconditional))
     if _ALWAYS in states:
         return None
     return replace(operator, forbidden=(*operator.forbidden, *states)) if states else operator
-
-
-def _both(one: Cube, other: Cube) -> Cube | None:
-    """Return the conjunction of two cubes; ``None`` where they contradict each other."""
-    positive, negative = one.positive | other.positive, one.negative | other.negative
-    return None if positive & negative else Cube(positive, negative)
 
 
 def _brought_about(cube: Cube, add: Bits, delete: Bits) -> Cube | None:

@@ -26,7 +26,6 @@ from tmd.inference.ranking import (
     why_lost,
 )
 from tmd.pddl.domain_traits import passing_predicates
-from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.backends import TaskPlanners
@@ -166,8 +165,8 @@ class ForwardPass:
         energy = self.setup.energy
         factors, end = dict(raw), situation.state  # ψ_j
         if self.config.knowledge:  # a robot without knowledge takes its environment to stay as it was
-            middle = self.simulated(situation.state, latent)  # E_j, line 10
-            end = self.simulated(middle, own)  # E'_j, line 11
+            middle = self.world.task.trace(situation.state, latent)[-1]  # E_j, line 10
+            end = self.world.task.trace(middle, own)[-1]  # E'_j, line 11
             factors |= energy.of_end(situation.clause.verb, names, end)  # ψ'_j
             factors |= energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
             if aim:
@@ -187,12 +186,6 @@ class ForwardPass:
         """The atoms that do not pass by themselves."""
         passing = passing_predicates(self.task.problem.domain)
         return sum(1 << bit for bit, atom in enumerate(self.task.atoms) if atom.predicate not in passing)
-
-    def simulated(self, state: Bits, instructions: Iterable[Instruction]) -> Bits:
-        """Return the state after instructions (Φ)."""
-        for instruction in instructions:
-            state = self.world.task.by_instruction[instruction].apply(state)
-        return state
 
     def pruned(self, found: Iterable[Way], beam: int | None) -> list[Way]:
         """Return the cheapest ways to each of the ``beam`` cheapest environments; ``None`` keeps all."""

@@ -300,7 +300,7 @@ class GoalPass(ForwardPass):
         constraints = self.dialogue.constraints
         if not constraints.never:
             return True
-        return violated(self.task, constraints, list(self._trace(first, way.instructions))) is None
+        return violated(self.task, constraints, self.world.task.trace(first, way.instructions)) is None
 
     # ------------------------------------------------------------------ planning
 
@@ -373,7 +373,7 @@ class GoalPass(ForwardPass):
 
     def _passes(self, target: Target, state: Bits, instructions: Sequence[Instruction]) -> bool:
         """Return whether instructions meet the conditions on the way to a goal, in their order."""
-        return passes(target.ways, list(self._trace(state, instructions)))
+        return passes(target.ways, self.world.task.trace(state, instructions))
 
     def _far_if_needed(self, quick: Answer, state: Bits, aim: tuple[Cube, ...], target: Target) -> Answer:
         """Return the far planner's answer where the quick one gave up, unless its plan keeps too much at any price.
@@ -450,7 +450,7 @@ class GoalPass(ForwardPass):
             answer = next((a for a in answers if not isinstance(a, GaveUp)), GaveUp("the planner"))
         if isinstance(answer, Filled):
             shorter = eliminate(answer.plan, self.task, state, aim)
-            answer = Filled(shorter, self.simulated(state, shorter), len(shorter))
+            answer = Filled(shorter, self.world.task.trace(state, shorter)[-1], len(shorter))
             unmixed = self._unmixed(state, answer.state, aim)
             other = self._resort(True).fill(state, unmixed) if unmixed else None
             if isinstance(other, Filled) and _little_longer(other, answer):
@@ -482,7 +482,7 @@ class GoalPass(ForwardPass):
         whole = (*latent, *own)
         if not self._passes(target, state, whole):
             return None
-        answer = self.planner.fill(self.simulated(state, whole), aim)
+        answer = self.planner.fill(self.world.task.trace(state, whole)[-1], aim)
         if not isinstance(answer, Filled):
             return None
         whole = tidy((*whole, *answer.plan), self.world, state)
@@ -516,12 +516,6 @@ class GoalPass(ForwardPass):
         inside = (thing not in constants and content in constants for thing, content in pairs)
         return sum(1 << bit for bit, found in enumerate(inside) if found)
 
-    def _trace(self, state: Bits, instructions: Sequence[Instruction]) -> Iterator[Bits]:
-        yield state
-        for instruction in instructions:
-            state = self.world.task.by_instruction[instruction].apply(state)
-            yield state
-
     # ------------------------------------------------------------------ the whole plan
 
     @cached_property
@@ -550,7 +544,7 @@ class GoalPass(ForwardPass):
             choices.append(_with_instructions(choice, segment.instructions, goal.clause))
             goals.append(replace(goal, first=at, last=at + len(segment.instructions)))
             at += len(segment.instructions)
-        end = self.simulated(first, (i for segment in better for i in segment.instructions))
+        *_, end = self.world.task.trace(first, (i for segment in better for i in segment.instructions))
         return replace(way, state=end, choices=tuple(choices), goals=tuple(goals))
 
 

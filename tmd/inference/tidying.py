@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from tmd.pddl.model import Instruction
+from tmd.pddl.semantics import opposite
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled, GaveUp, Planner
@@ -147,13 +148,11 @@ class _Improvement:
 
     def _states(self, plan: Plan) -> list[list[Bits]]:
         """Return the states of each segment, from the one in which it begins."""
-        found, state = [], self.start
+        found: list[list[Bits]] = []
+        state = self.start
         for segment in plan:
-            trace = [state]
-            for instruction in segment.instructions:
-                state = self.task.by_instruction[instruction].apply(state)
-                trace.append(state)
-            found.append(trace)
+            found.append(self.task.trace(state, segment.instructions))
+            state = found[-1][-1]
         return found
 
     def _key(self, plan: Plan) -> Key | None:
@@ -408,16 +407,7 @@ def _denied(condition: Condition, cube: Cube) -> Iterator[Cube]:
         return
     first, rest = condition[0], condition[1:]
     for other in _denied(rest, cube):
-        for literal in _negated(first):
-            positive, negative = other.positive | literal.positive, other.negative | literal.negative
-            if not positive & negative:
-                yield Cube(positive, negative)
-
-
-def _negated(cube: Cube) -> Iterator[Cube]:
-    """Yield the negation of each literal of a cube."""
-    for bits, positive in ((cube.positive, False), (cube.negative, True)):
-        while bits:
-            low = bits & -bits
-            yield Cube(low, 0) if positive else Cube(0, low)
-            bits ^= low
+        for literal in opposite(first):
+            both = other.joined(literal)
+            if both is not None:
+                yield both

@@ -23,8 +23,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from tmd.diagnostics import OutputError
-from tmd.files import make_directory
+from tmd.files import make_directory, writing
 from tmd.inference.energy import FIXED, NAMES, Weights
 from tmd.inference.ranking import RankedPlan
 
@@ -250,11 +249,8 @@ class Journal:
         plans = [[vector.tolist(), loss] for vector, loss in proposed]
         line = json.dumps({"part": self.part, "round": number, "example": example, "plans": plans})
         make_directory(self.path.parent)
-        try:
-            with self.path.open("a", encoding="utf-8") as file:
-                file.write(line + "\n")
-        except OSError as error:
-            raise OutputError(f"{self.path}: cannot be written: {error.strerror}") from None
+        with writing(self.path), self.path.open("a", encoding="utf-8") as file:
+            file.write(line + "\n")
 
     def _load(self) -> None:
         whole = 0

@@ -70,28 +70,25 @@ def negation(formula: Formula) -> Formula:
 
 def conjunction(parts: Iterable[Formula]) -> Formula:
     """Conjoin formulas, flattened and without those that always hold."""
-    kept: dict[Formula, None] = {}
-    for part in parts:
-        if isinstance(part, And):
-            kept.update(dict.fromkeys(part.parts))
-        elif part == FALSE:
-            return FALSE
-        else:
-            kept[part] = None
-    return next(iter(kept)) if len(kept) == 1 else And(tuple(kept))
+    return _joined(And, parts, FALSE)
 
 
 def disjunction(parts: Iterable[Formula]) -> Formula:
     """Disjoin formulas, flattened and without those that never hold."""
+    return _joined(Or, parts, TRUE)
+
+
+def _joined(kind: type[And | Or], parts: Iterable[Formula], decisive: Formula) -> Formula:
+    """Join formulas; a ``decisive`` one is the result."""
     kept: dict[Formula, None] = {}
     for part in parts:
-        if isinstance(part, Or):
+        if isinstance(part, kind):
             kept.update(dict.fromkeys(part.parts))
-        elif part == TRUE:
-            return TRUE
+        elif part == decisive:
+            return decisive
         else:
             kept[part] = None
-    return next(iter(kept)) if len(kept) == 1 else Or(tuple(kept))
+    return next(iter(kept)) if len(kept) == 1 else kind(tuple(kept))
 
 
 def atoms_of(formula: Formula) -> frozenset[GroundAtom]:

@@ -443,7 +443,7 @@ def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
     positive, negative = cube
     if positive & negative or negative & operator.add:
         return ()
-    clauses: list[Sequence[Cube]] = [_opposite(f) for f in operator.forbidden]
+    clauses: list[Sequence[Cube]] = [opposite(f) for f in operator.forbidden]
     wanted = positive & ~operator.add
     unwanted = negative & ~operator.delete
     may_add = may_delete = 0
@@ -451,7 +451,7 @@ def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
         may_add |= add
         may_delete |= delete & ~add
         if add & negative:
-            clauses.append(_opposite(condition))
+            clauses.append(opposite(condition))
     for bit in _bits(wanted & (may_add | may_delete | operator.delete)):
         wanted &= ~bit
         clauses.append(_made_true(bit, operator))
@@ -467,13 +467,13 @@ def _made_true(bit: Bits, operator: Operator) -> Sequence[Cube]:
     """Return the ways in which the atom ``bit``, which is not added in any case, holds afterwards."""
     ways = [condition for condition, add, _ in operator.conditional if add & bit]
     if not operator.delete & bit:
-        threats = [_opposite(c) for c, add, delete in operator.conditional if delete & bit and not add & bit]
+        threats = [opposite(c) for c, add, delete in operator.conditional if delete & bit and not add & bit]
         ways.extend(_conjoin(Cube(bit, 0), threats))
     return ways
 
 
 @lru_cache(maxsize=65536)
-def _opposite(cube: Cube) -> tuple[Cube, ...]:
+def opposite(cube: Cube) -> tuple[Cube, ...]:
     """Return the negation of ``cube``, as a disjunction of single literals."""
     return (*(Cube(0, b) for b in _bits(cube.positive)), *(Cube(b, 0) for b in _bits(cube.negative)))
 

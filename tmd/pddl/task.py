@@ -7,7 +7,7 @@ microseconds. The meaning is that of :mod:`tmd.pddl.semantics`, and tests hold t
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, TypeAlias
 
@@ -27,6 +27,11 @@ class Cube(NamedTuple):
     def holds(self, state: Bits) -> bool:
         """Return whether ``state`` satisfies every literal."""
         return state & self.positive == self.positive and not state & self.negative
+
+    def joined(self, other: Cube) -> Cube | None:
+        """Return the conjunction with another cube; ``None`` where they contradict each other."""
+        positive, negative = self.positive | other.positive, self.negative | other.negative
+        return None if positive & negative else Cube(positive, negative)
 
 
 class ConditionalEffect(NamedTuple):
@@ -95,6 +100,13 @@ class Task:
     operators: tuple[Operator, ...]
     index: Mapping[GroundAtom, int] = field(repr=False)
     by_instruction: Mapping[Instruction, Operator] = field(repr=False)
+
+    def trace(self, state: Bits, instructions: Iterable[Instruction]) -> list[Bits]:
+        """Return the states before, between and after instructions; their preconditions are not read."""
+        states = [state]
+        for instruction in instructions:
+            states.append(self.by_instruction[instruction].apply(states[-1]))
+        return states
 
     def encode(self, state: State) -> Bits:
         """Return the bits of ``state``; atoms that are not fluent here are left out."""

@@ -96,10 +96,7 @@ class Reel:
     def follow(self, plan: Iterable[Instruction]) -> None:
         """Hold the states that the instructions of a plan lead through; each of them must apply."""
         task = self.setting.world.task
-        states = [task.init]
-        for instruction in plan:
-            states.append(task.by_instruction[instruction].apply(states[-1]))
-        self.become(states)
+        self.become(task.trace(task.init, plan))
 
     def facts(self, step: int) -> State:
         """Return the facts after a number of steps."""

@@ -59,12 +59,9 @@ class StateGraph:
         problem: The problem.
         states: The states; what is in none of them is not drawn.
         first: Objects that are drawn where there are too many, before any others.
-        layout: Places nodes of some sizes; Graphviz where it is installed, else networkx.
     """
 
-    def __init__(
-        self, problem: Problem, states: Sequence[State], first: Iterable[str] = (), layout: Layout | None = None
-    ) -> None:
+    def __init__(self, problem: Problem, states: Sequence[State], first: Iterable[str] = ()) -> None:
         kinds = {each.name: each.types[0] if each.types else "object" for each in problem.all_objects()}
         constants = {each.name for each in problem.domain.constants}
         atoms: list[GroundAtom] = sorted({atom for state in states for atom in state})
@@ -89,7 +86,7 @@ class StateGraph:
             name: (width[name] * _CHARACTER + 2 * _MARGIN, (1 + lines[name]) * _LINE + _MARGIN) for name in self._kinds
         }
         pairs = dict.fromkeys(pair for atom in atoms if (pair := self._pair(atom)) is not None)
-        self._places = placed(self._sizes, pairs, layout)
+        self._places = placed(self._sizes, pairs)
 
     def _pair(self, atom: GroundAtom) -> tuple[str, str] | None:
         """Return the two objects that an edge for a fact joins; ``None`` where it has no edge."""

@@ -26,7 +26,7 @@ from tmd.pddl.reading.formulas import read_effects
 from tmd.pddl.reading.reader import parse_domain
 from tmd.pddl.reading.syntax import nearest, parse, read_text
 from tmd.pddl.semantics import apply
-from tmd.world.classes import ROOT, SELF, ObjectClass, StateValue
+from tmd.world.classes import ROOT, SELF, ObjectClass, StateValue, Vertex
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 from tmd.world.yaml_positions import YamlSource
@@ -156,22 +156,27 @@ class _Compiler:
                 message = f"'{name}' ({graph.name}) has no part '{part}'"
                 self._fault(("objects", name, "parts", part), message, hint, "unknown-part")
         for vertex in graph.vertices.values():
-            is_root = vertex.name == ROOT
-            said = entry.states if is_root else entry.parts.get(vertex.name, {})
-            place = ("objects", name, "states") if is_root else ("objects", name, "parts", vertex.name)
-            for fact in (*vertex.facts, *vertex.init):
-                self._add(self._bind(fact, name, vertex.name), ("objects", name))
-            for state in said:
-                if state not in vertex.states and state not in self.predicates:
-                    hint = nearest(state, sorted({*vertex.states, *self.predicates}))
-                    self._fault((*place, state), f"'{name}' has no state '{state}'", hint, "unknown-state")
-            for state, value in {**vertex.states, **said}.items():
-                if state in vertex.states or state in self.predicates:
-                    self._set(_vertex(name, vertex.name), state, value, (*place, state))
-            if not is_root and PART_OF in self.predicates:
-                self._add((PART_OF, _vertex(name, vertex.name), name), ("objects", name))
+            self._part(name, vertex)
         for edge in graph.edges:
             self._add(self._bind(edge, name, ROOT), ("objects", name))
+
+    def _part(self, name: str, vertex: Vertex) -> None:
+        """Add the facts and states of one vertex of an object."""
+        entry, is_root = self.environment.objects[name], vertex.name == ROOT
+        said = entry.states if is_root else entry.parts.get(vertex.name, {})
+        place = ("objects", name, "states") if is_root else ("objects", name, "parts", vertex.name)
+        for fact in (*vertex.facts, *vertex.init):
+            self._add(self._bind(fact, name, vertex.name), ("objects", name))
+        known = {*vertex.states, *self.predicates}
+        for state in said:
+            if state not in known:
+                hint = nearest(state, sorted(known))
+                self._fault((*place, state), f"'{name}' has no state '{state}'", hint, "unknown-state")
+        for state, value in {**vertex.states, **said}.items():
+            if state in known:
+                self._set(_vertex(name, vertex.name), state, value, (*place, state))
+        if not is_root and PART_OF in self.predicates:
+            self._add((PART_OF, _vertex(name, vertex.name), name), ("objects", name))
 
     def _bind(self, fact: Sequence[str], name: str, vertex: str) -> tuple[str, ...]:
         """Return a fact of a class with its names replaced: ``self``, ``root`` and the object's parts."""

@@ -112,11 +112,6 @@ class Corpus:
         tasks = self.tasks() if task is None else [task]
         return [demonstration for name in tasks for demonstration in self._of_task(name)]
 
-    def take_in(self, path: Path) -> None:
-        """Know of an environment whose file was written since."""
-        self._files[path.stem] = path
-        self._worlds.pop(path.stem, None)
-
     def reread(self) -> None:
         """Forget which demonstrations were read: their files may have grown. Environments are kept."""
         self._demonstrations = {}

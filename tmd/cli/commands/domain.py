@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.errors import fault_of, one_line, pointed
+from tmd.cli.errors import fault_of, pointed
 from tmd.cli.options import OUTPUT, PATH, VARIABLE, json_option, seed_option
 from tmd.cli.output import emit
-from tmd.diagnostics import ExitCode, OutputError, TmdError
+from tmd.diagnostics import ExitCode, OutputError, TmdError, one_line
 from tmd.inference.config import PRESETS
 from tmd.world.folder import known_domains
 from tmd.world.roots import Roots

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from tmd.cli.errors import one_line
 from tmd.cli.options import (
     OUTPUT,
     PATH,
@@ -23,7 +22,7 @@ from tmd.cli.options import (
     text_options,
 )
 from tmd.cli.output import emit
-from tmd.diagnostics import ExitCode
+from tmd.diagnostics import ExitCode, one_line
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from tmd.diagnostics import Refusal, RefusalKind, TmdError
+from tmd.diagnostics import Refusal, RefusalKind, TmdError, one_line
 from tmd.goals.reasons import why_never
 from tmd.language.clause import Clause, Mood, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import section
@@ -20,7 +20,7 @@ from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
 from tmd.readers.interface import CandidateGoal, PlanConstraints, Question, QuestionOption, Step
-from tmd.readers.llm.reply import Reply, ReplyConstraint, ReplyQuestion, ReplyRefusalKind, ReplyStep, printable
+from tmd.readers.llm.reply import Reply, ReplyConstraint, ReplyQuestion, ReplyRefusalKind, ReplyStep
 from tmd.world.world import World
 
 # The source of goals that a language model proposed.
@@ -325,4 +325,4 @@ def _turns(text: str) -> bool:
 
 def _short(text: str) -> str:
     """Return words of a model on one line, at most 300 characters."""
-    return printable(text)[:300]
+    return one_line(text)[:300]

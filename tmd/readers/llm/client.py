@@ -22,10 +22,9 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
 from pydantic import BaseModel
 
-from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError, install_extra
+from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError, install_extra, one_line
 from tmd.files import cache_directory, make_directory, read_bytes, write_bytes
 from tmd.readers.interface import Usage
-from tmd.readers.llm.reply import printable
 
 if TYPE_CHECKING:
     from openai import OpenAI
@@ -239,7 +238,7 @@ class ModelClient:
     def _scrubbed(self, text: str) -> str:
         """Return a message on one line, without the key."""
         key = self.settings.key or ""
-        line = printable(text)
+        line = one_line(text)
         return (line.replace(key, "***") if len(key) > 4 else line)[:300]
 
 

@@ -14,12 +14,12 @@ from importlib import resources
 from itertools import islice, pairwise
 from string import Template
 
+from tmd import diagnostics
 from tmd.goals.tables import declared_entries
 from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.pddl.model import ActionSchema, Domain, GroundAtom, Instruction, TypedName, hierarchy, predicates_of
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_effect, format_formula
-from tmd.readers.llm.reply import printable
 from tmd.world.sentence_file import SentenceTest
 from tmd.world.world import World, run
 
@@ -111,7 +111,7 @@ def prompt_for(request: str, world: World, state: Bits, lexicon: Lexicon, exampl
 
 def one_line(text: str) -> str:
     """Return a text on one line, without control characters and without what looks like the end of a request."""
-    return re.sub(r"</?\s*request\s*>", " ", printable(text), flags=re.IGNORECASE)
+    return re.sub(r"</?\s*request\s*>", " ", diagnostics.one_line(text), flags=re.IGNORECASE)
 
 
 def changes(world: World, plan: Sequence[Instruction]) -> tuple[str, str]:

@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 
 from pydantic import Field, ValidationError
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import TmdError, one_line
 from tmd.json_record import JsonRecord
 
 # Longer replies are refused unread.
@@ -113,15 +113,10 @@ def parse_reply(record: type[_Record], text: str) -> _Record:
         return record.model_validate_json((fenced[1] if fenced else text).strip())
     except ValidationError as error:
         first = error.errors(include_url=False, include_input=False)[0]
-        message = printable(first["msg"].removeprefix("Invalid JSON: "))[:200]
+        message = one_line(first["msg"].removeprefix("Invalid JSON: "))[:200]
         if first["type"] == "json_invalid":
             raise TmdError(
                 f"the reply is not valid JSON: {message}", hint="write one JSON object and nothing else"
             ) from None
         place = ".".join(map(str, first["loc"]))
         raise TmdError(f"the reply has another shape: {f'{place}: ' if place else ''}{message}") from None
-
-
-def printable(text: str) -> str:
-    """Return a text on one line, without control characters."""
-    return " ".join("".join(sign if sign.isprintable() else " " for sign in text).split())

@@ -217,6 +217,34 @@ class Executor:
 
     def execute(self, plan: Sequence[Instruction]) -> Execution:
         """Carry out ``plan``."""
+        self._reset(plan)
+        state = self.observer.now(self.problem.init)
+        wanted = self._wanted(plan, state)
+        waiting = [(instruction, False) for instruction in plan]
+        attempt = 0
+        smooth = True
+        while waiting or not _satisfied(wanted, state):
+            tried = waiting[0][0] if waiting else None
+            if tried is not None and first_broken(tried, state, self.problem) is None:
+                before = state
+                done, state = self._do(*waiting[0], state, attempt)
+                exact = self._exactly(done, before)
+                smooth = smooth and exact
+                attempt += 1
+                if exact or self._did(done, before, state):
+                    waiting.pop(0)  # it did what it is for, even if something else is not as it should be
+                    attempt = 0
+                    if exact or self._goes_on(waiting, state, wanted):
+                        continue
+            repaired = self._repaired(state, waiting, wanted, tried)
+            if isinstance(repaired, str):
+                return self._stopped(repaired, state)
+            waiting = repaired
+        status = SkillStatus.DONE if smooth and not self._repairs else SkillStatus.RECOVERED
+        return Execution(status, "", tuple(self._steps), self._repairs, state, self._lasting(plan, state))
+
+    def _reset(self, plan: Sequence[Instruction]) -> None:
+        """Forget what was noted of the plan before."""
         self._steps: list[ExecutedStep] = []
         self._repairs = 0
         self._setbacks = Setbacks(self.observer.skills.seen)
@@ -226,43 +254,16 @@ class Executor:
         self._spent: set[tuple[Instruction, Hashable]] = set()
         self._on_course: State = self.problem.init
         self._named = {name for instruction in plan for name in instruction.args}
-        state = self.observer.now(self.problem.init)
-        wanted = self._wanted(plan, state)
-        waiting = [(instruction, False) for instruction in plan]
-        attempt = 0
-        smooth = True
-        tried: Instruction | None
-        while waiting or not _satisfied(wanted, state):
-            if waiting and first_broken(waiting[0][0], state, self.problem) is None:
-                before = state
-                done, state = self._do(*waiting[0], state, attempt)
-                if not done.failure and all(self._beside(m, before) for m in done.mismatches):
-                    waiting.pop(0)
-                    attempt = 0
-                    continue
-                smooth = False
-                tried, attempt = waiting[0][0], attempt + 1
-                if not done.failure and self._did(tried, before, state):
-                    waiting.pop(0)  # it did what it is for; something else is not as it should be
-                    attempt = 0
-                    if waiting and self._goes_on(waiting, state, wanted):
-                        continue
-            else:
-                tried = waiting[0][0] if waiting else None
-            if self._repairs >= self.most_repairs:
-                return self._stopped(f"replanned {self._repairs} times, and then {self._last()}", state)
-            self._repairs += 1
-            waiting = [(instruction, False) for instruction, repair in waiting if not repair]
-            repaired = self._replan(state, [i for i, _ in waiting], wanted)
-            if isinstance(repaired, str):
-                return self._stopped(repaired if tried is None else f"after {self._last()}, {repaired}", state)
-            waiting = repaired
-        status = SkillStatus.DONE if smooth and not self._repairs else SkillStatus.RECOVERED
-        return Execution(status, "", tuple(self._steps), self._repairs, state, self._lasting(plan, state))
 
-    def _did(self, instruction: Instruction, before: State, after: State) -> bool:
+    def _exactly(self, step: ExecutedStep, before: State) -> bool:
+        """Return whether an instruction did what was predicted, and no more."""
+        return not step.failure and all(self._beside(mismatch, before) for mismatch in step.mismatches)
+
+    def _did(self, step: ExecutedStep, before: State, after: State) -> bool:
         """Return whether the changes of an instruction are as they should be."""
-        predicted = apply(instruction, before, self.problem)
+        if step.failure:
+            return False
+        predicted = apply(step.instruction, before, self.problem)
         changed = {atom for atom in predicted ^ before if not self._aside(atom)}
         return all((atom in predicted) is (atom in after) for atom in changed)
 
@@ -275,12 +276,12 @@ class Executor:
         return self._aside(mismatch.atom) and (mismatch.atom in before) is not mismatch.expected
 
     def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State, wanted: _Wanted) -> bool:
-        """Return whether the waiting instructions lead to the goal from here, without replanning."""
+        """Return whether instructions are waiting and lead to the goal from here, without replanning."""
         for instruction, _ in waiting:
             if first_broken(instruction, state, self.problem) is not None:
                 return False
             state = apply(instruction, state, self.problem)
-        return _satisfied(wanted, state)
+        return bool(waiting) and _satisfied(wanted, state)
 
     def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
@@ -329,6 +330,18 @@ class Executor:
         return frozenset(
             a for a in now if (sensor := skills.seen.get(a.predicate)) in place and a.args[place[sensor]] in dry
         )
+
+    def _repaired(
+        self, state: State, waiting: Sequence[tuple[Instruction, bool]], wanted: _Wanted, tried: Instruction | None
+    ) -> list[tuple[Instruction, bool]] | str:
+        """Return the next instructions after one that was ``tried``, or why execution stops."""
+        if self._repairs >= self.most_repairs:
+            return f"replanned {self._repairs} times, and then {self._last()}"
+        self._repairs += 1
+        found = self._replan(state, [instruction for instruction, repair in waiting if not repair], wanted)
+        if isinstance(found, str) and tried is not None:
+            return f"after {self._last()}, {found}"
+        return found
 
     def _replan(
         self, state: State, waiting: Sequence[Instruction], wanted: _Wanted
@@ -391,36 +404,50 @@ class Executor:
 
         A search for all at once would take much longer than each of these.
         """
-        state = task.decode(task.init)
-        lost = frozenset(atom for atom in self._lost if atom not in state)
-        if not waiting:
-            lost |= frozenset(a for a in wanted[0] if a not in state and self._follows(a))
+        lost = self._to_regain(task.decode(task.init), waiting, wanted)
         if not lost:
             return None
         plain = careful(task, self.observer.skills)
-        way: list[Instruction] = []
-        after = task.init
-        contents = frozenset(a for a in lost if self.observer.skills.inferred.get(a.predicate) == "contents")
-        for part in dict.fromkeys((contents, lost)):  # first it is in again, then it is heated again
-            begun = replace(plain, init=after)
-            more = _missing(begun if way else without(begun, setbacks), (), (part, frozenset()))
-            if isinstance(more, str):
-                return None
-            way += more
-            after = _end(plain, after, more)
+        refilled = self._refilled(plain, setbacks, lost)
+        if refilled is None:
+            return None
+        way, after = refilled
         worked = self._worked()
         changed = {atom for atom in self._on_course ^ plain.decode(after) if atom.predicate in worked}
         again = frozenset(changed & self._on_course), frozenset(changed - self._on_course)
         back = _missing(replace(plain, init=after), (), (again[0] | lost, again[1]))
         if isinstance(back, str):
             back = ()
-        after = _end(plain, after, back)
+        after = plain.trace(after, back)[-1]
         # what the way does itself is not done a second time
         for rest in (waiting[1:], waiting) if waiting and waiting[0] in way else (waiting, waiting[1:]):
             more = _missing(replace(plain, init=after), rest, wanted)
             if not isinstance(more, str) and _leads(plain, [*way, *back, *more, *rest], wanted):
                 return _joined([*way, *back, *more], rest)
         return None
+
+    def _to_regain(self, state: State, waiting: Sequence[Instruction], wanted: _Wanted) -> frozenset[GroundAtom]:
+        """Return what was lost and is not back; once nothing waits, the contents that are wanted count as well."""
+        lost = frozenset(atom for atom in self._lost if atom not in state)
+        if not waiting:
+            lost |= frozenset(a for a in wanted[0] if a not in state and self._follows(a))
+        return lost
+
+    def _refilled(
+        self, plain: Task, setbacks: Sequence[Setback], lost: frozenset[GroundAtom]
+    ) -> tuple[list[Instruction], Bits] | None:
+        """Return a way to what was lost, and its end: first the contents are in again, then they are heated again."""
+        way: list[Instruction] = []
+        after = plain.init
+        contents = frozenset(a for a in lost if self.observer.skills.inferred.get(a.predicate) == "contents")
+        for part in dict.fromkeys((contents, lost)):
+            begun = replace(plain, init=after)
+            more = _missing(begun if way else without(begun, setbacks), (), (part, frozenset()))
+            if isinstance(more, str):
+                return None
+            way += more
+            after = plain.trace(after, more)[-1]
+        return way, after
 
     def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
         """Return the aims of the plan: the facts that it brings about, and those that it ends.
@@ -490,14 +517,8 @@ def _missing(
     return f"replanning gave up: {answer.limit}"
 
 
-def _end(task: Task, state: Bits, plan: Sequence[Instruction]) -> Bits:
-    for instruction in plan:
-        state = task.by_instruction[instruction].apply(state)
-    return state
-
-
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
-    return _satisfied(wanted, task.decode(_end(task, task.init, plan)))
+    return _satisfied(wanted, task.decode(task.trace(task.init, plan)[-1]))
 
 
 def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:

@@ -8,7 +8,7 @@ is put back to the bit. No step is made, so physics does not notice.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TypeAlias
@@ -187,20 +187,7 @@ class CollisionChecker:
 
     def _self_pairs(self, frames: Mapping[str, Array]) -> list[tuple[int, int | str]]:
         """Return pairs of own links to check: a mover's number, and a mover's number or a resting link's name."""
-        disabled = self._robot.model.disabled
-        number = {name: index for index, name in enumerate(self._links)}
-        hand = {held.side: set(self._robot.tree.below(f"{held.side[0]}_wrist_flex_link")) for held in self._helds}
-        result: list[tuple[int, int | str]] = []
-        for index, name in enumerate(self._links):
-            for other in self._robot.boxes:
-                second = number.get(other, -1)
-                near = (name, other) in disabled or 0 <= second <= index
-                if name.endswith(TOOL):
-                    near = other in hand["right" if name[0] == "r" else "left"]
-                rigid = self._vary and second >= 0 and self._groups[second] == self._groups[index]
-                if near or rigid:
-                    continue
-                result.append((index, second if second >= 0 else other))
+        result = list(self._moving_pairs())
         resting = dict.fromkeys(other for _, other in result if isinstance(other, str))
         boxes = [moved(self._robot.boxes[name], frames[name][None]) for name in resting]
         self._resting = tuple(np.array([box[end][0] for box in boxes]).reshape(-1, 3) for end in (0, 1))
@@ -208,6 +195,25 @@ class CollisionChecker:
         self._first = np.array([mover for mover, _ in result], dtype=int)
         self._second = np.array([o if isinstance(o, int) else place[o] for _, o in result], dtype=int)
         return result
+
+    def _moving_pairs(self) -> Iterator[tuple[int, int | str]]:
+        """Yield the pairs of links that may touch: not neighbours, and not what is held with its hand."""
+        number = {name: index for index, name in enumerate(self._links)}
+        below = self._robot.tree.below
+        hands = {f"{held.side[0]}_{TOOL}": set(below(f"{held.side[0]}_wrist_flex_link")) for held in self._helds}
+        for index, name in enumerate(self._links):
+            for other in self._robot.boxes:
+                second = number.get(other, -1)
+                if name in hands:
+                    near = other in hands[name]
+                else:
+                    near = (name, other) in self._robot.model.disabled or 0 <= second <= index
+                if not near and not self._rigid(index, second):
+                    yield index, second if second >= 0 else other
+
+    def _rigid(self, index: int, second: int) -> bool:
+        """Return whether two movers never move against one another; a number below 0 is no mover."""
+        return bool(self._vary) and second >= 0 and self._groups[second] == self._groups[index]
 
     def allow(self, ends: Sequence[tuple[Array, float]], near: Array | None = None) -> bool:
         """Allow what is near at the ends of a way to be as near as it is there; return False if an end is too deep.

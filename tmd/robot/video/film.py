@@ -124,30 +124,31 @@ class Film:
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """Mark the facts, and hold the picture for a moment."""
-        told = sorted(step.effects, key=lambda effect: not effect.holds)
-        facts: list[tuple[str, Mark]] = [(str(effect), effect.basis.value) for effect in told]
-        facts += [(f"{'' if m.expected else 'not '}{m.atom}", "missing") for m in step.mismatches]
         badge = "failed" if step.failure else "mismatch" if step.mismatches else "ok"
         measured = "; ".join(m.measured for m in step.mismatches)
         note = step.failure or measured or step.evidence
-        # what is missing first: there is room for a few facts only
-        facts.sort(key=lambda fact: fact[1] != "missing")
         self._ran.append(step)
         if badge == "ok" and not title.repair:
             self._done.add(title.number)
         number = self._number(title)
-        self._caption = Caption(str(title.instruction), number, _said(title), tuple(facts), note, badge)
+        self._caption = Caption(str(title.instruction), number, _said(title), _marked(step), note, badge)
         self._hold(_SHOWN if badge == "ok" else _FAILURE_SHOWN)
         if self._strip:
-            # what it is about: the button while it is down, not the arm when it is tucked; what goes out, afterwards
-            out = any(not each.holds and each.atom.predicate in self._skills.signs for each in step.effects)
-            seen = self._event if badge == "ok" and not out else None
-            picture = self._picture(self._camera.best(), TILE) if seen is None else seen
-            task = self._skills.task(title.instruction)
-            if task.skill == "drive" and task.object == self._looked_for:
-                self._tiles.pop()  # the way to what was looked for shows it as well
-            self._looked_for = task.object if task.skill == "look" and badge == "ok" else ""
-            self._tiles.append(under(picture, self._caption))
+            self._add_tile(title, step, well=badge == "ok")
+
+    def _add_tile(self, title: Title, step: ExecutedStep, *, well: bool) -> None:
+        """Add a picture to the strip: the button while it is down, not the arm when it is tucked.
+
+        What goes out is shown afterwards.
+        """
+        out = any(not each.holds and each.atom.predicate in self._skills.signs for each in step.effects)
+        seen = self._event if well and not out else None
+        picture = self._picture(self._camera.best(), TILE) if seen is None else seen
+        task = self._skills.task(title.instruction)
+        if task.skill == "drive" and task.object == self._looked_for:
+            self._tiles.pop()  # the way to what was looked for shows it as well
+        self._looked_for = task.object if task.skill == "look" and well else ""
+        self._tiles.append(under(picture, self._caption))
 
     def close(self, execution: Execution) -> None:
         """Finish with the result."""
@@ -251,6 +252,13 @@ def _before(view: View, point: Sequence[float]) -> bool:
     if near < 1e-6 or near > far:
         return False
     return math.acos(max(-1.0, min(1.0, float(ahead @ there) / (far * near)))) < _HEAD + math.atan(0.2 / near)
+
+
+def _marked(step: ExecutedStep) -> tuple[tuple[str, Mark], ...]:
+    """Return the facts of a caption; what is missing goes first, because there is room for a few only."""
+    missing: list[tuple[str, Mark]] = [(f"{'' if m.expected else 'not '}{m.atom}", "missing") for m in step.mismatches]
+    effects = sorted(step.effects, key=lambda effect: not effect.holds)
+    return (*missing, *((str(effect), effect.basis.value) for effect in effects))
 
 
 def _said(title: Title) -> str:

@@ -268,9 +268,7 @@ def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded:
         replace(each, first=ends[each.clause] - len(steps[each.clause]), last=ends[each.clause]) for each in goals
     )
     choices = tuple(Choice(saved.id, tuple(each), {}, {}) for each in steps)
-    state = task.init
-    for instruction in saved.instructions:
-        state = task.by_instruction[instruction].apply(state)
+    *_, state = task.trace(task.init, saved.instructions)
     kept = [n for n, plan in enumerate(grounded.plans) if plan.instructions != saved.instructions]
     return replace(
         grounded,
