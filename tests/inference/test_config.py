@@ -27,6 +27,14 @@ def test_the_paper_has_nothing_of_ours() -> None:
     assert not any(named_weights(PAPER.weights)[name] for name in OURS)
 
 
+@pytest.mark.parametrize(
+    ("old", "new"), [("stating", "goals"), ("generating", "policy"), ("extended", "paper_extended")]
+)
+def test_an_old_name_is_refused_with_the_new_one(old: str, new: str) -> None:
+    with pytest.raises(TmdError, match=f"^the model '{old}' is now called '{new}'$"):
+        preset(old)
+
+
 def test_an_unknown_name_is_refused_with_one_like_it() -> None:
     with pytest.raises(TmdError) as caught:
         preset("papper")

@@ -56,6 +56,20 @@ def test_unknown_names_and_missing_files_are_reported(tmp_path: Path) -> None:
         read_weights(tmp_path / "none.txt")
 
 
+@pytest.mark.parametrize(("old", "new"), [("original", "paper"), ("hand_set", "paper_extended"), ("stating", "goals")])
+def test_an_old_name_is_refused_with_the_new_one(old: str, new: str) -> None:
+    with pytest.raises(TmdError, match=f"^the weights '{old}' are now called '{new}'$"):
+        named_weights(old)
+
+
+def test_a_factor_by_its_old_name_is_refused_with_the_new_one() -> None:
+    with pytest.raises(TmdError, match=r"the factor 'dscpl' is now called 'description_length'$") as caught:
+        parse_weights("clause_distance 1\ndscpl 2\n", "w.txt")
+    assert str(caught.value.location) == "w.txt:2:1"
+    with pytest.raises(TmdError, match=r"^the factor 'latent_inpr' is now called 'latent_instruction_prior'$"):
+        Weights({"latent_inpr": 1.0})
+
+
 def test_titles_are_the_names_in_words() -> None:
     assert title("description_length") == "description length"
     assert title("reading_prior") == "prior of the reading"

@@ -95,6 +95,7 @@ PRESETS: Mapping[str, InferenceConfig] = {
 }
 """The models by name, from what ships by default to the paper's as printed. Each is a row of the experiments."""
 DEFAULT = "goals"
+_RENAMED = {"stating": "goals", "generating": "policy", "extended": "paper_extended"}
 
 
 def preset(name: str) -> InferenceConfig:
@@ -103,6 +104,8 @@ def preset(name: str) -> InferenceConfig:
     Raises:
         TmdError: There is none.
     """
+    if name in _RENAMED:
+        raise TmdError(f"the model '{name}' is now called '{_RENAMED[name]}'")
     if name not in PRESETS:
         raise TmdError(f"there is no model '{name}'", hint=nearest(name, list(PRESETS), what="models"))
     return PRESETS[name]

@@ -166,17 +166,50 @@ def meaning(name: str) -> str:
     return _MEANINGS.get(name, "")
 
 
+# Former names of factors, without the prefix of latent ones.
+_OLD_NAMES = {
+    "env": "environment_distance",
+    "nl": "clause_distance",
+    "sim": "parameter_similarity",
+    "pcc": "parameter_cardinality",
+    "dscpl": "description_length",
+    "inpr": "instruction_prior",
+    "para": "parameter_prior",
+    "trim": "trimming",
+    "cons": "inconsistent_end",
+    "cover": "objects_not_touched",
+    "words": "language_model",
+    "generated": "policy_proposal",
+    "unasked": "changes_not_asked_for",
+    "prior": "reading_prior",
+}
+_LATENT = "latent_"
+_RENAMED = {"original": "paper", "hand_set": "paper_extended", "generating": "policy", "stating": "goals"}
+
+
 @dataclass(frozen=True, slots=True)
 class Weights:
     """A number for each of :data:`NAMES` and :data:`FIXED`; a factor without one weighs nothing."""
 
     values: Mapping[str, float]
 
+    def __post_init__(self) -> None:
+        for name in self.values:
+            _refuse_old_name(name)
+
     def __getitem__(self, name: str) -> float:
         return self.values.get(name, 0.0)
 
     def __iter__(self) -> Iterator[str]:
         return iter(NAMES)
+
+
+def _refuse_old_name(name: str, place: Location | None = None, line: str | None = None) -> None:
+    """Raise TmdError for a former name of a factor."""
+    new = _OLD_NAMES.get(name.removeprefix(_LATENT))
+    if new is not None:
+        new = f"{_LATENT}{new}" if name.startswith(_LATENT) else new
+        raise TmdError(f"the factor '{name}' is now called '{new}'", location=place, source=line)
 
 
 def parse_weights(text: str, file: str = "<text>") -> Weights:
@@ -194,6 +227,7 @@ def parse_weights(text: str, file: str = "<text>") -> Weights:
         if len(words) != 2:
             raise TmdError("a line of weights is a name and a number", location=place, source=line)
         name, value = words
+        _refuse_old_name(name, place, line)
         if name not in (*NAMES, *FIXED):
             hint = nearest(name, (*NAMES, *FIXED))
             raise TmdError(f"there is no factor '{name}'", location=place, source=line, hint=hint)
@@ -226,6 +260,8 @@ def named_weights(name: str) -> Weights:
     Raises:
         TmdError: There are none of that name.
     """
+    if name in _RENAMED:
+        raise TmdError(f"the weights '{name}' are now called '{_RENAMED[name]}'")
     folder = resources.files("tmd.inference") / "data"
     known = sorted(f.name.removesuffix(".txt") for f in folder.iterdir() if f.name.endswith(".txt"))
     if name not in known:
