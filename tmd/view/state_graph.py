@@ -52,6 +52,13 @@ class _Edge:
     head: str
 
 
+def _always(problem: Problem, atoms: Iterable[GroundAtom]) -> set[GroundAtom]:
+    """Return the facts that no action changes."""
+    changing = {effect.atom.predicate for action in problem.domain.actions for effect in action.effects}
+    changing |= {axiom.head.predicate for axiom in problem.domain.derived}
+    return {atom for atom in atoms if atom.predicate not in changing}
+
+
 class StateGraph:
     """The layout of some states of a problem.
 
@@ -62,31 +69,37 @@ class StateGraph:
     """
 
     def __init__(self, problem: Problem, states: Sequence[State], first: Iterable[str] = ()) -> None:
-        kinds = {each.name: each.types[0] if each.types else "object" for each in problem.all_objects()}
-        constants = {each.name for each in problem.domain.constants}
-        atoms: list[GroundAtom] = sorted({atom for state in states for atom in state})
-        changing = {effect.atom.predicate for action in problem.domain.actions for effect in action.effects}
-        changing |= {axiom.head.predicate for axiom in problem.domain.derived}
-        always = {atom for atom in atoms if atom.predicate not in changing} if len(atoms) > _FEW else set()
-        seen = [atom for atom in atoms if atom not in always]
-        used = [name for atom in (*seen, *atoms) for name in atom.args if name not in constants]
-        names = list(dict.fromkeys([*(name for name in first if name in kinds), *used, *kinds]))
-        names = [name for name in names if name not in constants]
+        atoms = sorted({atom for state in states for atom in state})
+        self._always = _always(problem, atoms) if len(atoms) > _FEW else set()
+        names = self._named(problem, atoms, first)
         self.left_out = max(len(names) - MOST, 0)
+        kinds = {each.name: each.types[0] if each.types else "object" for each in problem.all_objects()}
         self._kinds = {name: kinds[name] for name in names[:MOST]}
-        self._always = always
         self._colours = {kind: n % _KINDS for n, kind in enumerate(sorted(set(self._kinds.values())))}
+        self._sizes = self._room(states)
+        pairs = dict.fromkeys(pair for atom in atoms if (pair := self._pair(atom)) is not None)
+        self._places = placed(self._sizes, pairs)
+
+    def _named(self, problem: Problem, atoms: Sequence[GroundAtom], first: Iterable[str]) -> list[str]:
+        """Return the objects, those first that are wanted first, then those of facts that change."""
+        constants = {each.name for each in problem.domain.constants}
+        every = [each.name for each in problem.all_objects()]
+        seen = (atom for atom in atoms if atom not in self._always)
+        used = [name for facts in (seen, atoms) for atom in facts for name in atom.args]
+        wanted = [name for name in first if name in every]
+        return [name for name in dict.fromkeys([*wanted, *used, *every]) if name not in constants]
+
+    def _room(self, states: Sequence[State]) -> dict[str, tuple[float, float]]:
+        """Return the width and the height of each node, in pixels: enough for its words in any state."""
         lines: dict[str, int] = dict.fromkeys(self._kinds, 0)
         width = {name: float(len(name)) for name in self._kinds}
         for state in states:
             for name, words in self._words(state).items():
                 lines[name] = max(lines[name], len(words))
                 width[name] = max([width[name], *(len(each) * 0.75 for each in words)])
-        self._sizes = {
+        return {
             name: (width[name] * _CHARACTER + 2 * _MARGIN, (1 + lines[name]) * _LINE + _MARGIN) for name in self._kinds
         }
-        pairs = dict.fromkeys(pair for atom in atoms if (pair := self._pair(atom)) is not None)
-        self._places = placed(self._sizes, pairs)
 
     def _pair(self, atom: GroundAtom) -> tuple[str, str] | None:
         """Return the two objects that an edge for a fact joins; ``None`` where it has no edge."""

@@ -328,12 +328,7 @@ class SayPanel:
         self._request = request or Request(grounded.parsed.text)
         energies = grounded.plans
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
-        corrected = self._visitor.studio.corrected(grounded.parsed.text, self._visitor.setting.name)
-        self._corrected = False
-        if corrected is not None and self._request == Request(grounded.parsed.text):
-            grounded = as_corrected(grounded, corrected)
-            self._corrected = bool(grounded.plans) and grounded.plans[0].instructions == corrected.instructions
-        self._grounded = grounded
+        self._grounded = grounded = self._with_correction(grounded, self._request)
         self._button.disabled = False
         self._put_question(grounded, self._request)
         self._reels = [self._played(plan.steps) for plan in grounded.plans]
@@ -344,12 +339,32 @@ class SayPanel:
             candidates(energies, lines, grounded.rejected, narrow=True) + effort(grounded.usage)
         )
         if not found:
-            unseen = () if grounded.refused is not None else grounded.unseen
-            self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
-            self._judged.content = self._steps.content = ""
-            if watch:
-                self._visitor.watch(Reel(self._visitor.setting), 0)
+            self._show_refused(grounded, watch=watch)
             return
+        self._offer(grounded)
+        self._step = step
+        put(self._which, self._which.options[place])
+        self._choose(watch=watch)
+
+    def _with_correction(self, grounded: Grounded, request: Request) -> Grounded:
+        """Return what a text was grounded to, with the plan to which somebody corrected it first."""
+        corrected = self._visitor.studio.corrected(grounded.parsed.text, self._visitor.setting.name)
+        self._corrected = False
+        if corrected is not None and request == Request(grounded.parsed.text):
+            grounded = as_corrected(grounded, corrected)
+            self._corrected = bool(grounded.plans) and grounded.plans[0].instructions == corrected.instructions
+        return grounded
+
+    def _show_refused(self, grounded: Grounded, *, watch: bool) -> None:
+        """Show a text that has no plan."""
+        unseen = () if grounded.refused is not None else grounded.unseen
+        self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
+        self._judged.content = self._steps.content = ""
+        if watch:
+            self._visitor.watch(Reel(self._visitor.setting), 0)
+
+    def _offer(self, grounded: Grounded) -> None:
+        """Offer the plans to look at, and what the robot did."""
         self._which.options = tuple(
             f"{number} of {len(grounded.plans)}: {len(plan.steps)} step{'' if len(plan.steps) == 1 else 's'}"
             + (", as it was corrected" if self._corrected and number == 1 else "")
@@ -361,9 +376,6 @@ class SayPanel:
         if run is not None and run.setting is self._visitor.setting and self._ran >= 0:
             self._run = run
             self._which.options = (*self._which.options, ROBOT)
-        self._step = step
-        put(self._which, self._which.options[place])
-        self._choose(watch=watch)
 
     def _put_question(self, grounded: Grounded, request: Request) -> None:
         """Show the question that was not answered, with a button for each option; nothing where there is none."""
