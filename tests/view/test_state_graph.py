@@ -8,10 +8,10 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from tmd.goals.wording import Wording
 
 from tests.bundled import corpus
 from tmd.diagnostics import ExitCode
+from tmd.goals.wording import Wording
 from tmd.pddl.model import GroundAtom, Problem, State, TypedName
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
