@@ -196,7 +196,7 @@ class Steps:
 
     @cached_property
     def closed(self) -> Mask:
-        """Whether the constraints forbid a choice, H × O. Learning looks at the same steps again and again."""
+        """The choices that the constraints forbid, H × O. Learning looks at the same steps again and again."""
         return ~self.allowed[:, self.open]
 
     @cached_property
