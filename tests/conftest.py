@@ -48,10 +48,12 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "fixed"))
 LEARNED = ("living_room", "kitchen")
 DIGITS = 16
 """Of a digest, in the name of a directory of the user's cache."""
+COMPILING: list[subprocess.Popen[bytes]] = []
+"""The process that compiles the searches, which takes it half a minute, while tests are collected."""
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Let commands end by signals, and compile the searches: the command that did so would say so in its output."""
+    """Let commands end by signals, and have the searches compiled: a command that did so would say so."""
     gc.set_threshold(ALLOCATIONS)
     # what a shell or nohup had this process ignore, the commands that tests run would ignore as well
     for name, default in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SIG_DFL)):
@@ -63,12 +65,25 @@ def pytest_configure(config: pytest.Config) -> None:
     if not list(
         (ROOT / "tmd" / "planning" / "search" / "__pycache__").glob(f"greedy.search_any_{numba_build.digest()}-*.nbc")
     ):
-        subprocess.run([sys.executable, "-m", "tmd.planning"], cwd=ROOT, capture_output=True, check=True)
+        COMPILING.append(subprocess.Popen([sys.executable, "-m", "tmd.planning"], cwd=ROOT, stderr=subprocess.DEVNULL))
 
 
 def pytest_collection_finish() -> None:
     """Leave all modules and tests out of garbage collections, which took a tenth of the time."""
     gc.freeze()
+    wait_for_searches()
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_node_collection_finished() -> None:
+    """Give no test to a process before the searches are compiled."""
+    wait_for_searches()
+
+
+def wait_for_searches() -> None:
+    """Wait until the searches are compiled."""
+    for process in COMPILING:
+        assert process.wait() == 0, "the searches cannot be compiled"
 
 
 @pytest.hookimpl(optionalhook=True)

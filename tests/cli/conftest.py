@@ -46,22 +46,25 @@ def heed_interrupts() -> None:
 
 @cache
 def fork_server() -> str:
-    """The socket of a process that has imported everything, and carries out each command in a fork of itself."""
-    directory = TemporaryDirectory(prefix="tmd-fork-")
-    address = Path(directory.name) / "socket"
-    process = subprocess.Popen([sys.executable, "-m", "tests.cli.fork_server", address], cwd=ROOT, env=_environ({}))
+    """The socket of a process that has imported everything, and carries out each command in a fork of itself.
 
-    def end() -> None:
-        process.kill()
-        process.wait()
-        directory.cleanup()
-
-    atexit.register(end)
+    Processes that run tests side by side share one, which ends with the process that has started them.
+    """
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        directory, owner = Path(os.environ["XDG_CACHE_HOME"]), os.getppid()
+    else:
+        own = TemporaryDirectory(prefix="tmd-fork-")
+        atexit.register(own.cleanup)
+        directory, owner = Path(own.name), os.getpid()
+    address = directory / "socket"
+    with suppress(FileExistsError):
+        (directory / "socket.begun").touch(exist_ok=False)
+        command = [sys.executable, "-m", "tests.cli.fork_server", address, str(owner)]
+        subprocess.Popen(command, cwd=ROOT, env=_environ({}), start_new_session=True)
     for _ in range(PATIENCE * 20):
         with socket.socket(socket.AF_UNIX) as connection, suppress(OSError):
             connection.connect(str(address))
             return str(address)
-        assert process.poll() is None, "the process that carries out commands has ended"
         time.sleep(0.05)
     raise TimeoutError("the process that carries out commands does not begin")
 

@@ -3,7 +3,7 @@
 What takes longest in a small command is to import numpy, numba and the rest; here that is done once. A fork is a
 process like any other, with arguments, directory, environment, streams and exit code of its own::
 
-    python -m tests.cli.fork_server SOCKET            answers
+    python -m tests.cli.fork_server SOCKET OWNER      answers, as long as the process OWNER lives
     python -I -S fork_server.py SOCKET ARGUMENTS …    carries ``tmd ARGUMENTS …`` out, as a program for shells
 """
 
@@ -51,8 +51,8 @@ def ask(
         return int(answer) if answer else -signal.SIGKILL
 
 
-def serve(address: str) -> None:
-    """Answer, until this process is killed."""
+def serve(address: str, owner: int) -> None:
+    """Answer, as long as the process ``owner`` lives."""
     import gc
     import threading
     from contextlib import redirect_stderr, redirect_stdout, suppress
@@ -72,8 +72,16 @@ def serve(address: str) -> None:
         assert threading.active_count() == 1, "a process with threads cannot be forked safely"
         gc.freeze()  # so that no garbage collection of a fork goes through all that
         server.listen(64)
+        server.settimeout(1)
         while True:
-            connection, _ = server.accept()
+            try:
+                connection, _ = server.accept()
+            except TimeoutError:
+                try:
+                    os.kill(owner, 0)
+                except ProcessLookupError:
+                    return
+                continue
             with suppress(ChildProcessError):
                 while os.waitpid(-1, os.WNOHANG)[0]:
                     pass
@@ -131,6 +139,7 @@ def _ended(arguments: Sequence[str], before: str) -> int:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 2:
+    if __package__:
+        serve(sys.argv[1], int(sys.argv[2]))
+    else:
         sys.exit(ask(sys.argv[1], sys.argv[2:], str(Path.cwd()), os.environ, (0, 1, 2)))
-    serve(sys.argv[1])

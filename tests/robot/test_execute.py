@@ -33,6 +33,7 @@ class Truth:
     def __init__(self, corpus: Corpus, environment: str) -> None:
         self.problem = corpus.world(environment).task.problem
         self.state: State = self.problem.init
+        self.known: tuple[State, dict[str, list[tuple[str, ...]]]] = frozenset(), {}
         self.clock = 0
         self.faults: list[Callable[[Truth, Instruction], bool]] = []
         self.lying: set[str] = set()
@@ -48,19 +49,26 @@ class Truth:
         self.state = apply(instruction, self.state, self.problem)
         return "it was done"
 
+    def facts(self, predicate: str) -> list[tuple[str, ...]]:
+        """The arguments of what holds now: the monitor asks much more often than anything changes."""
+        if self.known[0] is not self.state:
+            found: dict[str, list[tuple[str, ...]]] = {}
+            for atom in self.state:
+                found.setdefault(atom.predicate, []).append(atom.args)
+            self.known = self.state, found
+        return self.known[1].get(predicate, [])
+
     def held(self) -> list[str]:
-        return sorted(a.args[1] for a in self.state if a.predicate == "holding")
+        return sorted(thing for _, thing in self.facts("holding"))
 
     def support(self, item: str) -> tuple[str, str] | None:
-        return min(
-            ((a.args[1], a.args[2]) for a in self.state if a.predicate == "at" and a.args[0] == item), default=None
-        )
+        return min(((where, how) for thing, where, how in self.facts("at") if thing == item), default=None)
 
     def is_open(self, name: str) -> bool | None:
         return GroundAtom("opened", (name,)) in self.state
 
     def setting(self, name: str) -> str | None:
-        return min((a.args[1] for a in self.state if a.predicate == "set_to" and a.args[0] == name), default=None)
+        return min((setting for knob, setting in self.facts("set_to") if knob == name), default=None)
 
     def has_joint(self, name: str) -> bool:
         return any(GroundAtom(p, (name,)) in self.state for p in ("opened",)) or self.setting(name) is not None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -225,8 +226,8 @@ def _alternatives(formula: Formula, wanted: bool) -> list[_Signed]:
 class JoinRelation:
     """The known atoms of one predicate, with an index for each set of argument places asked for."""
 
-    def __init__(self) -> None:
-        self.rows: dict[Row, None] = {}
+    def __init__(self, rows: dict[Row, None] | None = None) -> None:
+        self.rows: dict[Row, None] = {} if rows is None else rows
         self._indexes: dict[tuple[int, ...], dict[Row, list[Row]]] = {}
 
     def add(self, row: Row) -> None:
@@ -249,10 +250,10 @@ class JoinRelation:
 
 @lru_cache(maxsize=8)
 def _relations(state: State) -> Mapping[str, JoinRelation]:
-    found: dict[str, JoinRelation] = {}
-    for atom in state:
-        found.setdefault(atom.predicate, JoinRelation()).add(atom.args)
-    return found
+    found: defaultdict[str, dict[Row, None]] = defaultdict(dict)
+    for predicate, args in state:
+        found[predicate][args] = None
+    return {predicate: JoinRelation(rows) for predicate, rows in found.items()}
 
 
 def _matching(atom: Atom, state: State, binding: Binding) -> Collection[Row]:

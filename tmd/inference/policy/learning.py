@@ -59,7 +59,7 @@ def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient
         rest = -np.exp(logs)
         rest[rows, choices] += 1
         parts, menu = features.parts(gradient), at.menu
-        possible = at.open.numbers  # of the others nothing is expected
+        possible = at.open  # of the others nothing is expected
         having = rest[:, possible] @ menu.properties[possible]
         parts.local[at.context.words] += having.sum(axis=0)
         if parts.text is not None:
@@ -205,10 +205,8 @@ def steps_made(lesson: PolicyLesson, menu: Menu) -> list[Made]:
     for clause, made in lesson.clauses:
         if clause is not None and made:
             nodes = [Node(done, made[:length]) for length in range(len(made) + 1)]
-            at = steps(menu, context_of(clauses, number, menu.features, menu.things), nodes)
             choices: Ints = np.array([menu.index[choice] for choice in (*made, STOP)], np.int64)
-            # the constraints are only almost always kept; what was done was possible
-            at.allowed[np.arange(len(choices)), choices] = True
+            at = steps(menu, context_of(clauses, number, menu.features, menu.things), nodes, choices)
             found.append(Made(at, choices))
         number += clause is not None
         done += made

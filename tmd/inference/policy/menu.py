@@ -170,20 +170,6 @@ class Menu:
         return state
 
 
-class OpenChoices(NamedTuple):
-    """The choices that are allowed at one of H nodes at least, and what the features say of them.
-
-    Attributes:
-        numbers: Their numbers in the menu.
-        pairs: Their part of :attr:`Steps.pairs`.
-        closed: H × choices, whether the constraints forbid one.
-    """
-
-    numbers: Ints
-    pairs: Ints
-    closed: Mask
-
-
 @dataclass(frozen=True)
 class Steps:
     """The features of H choices: the steps of one sequence, or the open nodes of a search.
@@ -192,7 +178,8 @@ class Steps:
         menu: The choices.
         context: The clause.
         followers: For each node the numbers of the words for its sequence.
-        pairs: H × C × Q, the numbers of the paired features.
+        open: The numbers of the O choices that are allowed at one node at least: few are.
+        pairs: H × O × Q, the numbers of the paired features.
         facts: H × (things + 1) × facts, 1 where one holds of a thing.
         reals: H × C × 2, the features that are numbers.
         allowed: H × C, whether the constraints allow the choice.
@@ -201,62 +188,82 @@ class Steps:
     menu: Menu
     context: ClauseContext
     followers: tuple[Ints, ...]
+    open: Ints
     pairs: Ints
     facts: Floats
     reals: Floats
     allowed: Mask
 
     @cached_property
-    def open(self) -> OpenChoices:
-        """The choices that are allowed somewhere: few are. Learning looks at the same steps again and again."""
-        numbers = np.flatnonzero(self.allowed.any(axis=0))
-        return OpenChoices(numbers, self.pairs[:, numbers], ~self.allowed[:, numbers])
+    def closed(self) -> Mask:
+        """The choices that the constraints forbid, H × O. Learning looks at the same steps again and again."""
+        return ~self.allowed[:, self.open]
 
     @cached_property
     def allowed_pairs(self) -> tuple[Ints, Ints]:
         """The numbers of the paired features of the allowed choices, each once, and which of them each is."""
-        found, which = np.unique(self.pairs[self.allowed].ravel(), return_inverse=True)
+        found, which = np.unique(self.pairs[~self.closed].ravel(), return_inverse=True)
         return found, which
 
 
-def steps(menu: Menu, context: ClauseContext, nodes: Sequence[Node]) -> Steps:
-    """Return the features of every choice at each node."""
-    looks = [_look(menu, context, node) for node in nodes]
-    added, pairs, facts, reals, allowed = zip(*looks, strict=True)
-    return Steps(menu, context, tuple(added), np.stack(pairs), np.stack(facts), np.stack(reals), np.stack(allowed))
+def steps(menu: Menu, context: ClauseContext, nodes: Sequence[Node], made: Ints | None = None) -> Steps:
+    """Return the features of every choice at each node; what was ``made`` there was possible."""
+    allowed = np.stack([_allowed(menu, node) for node in nodes])
+    if made is not None:  # the constraints are only almost always kept
+        allowed[np.arange(len(made)), made] = True
+    numbers = np.flatnonzero(allowed.any(axis=0))
+    looks = [_look(menu, context, node, numbers) for node in nodes]
+    added, pairs, facts, reals = zip(*looks, strict=True)
+    return Steps(menu, context, tuple(added), numbers, np.stack(pairs), np.stack(facts), np.stack(reals), allowed)
 
 
-def _look(menu: Menu, context: ClauseContext, node: Node) -> tuple[Ints, Ints, Floats, Floats, Mask]:
+def _sequence(menu: Menu, node: Node) -> list[Instruction]:
+    """Return what a node did; an action that training never had says nothing."""
+    return [instruction for instruction in node.earlier + node.own if instruction.name in menu.features.actions]
+
+
+def _allowed(menu: Menu, node: Node) -> Mask:
+    """Return which choices the constraints allow."""
+    named: Mask = np.zeros((len(menu.features.actions), len(menu.things.numbers) + 1), np.bool_)
+    for instruction in _sequence(menu, node):
+        args = [menu.things.numbers[arg] for arg in instruction.args]
+        named[menu.features.actions[instruction.name], args] = True
+    choice, action, thing = menu.needs.T
+    allowed: Mask = np.ones(len(menu.choices), np.bool_)
+    allowed[choice[~named[action, thing]]] = False
+    return allowed
+
+
+def _look(menu: Menu, context: ClauseContext, node: Node, numbers: Ints) -> tuple[Ints, Ints, Floats, Floats]:
     """Return one node's part of :class:`Steps`."""
     features, none = menu.features, len(menu.things.numbers)
     n = len(features.actions)
     recent: Ints = np.zeros(none + 1, np.int64)
     last: Ints = np.full(none + 1, n, np.int64)
-    named: Mask = np.zeros((n, none + 1), np.bool_)
-    # an action that training never had says nothing
-    sequence = [instruction for instruction in node.earlier + node.own if instruction.name in features.actions]
+    sequence = _sequence(menu, node)
     for instruction in sequence:
-        action, args = features.actions[instruction.name], [menu.things.numbers[arg] for arg in instruction.args]
-        recent[args], last[args], named[action, args] = NAMED, action, True
+        args = [menu.things.numbers[arg] for arg in instruction.args]
+        recent[args], last[args] = NAMED, features.actions[instruction.name]
     before = sequence[-1] if sequence else None
     if before is not None:
         recent[[menu.things.numbers[arg] for arg in before.args]] = JUST_NAMED
     done: Ints = np.zeros(len(menu.choices), np.int64)
     done[[menu.index[i] for i in node.own if i in menu.index]] = 1
 
+    actions, named, places, repeated = menu.actions[numbers], menu.args[numbers], menu.places[numbers], done[numbers]
+    stops = numbers == len(menu.choices) - 1
     follows = features.actions[before.name] if before is not None else n
-    goes_on = (recent[menu.args] == JUST_NAMED).any(axis=1)
+    goes_on = (recent[named] == JUST_NAMED).any(axis=1)
     start, levels = features.starts, context.levels
     met = _met(menu, levels, node.own)
-    last_column = np.full(len(menu.choices), start[5])
-    last_column[-1] += 1 + met
+    mentioned = levels[named]
     columns = [
-        start[0] + menu.places * LEVELS + levels[menu.args],
-        start[1] + menu.places * RECENCIES + recent[menu.args],
-        start[2] + menu.places * (n + 1) + last[menu.args],
-        start[3] + (follows * n + menu.actions) * 2 + goes_on,
-        start[4] + menu.actions * 2 + done,
-        last_column,
+        start[0] + places * LEVELS + mentioned,
+        start[1] + places * RECENCIES + recent[named],
+        start[2] + places * (n + 1) + last[named],
+        start[3] + (follows * n + actions) * 2 + goes_on,
+        start[4] + actions * 2 + repeated,
+        start[5] + stops * (1 + met),
     ]
     facts = _NO_FACTS
     if features.grounded:
@@ -269,27 +276,22 @@ def _look(menu: Menu, context: ClauseContext, node: Node) -> tuple[Ints, Ints, F
         recent[menu.words] = 0
         earlier = features.actions[sequence[-2].name] if len(sequence) > 1 else n
         begun, where = min(len(node.own), BEGUN - 1), context.where
-        end = np.full(len(menu.choices), start[13])
-        end[-1] += 1 + (met * WHERE + where) * LENGTHS + min(len(node.own), LENGTHS - 1)
-        mentioned = levels[menu.args]
+        end = 1 + (met * WHERE + where) * LENGTHS + min(len(node.own), LENGTHS - 1)
         columns += [
-            start[6] + (menu.places * LEVELS + mentioned) * RECENCIES + recent[menu.args],
-            start[7] + menu.places * 4 + context.later[menu.args] * 2 + (mentioned > 0),
-            start[8] + (earlier * (n + 1) + follows) * n + menu.actions,
-            start[9] + menu.actions * REPEATS + np.minimum(times, 2) * 2 + done,
-            start[10] + (menu.actions * WHERE + where) * BEGUN + begun,
-            start[11] + menu.actions * EFFECTS + seen.effects,
-            start[12] + menu.actions * MET + met,
-            end,
+            start[6] + (places * LEVELS + mentioned) * RECENCIES + recent[named],
+            start[7] + places * 4 + context.later[named] * 2 + (mentioned > 0),
+            start[8] + (earlier * (n + 1) + follows) * n + actions,
+            start[9] + actions * REPEATS + np.minimum(times[numbers], 2) * 2 + repeated,
+            start[10] + (actions * WHERE + where) * BEGUN + begun,
+            start[11] + actions * EFFECTS + seen.effects[numbers],
+            start[12] + actions * MET + met,
+            start[13] + stops * end,
         ]
     length, different = len(node.own), len(set(node.own))
     reals: Floats = np.zeros((len(menu.choices), REALS))
     reals[:, 0] = (different + 1 - done) / (length + 1)
     reals[-1] = different / length if length else 1, length / max(features.syntax.longest, 1)
-    choice, action, thing = menu.needs.T
-    allowed: Mask = np.ones(len(menu.choices), np.bool_)
-    allowed[choice[~named[action, thing]]] = False
-    return features.known(followers(before, length, menu.things)), np.column_stack(columns), facts, reals, allowed
+    return features.known(followers(before, length, menu.things)), np.column_stack(columns), facts, reals
 
 
 _NO_FACTS: Floats = np.zeros((0, 0))

@@ -48,14 +48,14 @@ def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
     rows = words + np.stack([parts.local[words].sum(axis=0) for words in at.followers])
     # few choices are allowed at any step, and an instruction has few of the many properties: a product of matrices
     # would take ten times as long
-    possible, pairs, closed = at.open
+    possible = at.open
     padded = np.pad(rows, ((0, 0), (0, 1)))
-    worth = padded[:, menu.having[possible]].sum(axis=2) + parts.paired[pairs].sum(axis=2)
+    worth = padded[:, menu.having[possible]].sum(axis=2) + parts.paired[at.pairs].sum(axis=2)
     worth += (at.reals @ parts.reals)[:, possible]
     if features.grounded:
         of_facts = at.facts @ parts.facts.T  # H × (things + 1) × places
         worth += of_facts[:, menu.args[possible], menu.places[possible]].sum(axis=2)
-    worth[closed] = -np.inf
+    worth[at.closed] = -np.inf
     reward: Floats = np.full(at.allowed.shape, -np.inf)
     reward[:, possible] = worth
     reward -= reward.max(axis=1, keepdims=True)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 from tmd.robot.sim.pose import Pose, Vector
 
@@ -140,9 +141,7 @@ def apart(one: Pose, own: Footprint, other: Pose, its: Footprint, gap: float) ->
     """Return whether two upright things are at least ``gap`` apart, by separating axes of their rectangles."""
     corners = [_corners(one, own, gap / 2), _corners(other, its, gap / 2)]
     for pose in (one, other):
-        yaw = pose.yaw()
-        for angle in (yaw, yaw + math.pi / 2):
-            c, s = math.cos(angle), math.sin(angle)
+        for c, s in _sides(pose):
             spans = [[x * c + y * s for x, y in four] for four in corners]
             if max(spans[0]) <= min(spans[1]) or max(spans[1]) <= min(spans[0]):
                 return True
@@ -164,6 +163,13 @@ def inside(pose: Pose, own: Footprint, low: Vector, high: Vector, frame: Pose, b
     return True
 
 
+@lru_cache(10_000)
+def _sides(pose: Pose) -> list[tuple[float, float]]:
+    yaw = pose.yaw()
+    return [(math.cos(angle), math.sin(angle)) for angle in (yaw, yaw + math.pi / 2)]
+
+
+@lru_cache(10_000)  # a place that is looked for is compared with each thing again and again
 def _corners(pose: Pose, own: Footprint, more: float) -> list[tuple[float, float]]:
     points = []
     for x in (own[0] - more, own[2] + more):

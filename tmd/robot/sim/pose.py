@@ -146,6 +146,7 @@ def _product(a: Quaternion, b: Quaternion) -> Quaternion:
 def _rotate(q: Quaternion, point: Sequence[float]) -> Vector:
     """Return ``q`` p ``q``⁻¹ without building the matrix."""
     x, y, z, w = q
-    px, py, pz = (float(value) for value in point)
+    px, py, pz = point
+    px, py, pz = float(px), float(py), float(pz)
     tx, ty, tz = 2 * (y * pz - z * py), 2 * (z * px - x * pz), 2 * (x * py - y * px)
     return (px + w * tx + y * tz - z * ty, py + w * ty + z * tx - x * tz, pz + w * tz + x * ty - y * tx)
