@@ -244,6 +244,8 @@ def test_questions_that_ask_for_something(text: str, expected: list[str]) -> Non
     ("text", "expected"),
     [
         ("Put the pen in the chest, no wait, in the crate.", ["(put, [pen, crate], in: pen -> crate)"]),
+        ("Put the cup in the crate, no, I mean the mug.", ["(put, [crate, mug], in: mug -> crate)"]),
+        ("Put the cup in the crate, no, the box.", ["(put, [cup, box], in: cup -> box)"]),
         ("Serve Ann the tea, no, sorry, the soup.", ["(serve, [ann, soup], to: soup -> ann)"]),
         ("Put the pen, I mean the rope, in the chest.", ["(put, [rope, chest], in: rope -> chest)"]),
         ("Both chests, open them.", ["(open, [chest])"]),

@@ -13,6 +13,7 @@ from itertools import pairwise, takewhile
 
 from tmd.language.clause import TO, Span
 from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
+from tmd.language.lexicon.nouns import similarity
 from tmd.language.syntax.ends import ClauseEnds
 from tmd.language.syntax.tokens import ADDRESS, BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, mark, noted
 
@@ -485,11 +486,24 @@ class Bracketer(ClauseEnds):
         start = max((i for i, t in enumerate(self.out) if t.kind is K.V), default=len(self.out)) + 1
         end = start + sum(1 for _ in takewhile(lambda token: token.kind in NP, self.out[start:]))
         behind = self.past(begin, "NP+")
-        if end == start or self.tokens[at - 1].text[:1] not in ".!;" or not self.follows(behind, "BREAK"):
+        apart = self.tokens[at - 1].text[:1] in ".!;" or self._is_rather(begin, behind, start, end)
+        if end == start or not apart or not self.follows(behind, "BREAK"):
             return 0
         self.dropped += noted([*self.out[start:end], self.tokens[at]], CORRECTED)
         self.out[start:end] = self.tokens[begin:behind]
         return behind
+
+    def _is_rather(self, begin: int, behind: int, start: int, end: int) -> bool:
+        """Return whether a thing is more like what is acted on than like the last thing said.
+
+        "Put the cup in the sink, no, the mug" is about the mug, "…, no, the basin" about the basin.
+        """
+        heads = [token.text for token in self.out[end:] if token.kind is K.N][-1:]
+        ends = [t.text for t in self.tokens[begin:behind] if t.kind is K.N][-1:]
+        owns = [token.text for token in self.out[start:end] if token.kind is K.N][-1:]
+        pairs = ((similarity(ends[0], other[0]) if ends and other else 0.0) for other in (owns, heads))
+        own, last = pairs
+        return bool(heads) and own > last
 
     def _is_inverted(self, at: int) -> bool:
         """Return whether a condition begins that has its verb first: "should the door be open, shut it"."""
