@@ -9,7 +9,7 @@ from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, text_of
 from tmd.goals.grounder import Moments
 from tmd.goals.reading.goal_reader import GoalReader
-from tmd.goals.reading.noun_phrases import Memory
+from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.referents import ANY_TYPE, is_none
 from tmd.goals.words import BE, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, Clause, Mood, Parsed
@@ -58,7 +58,7 @@ class ConstraintReader:
         """Return what prohibitions and *leave it as it is* ask for, from the start of the text on."""
         found = TextConstraints()
         for clause in (clause for clause in parsed.constraints if not is_of_the_end(clause)):
-            avoided = self._avoided(clause, state, memory)
+            avoided = self._avoided(clause, state, self._with_named(clause, parsed, state, memory))
             if isinstance(avoided, Refusal):
                 return avoided
             found |= avoided
@@ -75,6 +75,14 @@ class ConstraintReader:
             left = () if clause.result else self._kept_things(clause, state)
             found |= TextConstraints(kept=tuple(preserved), left=left)
         return replace(found, left=(*found.left, *sorted(found.untouched)))
+
+    def _with_named(self, clause: Clause, parsed: Parsed, state: Bits, memory: Memory) -> Memory:
+        """Return the memory of what the text names, for a prohibition of another one: "…, not the other lamp"."""
+        if not any(clause.phrase(noun).other for noun in clause.direct):
+            return memory
+        named = {n: self.reader.nouns.things(n, state) for said in parsed.clauses for n in said.direct}
+        single = {n: Bound(names) for n, names in named.items() if len(names) == 1 and n not in clause.direct}
+        return replace(memory, bound={**memory.bound, **single})
 
     def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> TextConstraints | Refusal:
         """Return what a prohibition asks for; a note where it is about persons only: "don't leave me in the dark"."""
