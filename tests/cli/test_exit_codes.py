@@ -362,9 +362,10 @@ def test_where_no_temporary_file_can_be_written_the_disk_is_full() -> None:
     ],
 )
 def test_where_no_error_can_be_written_the_command_goes_on(arguments: list[str], code: int, tmp_path: Path) -> None:
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
     with Path("/dev/full").open("wb") as full:
         command = [sys.executable, "-m", "tmd", *arguments]
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=full, check=False, cwd=tmp_path)
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=full, check=False, cwd=tmp_path, env=environment)
     assert done.returncode == code
     assert done.stdout
 

@@ -23,12 +23,13 @@ def main() -> None:
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     gc.set_threshold(ALLOCATIONS)
     try:
-        from tmd.cli.output import open_closed_streams
+        from tmd.cli.output import open_closed_streams, settle_errors
 
         open_closed_streams()
         from tmd.cli.program import run
 
         code = int(run(sys.argv[1:]))
+        settle_errors()
     except KeyboardInterrupt:  # before the command heard of signals, or after
         from tmd.diagnostics import ExitCode
 

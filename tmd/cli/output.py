@@ -28,6 +28,14 @@ def open_closed_streams() -> None:
             setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - it stays open
 
 
+def settle_errors() -> None:
+    """Let what cannot be written to standard error go nowhere: the interpreter would end with a code of its own."""
+    try:
+        sys.stderr.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
+
+
 def emit(value: object, target: Path | None = None, *, error: bool = False) -> None:
     """Write a text, or any other value as JSON with its keys in their order, to standard output or standard error.
 
