@@ -31,7 +31,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import BRING, TO, Clause, Relation
+from tmd.language.clause import BRING, PERSONS, TO, Clause, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE
@@ -297,6 +297,8 @@ class GoalReader:
         """Return the verb, that for which it stands, and the same without its particle, where that asks for as much."""
         verb = clause.verb
         own = [verb, *self._synonyms(verb)]
+        if is_verb(verb, "giving") and any(r.target in PERSONS and r.relation == TO for r in clause.relations):
+            own = [BRING, *own]  # "get me a beer from the fridge" asks for more than to take it out
         if clause.setting and is_verb(verb, "setting"):  # "set it to low" is to turn it, where no row is for "set"
             own = [*ranked("verbs", "setting"), *own]
         plain, _, particle = verb.partition("_")
