@@ -354,6 +354,21 @@ def test_everything_else_is_what_was_not_spoken_of() -> None:
         assert {"(at mug1 table2 on)", "(at bowl1 counter1 on)", "(at spoon1 counter1 on)"} <= facts, text
 
 
+def test_a_question_that_is_denied_is_a_condition() -> None:
+    for text in (
+        "Is the fridge open? If not, open it.",
+        "Is the fridge open? If not, open it, and if it is, close it.",
+    ):
+        assert "(opened fridge1_door)" in end(said("kitchen", "kitchen1", text)), text
+
+
+def test_a_place_behind_two_things_is_that_of_the_second() -> None:
+    text = "Put one of the cups on the table and everything else that is on the counter into the cupboard."
+    facts = end(said("kitchen", "kitchen2", text))
+    assert {"(at coffee_pod1 cupboard1 in)", "(at sugar_bowl1 cupboard1 in)"} <= facts
+    assert not {"(at mug1 table1 on)", "(at mug2 table1 on)"}.isdisjoint(facts)
+
+
 @pytest.mark.parametrize("contrary", ["otherwise", "else", "or else", "if not,"])
 def test_otherwise_repeats_the_verb(contrary: str) -> None:
     for text in (

@@ -338,7 +338,7 @@ def _landmark(landmark: Phrase, clause: Clause) -> list[_Mention]:
     for part in landmark.all():
         behind = next((r.relation for r in clause.relations if r.target == part.name), "")
         distance = _LANDMARK + _PART * (part is not landmark)
-        if clause.verb in section("replacing") and behind in section("replacement"):
+        if clause.verb in section("replacing") | section("mutual_verbs") and behind in section("replacement"):
             distance = _REPLACEMENT
         found += [_Mention(name, part.plural, distance, behind=behind) for name in _meant(part, clause)]
     return found

@@ -421,6 +421,9 @@ class Bracketer(ClauseEnds):
         if not (denied or so > end + 1 or self.among(end + 1, "then_words")):
             self._mention(self.tokens[at + 1 : end], QUESTION)
             return self._skip(at, end, QUESTION)
+        if denied:  # the condition itself says "if not"
+            for token in self.tokens[end : self.first(end + 1, "STOP")]:
+                token.otherwise = False
         opener.text = first_of("excepting" if denied else "guards")
         self.out.append(opener)
         self._fill(opener, at, end)

@@ -291,7 +291,8 @@ class Attachment:
         self._relate(name, hosts, self._without(hosts, targets) if name in section("with_words") else targets)
         if preposition.form == RELATIVE:
             self.draft.stated += [Relation(name, host.name, target.name) for host in hosts for target in targets]
-        self._paired = paired and name in section("origins")  # where it goes is still to come
+        # where it goes is still to come: "and the books from the floor on the shelf"
+        self._paired = paired and (name in section("origins") or preposition.form == RELATIVE)
         if not self._paired:
             self._next_host(preposition, name, targets, later)
 
@@ -366,7 +367,8 @@ class Attachment:
         """Return whether the last nouns behind a preposition are things that the next one places."""
         place = rest[0]
         name, opening = next(leaves(node)).text, next(leaves(place)).text
-        origin = opening in section("origins") and len(rest) > 1 and is_a(rest[1], "place")
+        tells = opening in section("origins") or next(leaves(place)).form == RELATIVE
+        origin = tells and len(rest) > 1 and is_a(rest[1], "place")
         goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
         placing = self.draft.verb.stem in section("placing") | section("belonging")
         opposite = isinstance(place, Tree) and any(

@@ -241,7 +241,7 @@ class TextReading:
         condition, before = self._condition(node), self.conditioned
         said = condition.clauses
         if before is not None and node.data == "condition" and said and all(map(_says_nothing, said)):
-            if before.negated != condition.negated:
+            if _denies(before) != _denies(condition):
                 draft.verb.otherwise, draft.spans = True, [*draft.spans, *spans([node])]
                 return
             condition = replace(condition, clauses=before.clauses)
@@ -660,6 +660,11 @@ def _denied_apart(draft: ClauseDraft) -> list[ClauseDraft]:
         plain = [r for r in draft.relations if r not in lacking]
         return [replace(draft, relations=plain), replace(draft, result=None)]
     return [draft]
+
+
+def _denies(condition: Condition) -> bool:
+    """Return whether a condition asks that something is not so; "unless it is not" asks that it is."""
+    return condition.negated != (condition.word in section("excepting"))
 
 
 def _is_of_them(said: ClauseDraft) -> bool:
