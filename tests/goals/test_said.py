@@ -354,6 +354,11 @@ def test_everything_else_is_what_was_not_spoken_of() -> None:
         assert {"(at mug1 table2 on)", "(at bowl1 counter1 on)", "(at spoon1 counter1 on)"} <= facts, text
 
 
+def test_something_is_in_what_can_hold_things() -> None:
+    text = "Pour the coffee into the glass unless there is already something in it."
+    assert "(contains glass1 coffee)" in end(said("kitchen", "kitchen3", text))
+
+
 def test_a_question_that_is_denied_is_a_condition() -> None:
     for text in (
         "Is the fridge open? If not, open it.",

@@ -154,8 +154,14 @@ class States:
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message, hint)
 
     def _something_at(self, relation: str, target: str, reading: ClauseReading) -> Formula:
-        places = self.referents.targets(target, reading)
-        return disjunction(self._something(relation, place, reading) for place in places)
+        """Return that there is anything at what a noun means: of what a pronoun may mean, the first that holds things."""
+        found = (
+            disjunction(
+                self._something(relation, place, reading) for place in places if not self.nouns.is_constant(place)
+            )
+            for places in self.referents.target_options(target, reading)
+        )
+        return next((formula for formula in found if formula != FALSE), FALSE)
 
     def _something(self, relation: str, place: str, reading: ClauseReading) -> Formula:
         """Return that there is anything in or on a place: an object that is no part of it, or a substance."""
