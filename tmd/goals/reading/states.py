@@ -154,7 +154,7 @@ class States:
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message, hint)
 
     def _something_at(self, relation: str, target: str, reading: ClauseReading) -> Formula:
-        """Return that there is anything at what a noun means: of what a pronoun may mean, the first that holds things."""
+        """Return that anything is at what a noun means; a pronoun means the first that can hold things."""
         found = (
             disjunction(
                 self._something(relation, place, reading) for place in places if not self.nouns.is_constant(place)
