@@ -262,12 +262,14 @@ class Parsed:
         clauses: What is to be done, in the order of the text.
         skipped: What no clause accounts for.
         constraints: What must not be done, and what must stay as it is.
+        stated: What is only said to be so.
     """
 
     text: str
     clauses: tuple[Clause, ...]
     skipped: tuple[Skipped, ...] = ()
     constraints: tuple[Clause, ...] = ()
+    stated: tuple[Clause, ...] = ()
 
 
 _CLAUSE = re.compile(r"\(\s*([\w'-]+)\s*,\s*\[([^\]]*)\]\s*((?:,[^()]*)?)\)\s*$")

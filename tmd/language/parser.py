@@ -62,9 +62,9 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     tokens, dropped = rewrite(tokens, words, trace)
     bracketer = Bracketer(join(tokens, words), words)
     reading = TextReading(text).read(parse_tokens(Linker(bracketer.run()).run()))
-    clauses, constraints = resolve(reading)
+    clauses, constraints, stated = resolve(reading)
     rest = [*tokens, *markup, *repeated, *called, *dropped, *bracketer.dropped, *reading.skipped]
-    return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints)
+    return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints, stated)
 
 
 def _note_overlong(tokens: list[Token]) -> None:

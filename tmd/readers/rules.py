@@ -115,9 +115,9 @@ class RuleDialogue(Dialogue):
     """
 
     def __init__(self, parsed: Parsed, goals: GoalReader, state: Bits) -> None:
-        parsed = with_unwanted_states(parsed)
-        super().__init__(parsed)
         self._goals = goals
+        parsed = self._with_untrue(with_unwanted_states(parsed), state)
+        super().__init__(parsed)
         self._constraints = ConstraintReader(goals)
         read = partial(about_things, known=goals.knows_of)
         clauses, constraints = (tuple(map(read, said)) for said in (parsed.clauses, parsed.constraints))
@@ -140,6 +140,25 @@ class RuleDialogue(Dialogue):
         self.constraints = PlanConstraints(constraints.never, constraints.kept, constraints.untouched)
         self.notes = constraints.notes
         return None
+
+    def _with_untrue(self, parsed: Parsed, state: Bits) -> Parsed:
+        """Return a request with what it states of known things and is not so as what shall be so.
+
+        "A soda poured into the glass, and the glass left on the table": the glass stands elsewhere.
+        """
+        untrue = []
+        taken_up = {name for c in parsed.clauses for meant in c.antecedents.values() for name in meant[:1]}
+        for said in parsed.stated if parsed.clauses else ():
+            known = all(said.phrase(noun).definite or noun in said.antecedents for noun in said.objects)
+            reason = not taken_up.isdisjoint(said.resolved())  # "the fridge is open, close it"
+            if said.verb == BE and known and not reason:
+                goal = self._goals.read(said, state, Memory(first=state))
+                if not isinstance(goal, Refusal) and not any(cube.holds(state) for cube in goal.cubes):
+                    untrue.append(said)
+        clauses = sorted((*parsed.clauses, *untrue), key=lambda clause: clause.span)
+        told = [clause.span for clause in untrue]
+        skipped = tuple(s for s in parsed.skipped if not any(s.span.start <= t.start < s.span.end for t in told))
+        return replace(parsed, clauses=tuple(clauses), skipped=skipped)
 
     def _names_thing(self, piece: Skipped, state: Bits) -> bool:
         """Return whether a piece that belongs to no verb names something that is here."""

@@ -54,21 +54,25 @@ def is_pronoun(name: str) -> bool:
     return not sections_of(name).isdisjoint(pronouns) or is_one(name)
 
 
-def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...]]:
-    """Return the clauses, and what must not be done, with their antecedents filled in."""
+def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...], tuple[Clause, ...]]:
+    """Return the clauses, what must not be done, and what is only stated, with their antecedents filled in."""
     scenes: list[_Scene] = []
     clauses: list[Clause] = []
     facts: dict[str, Clause] = {}
+    stated: list[Clause] = []
     statements = sorted([*reading.statements, *reading.forbidden], key=lambda said: said[0])
     hosted: dict[int, list[ClauseDraft]] = {}
     for draft in reading.drafts:
         hosted.setdefault(id(draft.host), []).append(draft)
-    for index, draft in enumerate(reading.drafts):
-        while statements and statements[0][0] <= index:
+    for index, draft in enumerate([*reading.drafts, None]):
+        while statements and (draft is None or statements[0][0] <= index):
             said = statements.pop(0)[1]
             fact = _resolved(said.clause(reading.text), said, scenes)
             scenes.append(_scene(said, fact))
             facts |= _new(fact, clauses)
+            stated.append(fact)
+        if draft is None:
+            break
         clause = draft.clause(reading.text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
@@ -80,7 +84,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         clauses.append(clause)
         scenes.append(_scene(draft, clause))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]
-    return tuple(clauses), tuple(forbidden)
+    return tuple(clauses), tuple(forbidden), tuple(stated)
 
 
 def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:
