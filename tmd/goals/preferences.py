@@ -116,7 +116,11 @@ def choose(table: Sequence[Preference], names: Names, context: Context) -> Names
     return names
 
 
-def _part_of_recent(_: Names, c: Context) -> Names:
+def _part_of_recent(names: Names, c: Context) -> Names:
+    """Return the part of what was spoken of last, or the latest thing that facts speak of by that part."""
+    if c.referents.nouns.is_only_told_of(c.noun):
+        alone = c.phrase.quantifier is Quantifier.PLAIN and all(t == c.noun for _, t in c.relations)
+        return next(((n,) for n in c.reading.memory.recent if n in names), ()) if alone else ()
     single = c.phrase.definite and not c.phrase.plural and not c.relations
     return part_of(c.reading.memory.recent, c.noun, c) if single else ()
 

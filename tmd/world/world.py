@@ -14,10 +14,11 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.lexicon.lexicon import Lexicon, section
+from tmd.language.lexicon.names import split_name
 from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground_task import ground
-from tmd.pddl.model import OBJECT, TRUE, GroundAtom, Instruction, Problem, Universe, hierarchy, universe
+from tmd.pddl.model import OBJECT, TRUE, Domain, GroundAtom, Instruction, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
 from tmd.short_repr import short_repr
 from tmd.world.compile import PART_OF as PART_OF  # goals and studio need it as well
@@ -89,6 +90,7 @@ class Mentions:
             o.name: (*(told.get(o.name, ()) if o.types == (OBJECT,) else ()), *types.ancestors(o.types[0]))
             for o in problem.all_objects()
         }
+        self._said_of = _names_in_predicates(problem.domain, lexicon)
         own = {name: types[0] for name, types in self.types.items()}
         self.kinds: Mapping[str, str] = own | {name: kind for name, kind in (kinds or {}).items() if name in own}
         self._candidates = tuple(self._candidate(name) for name in self.types)
@@ -97,6 +99,7 @@ class Mentions:
     def _candidate(self, name: str) -> NounMatch:
         types, kind = self.types[name], self.kinds[name]
         above = types[1:] if kind == types[0] else types
+        above = (*above, *(noun for one in types for noun in self._said_of.get(one, ())))
         return NounMatch(name, kind, above, _words(name, self.profiles.wholes.get(name)))
 
     def of(self, noun: str, state: Bits) -> list[Match]:
@@ -151,6 +154,19 @@ def _told_types(task: Task) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
     for atom in sorted(always, key=lambda atom: count[atom.predicate]):
         found.setdefault(atom.args[0], []).append(atom.predicate)
+    return found
+
+
+def _names_in_predicates(domain: Domain, lexicon: Lexicon) -> dict[str, list[str]]:
+    """Return for types the nouns that predicates use for their objects: *plane*, of ``(planeAt ?p - aircraft ?l)``."""
+    found: dict[str, list[str]] = {}
+    for predicate in domain.predicates:
+        *noun, place = split_name(predicate.name)
+        if len(predicate.parameters) == 2 and noun and place in section("static"):
+            verb = lexicon.verb(noun[-1])
+            if verb is None or verb[1] == "base":  # not ``stands-at``, ``stored-in``
+                for one in predicate.parameters[0].types:
+                    found.setdefault(one, []).append("_".join(noun))
     return found
 
 

@@ -131,6 +131,7 @@ class Fitting:
 
     def _same(self, noun: str, said: str | None, reading: ClauseReading) -> bool:
         """Return whether two nouns are the same, or name the same things here: *kettle*, *kettel*."""
+        said = self.referents.likeliest(said, reading.clause) if said else said
         if noun == said or said is None or ends_as(noun, "plural"):
             return noun == said
         named = self.nouns.things(noun, reading.state)

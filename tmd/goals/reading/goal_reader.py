@@ -32,7 +32,7 @@ from tmd.goals.words import (
     words_of,
 )
 from tmd.language.clause import BRING, PERSONS, TO, Clause, Relation
-from tmd.language.lexicon.lexicon import Lexicon, section
+from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE
 from tmd.pddl.task import Bits
@@ -165,7 +165,9 @@ class GoalReader:
         names = [split_name(p.name) for p in self.domain.predicates if len(p.parameters) == 1]
         having = words_of("rows", "having")
         had = {"_".join(rest): rest[-1] for first, *rest in names if rest and first in having}
-        return {verb: first for first, *_ in names if (verb := participle(first)) is not None} | had
+        # "a price is on each" where things are ``price_tagged``
+        marked = {first: "_".join([first, *rest]) for first, *rest in names if rest and participle(rest[-1])}
+        return {verb: first for first, *_ in names if (verb := participle(first)) is not None} | marked | had
 
     def _with_states(self, clause: Clause) -> Clause:
         """Return the clause with things that are none here, but states: "on the table", where all have one table.
@@ -175,7 +177,7 @@ class GoalReader:
         """
         for relation in dict.fromkeys((*clause.relations, *clause.stated)):
             state = self._place_state(relation) or self._mark_state(relation, clause)
-            if state and relation.source in clause.objects and not self.knows_of(relation.target):
+            if state and relation.source in clause.objects and not self._names_thing(relation.target):
                 clause = self._with_state(clause, relation, state)
         return clause
 
@@ -237,13 +239,15 @@ class GoalReader:
         if len(clause.direct) != 1 or len(given) != 1:
             return None
         noun, receivers = clause.direct[0], (given[0].target,)
-        meant = clause.antecedents.get(noun, ())[:1] if is_one(noun) else (noun,)
+        meant = clause.antecedents.get(noun, ())[:1] if is_one(noun) else (noun, _of_gerund(noun))
         deed = next(filter(self._is_verb, meant), "")
         own = self._is_verb(clause.verb) and clause.verb not in section("placing")
         gives = given[0].relation == TO if is_verb(clause.verb, "giving") else not own
-        if not deed or not gives or self.knows_of(deed):
+        mark = self._mark_states.get(noun)
+        if not (deed or mark) or not gives or self._names_thing(deed or noun):
             return None
-        return replace(clause, verb=deed, direct=receivers, objects=receivers, relations=())
+        treated = replace(clause, verb=deed or BE, direct=receivers, objects=receivers, relations=())
+        return treated if deed else replace(treated, result=mark)
 
     def _dative(self, clause: Clause) -> Clause | None:
         """Return "give Ann bed 3" as "give bed 3 to Ann": two names that were read as one."""
@@ -339,6 +343,10 @@ class GoalReader:
         """Return whether a noun means something in the domain or in the environment."""
         return self.knows(noun) or bool(self.nouns.things(noun, self.world.task.init) or self.nouns.substances(noun))
 
+    def _names_thing(self, noun: str) -> bool:
+        """Return whether a noun means a thing itself, and not only what facts say of another one."""
+        return self.knows_of(noun) and not self.nouns.is_only_told_of(noun)
+
     def _by_tables(self, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refusal:
         """Return the goal by the first source that knows the verb, or else by the first that knows a relative of it."""
         failure: Refusal | None = None
@@ -418,6 +426,12 @@ class GoalReader:
         near = ", ".join(map(words, nearest_verbs(clause.verb, known)))
         hint = f"the nearest known verbs are {near}" if near else "say what shall be different afterwards"
         return Refusal(RefusalKind.UNKNOWN_VERB, f"unknown verb '{words(clause.verb)}'", hint)
+
+
+def _of_gerund(noun: str) -> str:
+    """Return the verb of what is named after it: to ice for *icing*; the noun itself where it has another form."""
+    stem, form, _ = builtin().verb(noun) or (noun, "", 0)
+    return stem if form == "ing" else noun
 
 
 def _goes(clause: Clause, relation: Relation) -> bool:

@@ -10,6 +10,7 @@ from functools import cached_property
 
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.facts import Facts
+from tmd.goals.sources.actions import participle
 from tmd.goals.sources.table import GoalTable
 from tmd.goals.words import ends_as, is_idle, is_noun, is_relation, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
@@ -161,7 +162,7 @@ class Nouns(Facts):
             name: [f for f in self.facts_about(name) if _tells_of(noun, f, name)]
             for name in self.world.profiles.objects
         }
-        having = tuple(n for n, told in facts.items() if any(f in self.world.task.static for f in told))
+        having = tuple(n for n, told in facts.items() if any(f.predicate not in self.grounder.changing for f in told))
         having = having or tuple(n for n, told in facts.items() if told)
         owner, _, part = noun.rpartition("_")
         if owner and not having:  # "the attic door"
@@ -411,7 +412,13 @@ def _tells_of(noun: str, fact: GroundAtom, name: str) -> bool:
     words = {singular(word) for word in parts}
     if is_relation(parts[0], "place"):  # "on_table", of one thing, says where it is
         return len(fact.args) == 2 and fact.args[1] == name and words == {parts[0], noun}
-    return len(fact.args) == 1 and noun in words and words - {noun} <= words_of("part_states") and len(words) > 1
+    return len(fact.args) == 1 and noun in words and len(words) > 1 and all(map(_is_state, words - {noun}))
+
+
+def _is_state(word: str) -> bool:
+    """Return whether a word beside a noun in the name of a predicate says how that is: ``door_open``, ``bed_made``."""
+    listed = words_of("part_states") | section("end_states") | section("drop_adjectives")
+    return word in listed or participle(word) is not None
 
 
 def _says_nothing(word: str) -> bool:

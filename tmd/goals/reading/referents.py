@@ -122,17 +122,21 @@ class Referents:
             unit.relations += [(without, name) for name in none]
             self._make_room(unit, clause)
             unit.relations = [p for pair in unit.relations for p in self._whereabouts(*pair, reading)]
-            unit.relations = unit.relations or self._of_wholes(unit.direct)
+            unit.relations = unit.relations or self._of_wholes(unit.direct, clause)
         if clause.implied:
             # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
             for unit, following in reversed(list(pairwise(units))):
                 unit.relations = unit.relations or list(following.relations)
         return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
 
-    def _of_wholes(self, noun: str | None) -> list[tuple[str, str]]:
+    def _of_wholes(self, noun: str | None, clause: Clause) -> list[tuple[str, str]]:
         """Return that a part belongs to the things that facts speak of by it: the dock doors are those of the docks."""
-        told_of = noun is not None and self.nouns.is_only_told_of(noun)
-        return [(the_word("relations", "partitive"), noun)] if noun and told_of else []
+        part = self.likeliest(noun, clause) if noun else ""
+        return [(the_word("relations", "partitive"), part)] if part and self.nouns.is_only_told_of(part) else []
+
+    def likeliest(self, noun: str, clause: Clause) -> str:
+        """Return the noun that a pronoun most likely stands for; a noun itself."""
+        return next(iter(clause.antecedents.get(noun, ())), noun) if self._is_pronoun(noun) else noun
 
     @staticmethod
     def _portions(unit: Unit) -> list[Unit]:

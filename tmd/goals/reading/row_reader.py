@@ -21,6 +21,7 @@ from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, is_verb, relations_said, table, the_word
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
+from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.pddl.ground_formula import (
     FALSE,
     TRUE,
@@ -31,7 +32,7 @@ from tmd.pddl.ground_formula import (
     negation,
     only_negative,
 )  # fmt: skip
-from tmd.pddl.model import Atom, Formula, Or, conjuncts
+from tmd.pddl.model import Atom, Formula, Or, conjuncts, predicates_of
 from tmd.planning.unsolvable import Impossible
 
 _NEVER_OTHERWISE = Or((FALSE,))
@@ -441,9 +442,17 @@ class RowReader:
         ranked = (other, None) if fewer else (None, other)
         return ranked[reading.decisions.taken(TELLS_WHICH, unit.direct or "", 2)]
 
+    def _of_part(self, row: GoalRow, unit: Unit) -> GoalRow:
+        """Return a row without the ways that do not speak of a part: "in the minibar" is not just in its room."""
+        parts = {split_name(place)[-1] for _, place in unit.relations if self.nouns.is_only_told_of(place)}
+        ways = row.condition.parts if isinstance(row.condition, Or) else ()
+        about = [w for w in ways if any(parts & words_in_name(name) for name in predicates_of(w))]
+        return replace(row, condition=disjunction(about)) if about else row
+
     def _by_row(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula | Refusal:
         """Return the goal of one thing by one row: for each combination of what stands behind the prepositions."""
         clause = reading.clause
+        row = self._of_part(row, unit)
         fillers = [(slot, self.fitting.fillers(slot, unit, reading)) for slot in row.places]
         consumed = {filler for _, said in fillers for filler in said}
         alternatives = any(target and clause.phrase(target).either for _, target in consumed)

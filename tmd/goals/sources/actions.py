@@ -421,7 +421,7 @@ class _Words:
             verbs = words[:1] if shortened else tuple(dict.fromkeys(_verbs_of("_".join(words))))
             noun = "" if shortened or not wanted else self._noun_in(action, words)
             if noun:
-                yield from self._about_noun(action, words[0], noun, wanted)
+                yield from self._about_noun(action, words[0], noun, _naming(noun, action) or wanted)
                 verbs = tuple(verb for verb in verbs if verb != words[0])
             if wanted:
                 yield from self._with_slots(action, verbs, wanted)
@@ -431,7 +431,8 @@ class _Words:
     def _noun_in(self, action: ActionSchema, words: Sequence[str]) -> str:
         """Return the noun behind the verb of an action's name that none of its parameters is: ``set_chocks``."""
         nouns = [word for word in words[1:] if word not in words_of("names", "particles") and not _is_preposition(word)]
-        kinds = {word for p in action.parameters for kind in self._kinds(p) for word in words_in_name(kind)}
+        # a bed is not the bed sheets
+        kinds = {word for p in action.parameters for kind in self._kinds(p) for word in (kind, split_name(kind)[-1])}
         # what is a verb as well may be one: ``press-mute``, ``saddle_up``
         return singular("_".join(nouns)) if nouns and kinds.isdisjoint((*nouns, *map(singular, nouns))) else ""
 
@@ -528,6 +529,12 @@ def _takes(action: ActionSchema) -> bool:
     """Return whether an action's name says to take something."""
     take = the_word("verbs", "taking")
     return split_name(action.name)[0] in (take, *family(take))
+
+
+def _naming(noun: str, action: ActionSchema) -> list[Effect]:
+    """Return the effects of an action with a noun in the name of their predicate: ``bed_made``, of ``make_bed``."""
+    settled = (e for e in action.effects if not e.parameters and e.condition == And())
+    return [e for e in settled if noun in map(singular, words_in_name(e.atom.predicate))]
 
 
 def _by_sign(effects: Sequence[Effect]) -> tuple[list[Effect], list[Effect]]:

@@ -31,16 +31,23 @@ def split_name(name: str) -> tuple[str, ...]:
 def _joined_words(name: str) -> tuple[str, ...]:
     """Return the two or three words that a name without separators is made of, or the name itself.
 
-    Of several ways, the fewest words win, and among those the one whose shortest word is the longest.
+    Of several ways, the fewest words win, and among those one that ends in a preposition ("planeat"), and then the one
+    whose shortest word is the longest.
     """
     words = builtin()
-    if len(name) < _JOINED_LENGTH or not name.isalpha() or words.knows(name):
+    placed = any(name.endswith(place) and words.is_part(name.removesuffix(place)) for place in section("short_places"))
+    if (len(name) < _JOINED_LENGTH and not placed) or not name.isalpha() or words.knows(name):
         return (name,)
     cuts = range(_SHORTEST_WORD, len(name) - _SHORTEST_WORD + 1)
     begun = [(name[:cut], name[cut:]) for cut in cuts if words.is_part(name[:cut])]
     whole = [pair for pair in begun if words.is_part(pair[1])]
     longer = [(first, *rest) for first, last in begun if len(rest := _joined_words(last)) == 2]
-    return max(whole or longer, key=lambda found: (min(map(len, found)), len(found[0])), default=(name,))
+    ends = section("short_places")
+    return max(
+        whole or longer,
+        key=lambda found: (found[-1] in ends, min(map(len, found)), len(found[0])),
+        default=(name,),
+    )
 
 
 def words_in_name(name: str) -> frozenset[str]:

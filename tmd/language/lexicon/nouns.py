@@ -87,6 +87,9 @@ def rank(
     """
     parsed = _parse(noun)
     aliases = (lexicon or builtin()).nouns
+    numbered = [c.name for c in candidates if noun.isdigit() and _number(c.name) == int(noun)]
+    if len(numbered) == 1:  # "in 102", where the only thing with that number is room_102
+        return [Match(numbered[0], 1.0, NAME)]
     named = _by_name(parsed, candidates)
     if max((match.score for match in named), default=0.0) < 1.0:
         # an alias or a synonym of the whole noun says more than a name that shares its head only

@@ -81,10 +81,21 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         hosts += [d for d in hosted.get(id(draft), ()) if d.verb.span < draft.verb.span]  # "before closing it"
         clause = _resolved(clause, draft, [*scenes, *(_scene(host, host.clause(reading.text)) for host in hosts)])
         clause = replace(clause, stated=(*clause.stated, *_stated(clause, facts)))
-        clauses.append(clause)
+        clauses.append(_missing_state(clause))
         scenes.append(_scene(draft, clause))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]
     return tuple(clauses), tuple(forbidden), tuple(stated)
+
+
+def _missing_state(clause: Clause) -> Clause:
+    """Return what "do it" asks for behind a condition: the state that it denies, "if the gate isn't shut, do it"."""
+    denied = (c for c in clause.conditions if c.negated != (c.word in section("excepting")))
+    missing = [said for condition in denied for said in condition.clauses]
+    vague = clause.verb in section("pro_verbs") and not clause.relations and all(map(is_pronoun, clause.direct))
+    if not vague or len(missing) != 1:
+        return clause
+    said = {"span": clause.span, "text": clause.text, "condition": clause.condition, "conditions": clause.conditions}
+    return replace(missing[0], otherwise=clause.otherwise, **said)
 
 
 def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:

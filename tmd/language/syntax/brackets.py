@@ -315,6 +315,8 @@ class Bracketer(ClauseEnds):
         tells = self._begin_telling(at, own=own)
         self._somebody = True
         noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
+        done = self.kind(verb) is K.PARTICIPLE and self.among(verb - 1, "having") and at + 1 < verb
+        noticed = noticed or done  # "somebody has put it there"
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
         if self._verb is not None or not (own or noticed) or leads:
             self._told = self._told or tells
@@ -426,7 +428,11 @@ class Bracketer(ClauseEnds):
                 token.otherwise = False
         opener.text = first_of("excepting" if denied else "guards")
         self.out.append(opener)
-        self._fill(opener, at, end)
+        for asked in range(at + 2, end):
+            if self.kind(asked) is K.PARTICIPLE and self.kind(self.back(asked)) in HEADS:
+                self.tokens[asked].kind = K.STATE  # "is the door locked?"
+        twice = any(self.kind(i) is K.AUX for i in range(at + 1, end))  # "has it been locked?"
+        self._fill(opener, at + twice, end)
         return so + 1
 
     def _mention(self, words: Sequence[Token], note: str) -> None:

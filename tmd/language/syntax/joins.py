@@ -254,6 +254,10 @@ class _Particles(Words):
     def run(self) -> None:
         for at, verb in enumerate(self.tokens):
             deed = verb.kind is K.ING and self.kind(at - 1) not in HEADS
+            if self.stem_among(at, "waiting") and self.among(at + 1, "static") and self.follows(at + 2, "IDLE* NP"):
+                continue  # "the cart can wait in the yard"
+            if verb.kind is K.ING and self.stem_among(at, "belonging"):
+                continue  # "the ropes are going on the cart"
             if (verb.kind in (K.V, K.LET) or deed) and verb.stem:
                 if not self._several_words(at):
                     self._particle(at)

@@ -418,6 +418,9 @@ class TextReading:
 
     def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft], before: int, note: str) -> None:
         """Set a statement aside; pronouns may mean what it mentions."""
+        if any(t.kind is Kind.NEG or t.text in section("not_forms") for t in leaves(part)):
+            for draft in drafts:  # "it has not been in the oven yet" does not say where it is
+                draft.relations.clear()
         self.statements += [(before, draft) for draft in drafts]
         span = hull(spans([part]))
         self.skipped.append(Token(Kind.SKIP, self.text[slice(*span)], span, note=note))

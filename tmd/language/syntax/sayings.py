@@ -62,8 +62,16 @@ class Saying:
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
         settled = section("belonging") | section("staying") | section("returning")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
+        placed = placed or (bool(trees(self.rest, "place")) and self._goes())
         duty = any(t.text in section("duties") for t in words) and not self._somebody()  # "we have guests"
         return wished or placed or duty or self._wants()
+
+    def _goes(self) -> bool:
+        """Return whether it says where things are to go or may stay: "is going on the shelf", "can wait there"."""
+        goes = self.verbs[-1:]
+        planned = [v for v in goes if v.kind is Kind.ING and v.stem in section("belonging")]
+        allowed = [v for v in goes if v.stem in section("waiting") and self._helped("asking")]
+        return about_things(self.subject) and bool(planned or allowed) and not self._somebody()
 
     def _somebody(self) -> bool:
         """Return whether its subject is somebody who is not asked."""

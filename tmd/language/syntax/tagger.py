@@ -408,6 +408,8 @@ def _spelled(token: Token, lexicon: Lexicon) -> str:
         word = _STRETCHED.sub(r"\1", word)
     if word.endswith(sections()["contracted"]):
         return word
+    if "-" in word and word.replace("-", "") in lexicon.verbs:
+        return word.replace("-", "")  # "de-ice", where the domain has "deice"
     corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
     return (corrected or word).replace("-", "_")
 
