@@ -166,7 +166,7 @@ class GoalReader:
         having = words_of("rows", "having")
         had = {"_".join(rest): rest[-1] for first, *rest in names if rest and first in having}
         # "a price is on each" where things are ``price_tagged``
-        marked = {first: "_".join([first, *rest]) for first, *rest in names if rest and participle(rest[-1])}
+        marked = {first: "_".join([first, *rest]) for first, *rest in names if len(rest) == 1 and participle(rest[0])}
         return {verb: first for first, *_ in names if (verb := participle(first)) is not None} | marked | had
 
     def _with_states(self, clause: Clause) -> Clause:
@@ -243,7 +243,8 @@ class GoalReader:
         deed = next(filter(self._is_verb, meant), "")
         own = self._is_verb(clause.verb) and clause.verb not in section("placing")
         gives = given[0].relation == TO if is_verb(clause.verb, "giving") else not own
-        mark = self._mark_states.get(noun)
+        lays = clause.verb in section("placing") or is_verb(clause.verb, "giving")
+        mark = self._mark_states.get(noun) if lays else None
         if not (deed or mark) or not gives or self._names_thing(deed or noun):
             return None
         treated = replace(clause, verb=deed or BE, direct=receivers, objects=receivers, relations=())

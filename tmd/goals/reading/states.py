@@ -66,7 +66,8 @@ class States:
         failure: Refusal | None = None
         found: list[tuple[Formula, Referent]] = []
         for referent in self.referents.referents(noun, _ROW, _ROW.slots[0], excepted, reading):
-            state = self._thing_state(referent, relations, reading)
+            referent, left = self._called_by(referent, relations, reading)
+            state = self._thing_state(referent, left, reading)
             if isinstance(state, Refusal):
                 failure = failure or state
             else:
@@ -105,7 +106,6 @@ class States:
     ) -> Formula | Refusal:
         if not referent.names:
             return self.referents.missing(referent, reading)
-        referent, relations = self._called_by(referent, relations, reading)
         result = reading.clause.result
         alive: list[Formula] = []
         for name in referent.names:

@@ -111,6 +111,9 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
             ranked = _in_order(pronoun, scenes) or ranked
         elif pronoun in section("singular_pronouns") and not before.isdisjoint(section("insides")):
             ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
+        if any(r.target == pronoun for r in clause.stated):  # "the one that is in there": in a place, if one was named
+            places_named = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.behind}
+            ranked = tuple(sorted(ranked, key=lambda name: name not in places_named))
         if ranked:
             antecedents[pronoun], together[pronoun] = ranked, count
     return replace(clause, antecedents=antecedents, together=together, relations=_without_kinds(clause, antecedents))

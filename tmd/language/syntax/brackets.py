@@ -259,7 +259,10 @@ class Bracketer(ClauseEnds):
         if stands or (self.kind(copula) is K.AUX and self.among(copula, "be") and not self.among(copula, "not_forms")):
             place = self.peek(copula, "(IDLE|PARTICIPLE|ING)*")
             place += self.among(place, "loosely")
-            if self.follows(place, "P IDLE* NP"):
+            there = self.kind(place) is K.P and self.among(place + 1, "there_words")
+            if there:  # "the cup that is in there"
+                self.tokens[place + 1].kind, self.tokens[place + 1].text = K.PRON, first_of("singular_pronouns")
+            if there or self.follows(place, "P IDLE* NP"):
                 self.tokens[place].form = RELATIVE if self._last() in HEADS else ""
                 return place  # "the cup that is on the desk" as "the cup on the desk"
         if self._last() is K.P:
@@ -549,7 +552,7 @@ class Bracketer(ClauseEnds):
         if token.stem in section("wishing"):
             modal = any(self.among(i, "frame_modals") for i in range(max(at - 2, 0), at))
             self._told = self._told and token.stem in section("liking") and not modal
-        if token.stem in section("wishing") and self._wishes_state(at):
+        if (token.stem in section("wishing") and self._wishes_state(at)) or self._has_done(at):
             return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
         if token.stem in section("causing") and self._causes(at):
             token.kind = K.LET
@@ -560,6 +563,22 @@ class Bracketer(ClauseEnds):
         if self.kind(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1
+
+    def _has_done(self, at: int) -> bool:
+        """Return whether a verb of getting asks for what shall be done to a thing: "have the egg boiled"."""
+        if not self.stem_among(at, "getting") or self.tokens[at].form != "base":
+            return False
+        done = self.past(at + 1, "(DET|NUM|N|OF|ADJ)+")
+        done -= self.kind(done) is not K.PARTICIPLE
+        token = self.tokens[done] if done < len(self.tokens) else self.tokens[at]
+        after_noun = done > at + 1 and self.kind(done - 1) is K.N and token.kind in (K.PARTICIPLE, K.ADJ)
+        if not after_noun or token.form != "ed" or not self.lexicon.is_deed(token.stem):
+            return False
+        for place in range(done, self.first(at, "STOP")):
+            put = self.among(place, "same_past") and self.kind(place - 1) is K.N
+            if put or place == done:  # "have the cup washed and the plate put on the table"
+                self.tokens[place].kind = K.PARTICIPLE
+        return True
 
     def _is_told(self, at: int) -> bool:
         """Return whether the subject of a verb is not the addressee: "they are starving", "my eyes get tired"."""

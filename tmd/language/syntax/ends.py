@@ -67,7 +67,8 @@ class ClauseEnds(Words):
         for place in range(at + 1, self._clause_end(at)):
             if verb and (self.kind(place) is K.CC or ((said or done) and self.follows(place, "FINITE|AUX"))):
                 return place  # "everything that is empty | goes in the bin", "… that was washed | goes on the shelf"
-            done = done or (verb and self.kind(place) is K.PARTICIPLE)
+            # "… that was washed", "who left"
+            done = done or (self.kind(place) is K.PARTICIPLE and (verb or place == at + 1))
             if self.follows(place, "INF AUX") or self._goes_on(at, place, verb=verb, said=said):
                 return place
             said = said or (verb and (self.follows(place, "HEAD|ADJ") or self.among(place, "there_words")))
