@@ -10,10 +10,9 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.resources import files
 
+from tmd.language.clause import NEGATED as NEGATED
 from tmd.language.lexicon.lexicon import data_text, pairs
 
-NEGATED = "not_"
-"""The mark of a state or relation that does not hold, as the parser writes it."""
 CONTRARY = "-"
 """The mark of a word for the contrary, in ``senses.txt``."""
 _OTHER_WAY = ">"

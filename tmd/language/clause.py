@@ -35,6 +35,8 @@ NOWHERE = Span(0, 0)
 PERSONS = section("persons")
 """Words for people: objects of a clause ("bring me the cup"), but no things to be found in an environment."""
 
+NEGATED = "not_"
+"""Before a state or a relation: it is not so."""
 BE = "be"
 """The verb of a clause that says in what state something is."""
 HAVE = "have"

@@ -844,6 +844,8 @@ class Bracketer(ClauseEnds):
         none = kind is K.DET and opener.kind is K.SUB and self.among(at, "none_words")
         if kind is K.NEG or none or (kind is K.AUX and self.among(at, "not_forms")):
             opener.negated = True
+            verb = self.tokens[at] if kind is not K.NEG or self._last() is not K.AUX else self.out[-1]
+            verb.negated = True
         return at + 1 if kind is K.NEG else self._keep(at)
 
     def _inner_joint(self, at: int) -> int:

@@ -10,6 +10,7 @@ from lark import Tree
 from tmd.language.clause import (
     BE,
     EXCEPT,
+    NEGATED,
     OF,
     PERSONS,
     TO,
@@ -164,6 +165,12 @@ class ClauseDraft:
             (r.relation, names.get(r.source or "", r.source), names.get(r.target, r.target)) for r in self.relations
         )
         self.relations = [Relation(*end) for end in ends]
+
+    def deny(self) -> None:
+        """Say the contrary: that its things are not in the state, or not at the place."""
+        self.result = NEGATED + self.result if self.result else None
+        if self.result is None:
+            self.relations = [r._replace(relation=NEGATED + r.relation) for r in self.relations]
 
     def _mood(self) -> Mood:
         """Return the mood of *leave the cup where it is* and *keep the door shut*, which say what must stay so."""

@@ -13,6 +13,7 @@ from tmd.language.clause import (
     BE,
     EXCEPT,
     HAVE,
+    NEGATED,
     TO,
     WHERE,
     WITH,
@@ -36,7 +37,6 @@ _ASIDES = ("demand", "statement")
 _DENIALS = ("denial", "manner")
 _LATER = "later"
 """The order of a clause behind "before"."""
-_NOT = "not_"
 """Before an attribute or a relation: it must not hold."""
 
 
@@ -210,7 +210,13 @@ class TextReading:
 
     def _said(self, node: Tree[Leaf]) -> list[ClauseDraft]:
         """Return the clauses of the parts of a subordinate clause."""
-        return [draft for part in trees(node.children, "part") for draft in Saying(part).clauses(self._attach)]
+        found, mixed = [], _mixed(node)
+        for saying in map(Saying, trees(node.children, "part")):
+            drafts = saying.clauses(self._attach)
+            for draft in drafts if mixed and saying.denied else ():
+                draft.deny()
+            found += drafts
+        return found
 
     # what is subordinate
 
@@ -274,7 +280,7 @@ class TextReading:
         nothing = any(
             phrase.name in pairs("affirmed") for draft in drafts for phrase in (*draft.direct, *draft.landmarks)
         )
-        negated = opener.negated or nothing
+        negated = (opener.negated and not _mixed(node)) or nothing
         for draft in drafts if negated else ():
             # "no" and "nothing" are in the negation of the condition
             draft.affirm(each=any(t.text in section("negations") for t in leaves(node) if t.kind is Kind.CC))
@@ -303,9 +309,9 @@ class TextReading:
         if named and relation:
             targets = [(relation, p) for p in named]
         else:
-            targets = said.placed(_NOT * opener.negated)
+            targets = said.placed(NEGATED * opener.negated)
             if said.verb.stem == BE and said.result and not named:
-                noun.attributes.append(_NOT * opener.negated + said.result)
+                noun.attributes.append(NEGATED * opener.negated + said.result)
             elif relation != WHERE and (named or not targets):
                 noun.attributes += _telling(said, opener)
         for relation, phrase in targets:
@@ -403,15 +409,17 @@ class TextReading:
             allowed = any(t.text in section("modals") for t in saying.helpers)
             asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
             if asked and not saying.talk:
-                self._demand(node, drafts, conditions)
+                self._demand(node, drafts, conditions, denied=saying.denied if _mixed(node) else opener.negated)
             else:
                 self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
 
-    def _demand(self, node: Tree[Leaf], drafts: Sequence[ClauseDraft], conditions: Sequence[Node]) -> None:
+    def _demand(
+        self, node: Tree[Leaf], drafts: Sequence[ClauseDraft], conditions: Sequence[Node], *, denied: bool
+    ) -> None:
         """Ask for the states that a statement demands."""
         for draft in drafts:
             nobody = any(t.text in section("nobodies") for t in leaves(node) if t.kind is not Kind.NEG)
-            demand(draft, denied=next(leaves(node)).negated or nobody)
+            demand(draft, denied=denied or nobody)
             draft.verb.otherwise = any(t.otherwise for t in leaves(node))
             draft.spans += spans([node])
             self._demanded(draft, conditions)
@@ -643,6 +651,11 @@ def _repeat(draft: ClauseDraft, before: ClauseDraft) -> None:
     draft.relations = [*draft.stated, *before.unmoved()]
     draft.take_places(before)
     draft.folds += before.folds
+
+
+def _mixed(node: Tree[Leaf]) -> bool:
+    """Return whether only some parts of a clause are denied: "that the lamp is on and the radio is not"."""
+    return len({Saying(part).denied for part in trees(node.children, "part")}) > 1
 
 
 def _says_nothing(clause: Clause) -> bool:

@@ -53,6 +53,11 @@ class Saying:
         """Return whether it has only an auxiliary: "the mug does not"."""
         return bool(self.helpers) and not (self.verbs or self.complement)
 
+    @property
+    def denied(self) -> bool:
+        """Return whether it says that something is not so, whatever the other parts say."""
+        return any(helper.negated for helper in self.helpers)
+
     def asks(self) -> bool:
         """Return whether it demands a state: a duty, "belongs", "would like"; but not what somebody has done."""
         if self._perfect():
