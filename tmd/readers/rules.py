@@ -87,6 +87,10 @@ class RuleReader:
         return None
 
 
+_TITLE = 2
+"""Words of a title, at most: "Movie night!"."""
+
+
 @lru_cache(maxsize=16)
 def _with_names(lexicon: Lexicon, objects: tuple[str, ...], actions: tuple[str, ...]) -> Lexicon:
     return with_names(lexicon, objects, actions)
@@ -164,8 +168,10 @@ class RuleDialogue(Dialogue):
         """Return whether a piece that belongs to no verb names something that is here."""
         nouns = self._goals.nouns
         words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
-        if self.parsed.text[piece.span.end :].lstrip().startswith(":"):
-            return False  # a title: "popcorn: …"
+        behind = self.parsed.text[piece.span.end :].lstrip()
+        first = not self.parsed.text[: piece.span.start].strip() and len(words) <= _TITLE
+        if behind.startswith(":") or (first and behind.startswith(("!", "."))):
+            return False  # a title: "popcorn: …", "Movie night! …"
         objects = self._goals.world.profiles.objects
         named = [word for word in words if nouns.lexicon.names_thing(word) or word in objects]
         return piece.reason == NO_VERB and any(nouns.things(n, state) or nouns.substances(n) for n in named)

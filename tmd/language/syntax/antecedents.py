@@ -16,6 +16,7 @@ from tmd.language.lexicon.lexicon import pairs, section, sections_of
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
 from tmd.language.syntax.reading import TextReading
+from tmd.language.syntax.tokens import IMPLIED
 
 _REACH = 5
 """Clauses that a pronoun looks back."""
@@ -68,7 +69,8 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         while statements and (draft is None or statements[0][0] <= index):
             said = statements.pop(0)[1]
             fact = _resolved(said.clause(reading.text), said, scenes)
-            scenes.append(_scene(said, fact))
+            contrast = said.mood is Mood.AVOID and said.verb.form == IMPLIED  # "the film instead of the game"
+            scenes.insert(max(len(scenes) - contrast, 0), _scene(said, fact))
             facts |= _new(fact, clauses)
             stated.append(fact)
         if draft is None:

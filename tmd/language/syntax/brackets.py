@@ -820,7 +820,8 @@ class Bracketer(ClauseEnds):
         while self.kind(place) in NP and (self.kind(place) is not K.ADJ or self._leads(place)):
             place += 1
         state = self.among(place, "end_states") or self.kind(place) is K.ADJ
-        return place + 1 if state and self.kind(place - 1) in HEADS and self.follows(place + 1, "BREAK") else 0
+        ends = state and self.kind(place - 1) in HEADS and self.follows(place + 1, "IDLE* BREAK")
+        return place + 1 if ends else 0
 
     # words inside of brackets
 

@@ -172,12 +172,28 @@ def tokenise(text: str) -> list[Token]:
         if timed or (token.text in section("its_places") and tokens):
             tokens[-1:] = _cut(tokens[-1], pairs("its"))  # as people write it: "when its done"
         tokens += _cut(token, pairs("two_words"))
+    tokens = _dictated(tokens)
     _units(tokens)
     _enumeration(tokens, text)
     tokens = _labelled(tokens)
     _capitals(tokens, text)
     _articles(tokens, text)
     return tokens
+
+
+def _dictated(tokens: list[Token]) -> list[Token]:
+    """Read signs that are spelled out as what they are: "wash the cup comma then dry it full stop"."""
+    signs = pairs("spoken_signs")
+    found: list[Token] = []
+    for token in tokens:
+        name = f"{found[-1].text}_{token.text}" if found else ""
+        if name in signs:
+            found[-1] = replace(found[-1], text=signs[name], kind=Kind.STOP)
+        elif token.text in signs and found:
+            found.append(replace(token, text=signs[token.text], kind=Kind.COMMA))
+        else:
+            found.append(token)
+    return found
 
 
 def _units(tokens: list[Token]) -> None:
