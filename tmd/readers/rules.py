@@ -155,7 +155,7 @@ class RuleDialogue(Dialogue):
         for said in parsed.stated if parsed.clauses else ():
             known = all(said.phrase(noun).definite or noun in said.antecedents for noun in said.objects)
             reason = not taken_up.isdisjoint(said.resolved())  # "the fridge is open, close it"
-            if said.verb == BE and known and not reason:
+            if said.verb == BE and (said.result or said.relations) and known and not reason:
                 goal = self._goals.read(said, state, Memory(first=state))
                 if not isinstance(goal, Refusal) and not any(cube.holds(state) for cube in goal.cubes):
                     untrue.append(said)

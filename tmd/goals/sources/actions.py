@@ -137,6 +137,11 @@ class _Words:
                 for predicate in self.domain.predicates:
                     if predicate.name not in self.fluent:
                         continue
+                    *noun, last = split_name(predicate.name)
+                    if not predicate.parameters and noun and last == wanted:  # ``shop_open``: "close the shop"
+                        alone = Atom(predicate.name, ()) if positive else Not(Atom(predicate.name, ()))
+                        row = self._row((verb,), (), alone, f"{verb} {'_'.join(noun)}", f"'{wanted}' in {predicate.name}")
+                        yield replace(row, noun="_".join(noun))
                     condition = self._state(predicate, wanted, any_value=not positive)
                     if condition is not None:
                         found = condition if positive else Not(condition)
@@ -314,6 +319,9 @@ class _Words:
                 sent[Atom(there.predicate, named)] = None
         where, why = Slot("?y", _ROWS["going"]), "a predicate of where one is"
         yield from (self._row(_ROWS["go"], (where,), condition, "go to Y", why) for condition in found)
+        for condition, name in product(found, table("nouns")["oneself"] if not sent else ()):
+            row = self._row((*_ROWS["send"], *_ROWS["put"]), (where,), condition, f"send {name} to Y", why)
+            yield replace(row, noun=name)
         both = Slot("?x"), where
         yield from (self._row(_ROWS["send"], both, condition, "send X to Y", why) for condition in sent)
 

@@ -255,6 +255,9 @@ class Bracketer(ClauseEnds):
 
     def _relative(self, at: int) -> int:
         copula = self.peek(at)
+        said = self.past(copula, "SUBJECT|PRON IDLE* (V|FINITE)")
+        if said > copula and self.stem_among(said - 1, "reporting") and self.kind(said) is K.AUX:
+            copula = said  # "which I believe is in the chest"
         stands = self.kind(copula) is K.FINITE and self.stem_among(copula, "postures")
         if stands or (self.kind(copula) is K.AUX and self.among(copula, "be") and not self.among(copula, "not_forms")):
             place = self.peek(copula, "(IDLE|PARTICIPLE|ING)*")
@@ -315,6 +318,13 @@ class Bracketer(ClauseEnds):
         if own and self.stem_among(verb, "ordering") and self.tokens[verb].form != "ing":
             self._told, self._somebody = self.stem_among(verb, "liking"), True
             return at + 1  # "I'll have a tea"
+        belongs = self.stem_among(verb, "belonging") or self.among(verb, "belonging")
+        if belongs and self.among(at, "plural_pronouns") and self.follows(verb + 1, "IDLE* (P|TO)"):
+            subject, said = self.tokens[at], self.tokens[verb]  # "they belong on the bench"
+            subject.kind, subject.text = K.PRON, first_of("plural_pronouns")
+            said.kind, said.stem = K.FINITE, first_of("belonging")
+            self._begin_telling(at, own=False)
+            return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(verb))
         tells = self._begin_telling(at, own=own)
         self._somebody = True
         noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
@@ -607,6 +617,8 @@ class Bracketer(ClauseEnds):
         if also := self._also(at):
             return also
         self._deny_ahead(at)
+        if self._last() is K.END and self._is_reason(at + 1):
+            return self._stop(at)  # "they are here, so the toys in the chest"
         if self.among(at, "dashes") and self._verb is None and self._named():
             return self._stop(at)  # "the radio - off"
         if self._is_returned(at + 1):

@@ -468,6 +468,9 @@ class TextReading:
                 self.forbidden.append((len(self.drafts), draft))
             else:
                 self.drafts.append(draft)
+        else:  # "Socks! Put both of them away."
+            self.statements.append((len(self.drafts), mention := empty_draft(BE, nodes)))
+            mention.direct = named_in(nodes)
 
     def _gapped(self, nodes: list[Node]) -> bool:
         """Read "then the mug" and "the mug too" with the verb, and the place, of the clause before."""

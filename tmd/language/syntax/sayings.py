@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import zip_longest
 
 from lark import Tree
 
@@ -104,7 +105,7 @@ class Saying:
         verbs = [] if self._is_left() else self.verbs
         done = self._deeds(verbs)
         if done and done[-1] is verbs[-1] and self._passive():
-            return [self._done(verb, attach) for verb in done]
+            return [self._done(verb, after, attach) for verb, after in zip_longest(done, done[1:])]
         owned = self._owns(verbs)
         if verbs and not owned:
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
@@ -177,10 +178,11 @@ class Saying:
         """Return whether its subject is a pronoun that may mean several things: "they"."""
         return any(t.text in section("plural_pronouns") for node in self.subject for t in leaves(node))
 
-    def _done(self, verb: Token, attach: Attach) -> ClauseDraft:
-        """*The kettle is filled with water*: a state that a participle names."""
+    def _done(self, verb: Token, after: Token | None, attach: Attach) -> ClauseDraft:
+        """*The kettle is filled with water*: a state that a participle names; what follows belongs to the last one."""
         draft = empty_draft(BE, [self.part])
-        attach(draft, self.subject, self.rest)
+        rest = [n for n in self.rest if after is None or next(leaves(n)).span.start < after.span.start]
+        attach(draft, self.subject, rest)
         draft.result, draft.verb.participle = verb.text, verb.stem
         return draft
 
