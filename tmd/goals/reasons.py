@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from tmd.goals.clause_goal import words
 from tmd.goals.grounder import Grounder
 from tmd.goals.sources.table import GoalRow, atoms_in, split_predicate, subformulas
-from tmd.goals.words import family
+from tmd.goals.words import family, table
 from tmd.pddl.model import (
     ActionSchema,
     Atom,
@@ -37,7 +37,8 @@ def nearest_verbs(verb: str, known: Collection[str]) -> list[str]:
 
 def forms(rows: Sequence[GoalRow], verb: str) -> str:
     """Return how a verb can be said, by the slots of its rows: ``'switch X to C' or 'switch X'``."""
-    said = dict.fromkeys(" ".join((words(verb), *row.pattern.split()[1:])) for row in rows)
+    told = [row for row in rows if row.noun not in table("nouns")["oneself"]] or rows
+    said = dict.fromkeys(" ".join((words(verb), *row.pattern.split()[1:])) for row in told)
     return " or ".join(f"'{form}'" for form in list(said)[:_SHOWN])
 
 
