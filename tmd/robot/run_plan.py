@@ -54,6 +54,7 @@ def run_plan(
     seed: int = 0,
     urdf: Path | None = None,
     gui: bool = False,
+    pictures: bool = False,
 ) -> PlanRun:
     """Carry out a plan in a new simulation, each effect checked.
 
@@ -69,7 +70,7 @@ def run_plan(
         session = stack.enter_context(
             SimulationSession(
                 environment, folder, problem, kinematic=kinematic, seed=seed, urdf=urdf, gui=gui,
-                pictures=filming is not None,
+                pictures=pictures or filming is not None,
             )
         )  # fmt: skip
         listeners = list(prepare(session)) if prepare is not None else []

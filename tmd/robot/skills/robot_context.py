@@ -21,8 +21,10 @@ from tmd.robot.pr2.pr2 import ARMS, Pr2
 from tmd.robot.scene.scene import FLOOR, Handle, Scene
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, WELD_FORCE, Simulator
-from tmd.robot.skills.results import SkillError, SkillPhase
+from tmd.robot.skills.results import Rejected, SkillError, SkillPhase
 
+# Pose of the robot's base: x, y in metres, heading in radians.
+Base = tuple[float, float, float]
 # Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid.
 _PAST = tuple((0.0, 0.0, away) for away in (0.1, -0.1, 0.05, -0.05))
 # Samples for a way of the arm where there is no other place to tuck it.
@@ -34,7 +36,7 @@ _LEANING_EVERY = 8
 _LEVEL = 0.05
 
 
-def _nothing(*_: str) -> None: ...
+def _nothing(*_: object) -> None: ...
 
 
 @dataclass(eq=False)
@@ -48,6 +50,7 @@ class Cell:
         unfit_grips: Tool poses in the item's frame then, or when its contents were lost.
         until: The simulation's count of work at which an instruction is given up.
         moment: Called at the event of an instruction: a press, a pour, a turn.
+        rejected: Called with ways that were rejected, when something fails and the reason is looked for.
     """
 
     sim: Simulator
@@ -60,6 +63,7 @@ class Cell:
     unfit_grips: dict[str, list[Pose]] = field(default_factory=dict)
     until: float = inf
     moment: Callable[[], None] = _nothing
+    rejected: Callable[[Rejected], None] = _nothing
     _leant: dict[str, float] = field(default_factory=dict)
     _loaded: set[str] = field(default_factory=set)
 

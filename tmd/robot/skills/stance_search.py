@@ -20,9 +20,8 @@ from tmd.robot.pr2.reach_bounds import Wrists
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills import obstruction
 from tmd.robot.skills.results import SkillError, SkillPhase
-from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.robot_context import Base, Cell
 
-Base = tuple[float, float, float]
 Links = frozenset[tuple[int, int | None]]
 Accept = Callable[["Option", Base], bool]
 
