@@ -19,8 +19,8 @@ from experiments.execution.report import claimed_falsely, masked, report, seen
 from experiments.execution.run import corpus, holds, run, skills_of
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.pddl.model import GroundAtom, Instruction
-from tmd.robot.monitor.inference import Basis, KnownEffect
 from tmd.robot.monitor.listeners import Title
+from tmd.robot.monitor.observation import Basis, KnownEffect
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus

@@ -23,7 +23,7 @@ from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Skip, Trial, TrialRequest
 from tmd.robot.monitor.listeners import Order
 from tmd.robot.run_plan import Filming, run_plan
-from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.skill_file import load_skills
 from tmd.robot.video.film import open_movie
 from tmd.robot.video.movie_file import MovieFile

@@ -15,9 +15,8 @@ from tmd.robot.assets.colours import mixed
 from tmd.robot.assets.features import Grasp
 from tmd.robot.assets.room import build_room
 from tmd.robot.assets.urdf_builder import ROOT
-from tmd.robot.scene.catalogue import FLOOR, built
+from tmd.robot.scene.catalogue import FLOOR, Handle, Inventory, built
 from tmd.robot.scene.furniture_layout import Room
-from tmd.robot.scene.inventory import Handle, Inventory
 from tmd.robot.scene.placement import Placing
 from tmd.robot.scene.support_relations import Spot, boxes_meet, free_spots, supported
 from tmd.robot.sim.pose import Pose, Vector

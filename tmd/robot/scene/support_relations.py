@@ -9,9 +9,8 @@ from itertools import product
 
 from tmd.robot.assets.features import Region
 from tmd.robot.assets.urdf_builder import ROOT
-from tmd.robot.scene.catalogue import FLOOR, Catalogue
+from tmd.robot.scene.catalogue import FLOOR, Catalogue, Inventory
 from tmd.robot.scene.furniture_layout import Footprint, Room, apart, floor_spots, inside
-from tmd.robot.scene.inventory import Inventory
 from tmd.robot.scene.placement import TURNS
 from tmd.robot.sim.pose import Pose, Vector
 

@@ -7,7 +7,7 @@ from math import copysign, cos, degrees, pi, sin
 
 from tmd.robot.assets.fittings import TIP
 from tmd.robot.parameters import ARTICULATION
-from tmd.robot.pr2.gripper_clearance import HandChecker
+from tmd.robot.pr2.quick_checks import HandChecker
 from tmd.robot.scene.scene import Handle
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import Simulator

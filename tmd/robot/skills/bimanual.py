@@ -12,7 +12,7 @@ from itertools import islice, product
 from math import cos, pi, sin, tau
 
 from tmd.robot.pr2.arm_motion import plan_arm
-from tmd.robot.pr2.reach_bounds import Wrists
+from tmd.robot.pr2.quick_checks import Wrists
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from tmd.robot.pr2.collision import Ignored
-from tmd.robot.pr2.gripper_clearance import HandChecker
+from tmd.robot.pr2.quick_checks import HandChecker
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.results import Hand, Rejected
 from tmd.robot.skills.robot_context import Base, Cell

@@ -12,11 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from tmd.pddl.model import GroundAtom
-from tmd.robot.parameters import ARTICULATION, BASE_MOTION, CONTACT, GRASP, TIME
-from tmd.robot.pr2.arm_motion import plan_line
+from tmd.robot.parameters import ARTICULATION, BASE_MOTION, CONTACT, GRASP, INSTRUCTION_TIME
+from tmd.robot.pr2.arm_motion import plan_line, tuck
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.collision import Ignored
-from tmd.robot.pr2.posture import tuck
 from tmd.robot.pr2.pr2 import ARMS, Pr2
 from tmd.robot.scene.scene import FLOOR, Handle, Scene
 from tmd.robot.sim.pose import Pose, Vector
@@ -86,7 +85,7 @@ class Cell:
             SkillError: The instruction has used up its budget.
         """
         if self.sim.work > self.until:
-            raise SkillError(SkillPhase.TIME, f"given up after about {TIME.instruction:.0f} s of computing: {doing}")
+            raise SkillError(SkillPhase.TIME, f"given up after about {INSTRUCTION_TIME:.0f} s of computing: {doing}")
 
     # what the monitor measures
 

@@ -15,8 +15,7 @@ from math import atan2, ceil, cos, hypot, pi, sin
 from tmd.robot.parameters import ARM_MOTION, STANCE
 from tmd.robot.pr2.arm_motion import dense, plan_arm, plan_level, plan_poses
 from tmd.robot.pr2.base_motion import plan_base
-from tmd.robot.pr2.gripper_clearance import HandChecker
-from tmd.robot.pr2.reach_bounds import Wrists
+from tmd.robot.pr2.quick_checks import HandChecker, Wrists
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills import obstruction
 from tmd.robot.skills.results import SkillError, SkillPhase

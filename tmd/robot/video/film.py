@@ -14,8 +14,7 @@ from tmd.pddl.model import GroundAtom
 from tmd.robot.assets.colours import robot_colour
 from tmd.robot.monitor.listeners import Title
 from tmd.robot.session import TICK
-from tmd.robot.sim.engine import STEPS_PER_SECOND
-from tmd.robot.sim.simulator import Simulator
+from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.skill_file import Skills
