@@ -172,10 +172,12 @@ class Performer(Protocol):
         """Return whether an instruction moves nothing but the robot itself."""
         ...
 
-    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
+    def perform(
+        self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int, later: Sequence[Instruction]
+    ) -> str:
         """Carry out an instruction for its ``gains``, and return the evidence of its event.
 
-        ``attempt`` is the number of earlier tries.
+        ``attempt`` is the number of earlier tries, ``later`` what is to be done afterwards.
 
         Raises:
             SkillError: It could not be done.
@@ -227,7 +229,7 @@ class Executor:
             tried = waiting[0][0] if waiting else None
             if tried is not None and first_broken(tried, state, self.problem) is None:
                 before = state
-                done, state = self._do(*waiting[0], state, attempt)
+                done, state = self._do(*waiting[0], state, attempt, [later for later, _ in waiting[1:]])
                 exact = self._exactly(done, before)
                 smooth = smooth and exact
                 attempt += 1
@@ -283,13 +285,15 @@ class Executor:
             state = apply(instruction, state, self.problem)
         return bool(waiting) and _satisfied(wanted, state)
 
-    def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
+    def _do(
+        self, instruction: Instruction, repair: bool, state: State, attempt: int, later: Sequence[Instruction]
+    ) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
         key = instruction, self.performer.situation()
         self.begin(instruction, predicted - state)
         try:
-            evidence = self.performer.perform(instruction, predicted - state, attempt)
+            evidence = self.performer.perform(instruction, predicted - state, attempt, later)
         except SkillError as error:
             failure = str(error)
             self._setbacks.failed(instruction, state, error.stage)

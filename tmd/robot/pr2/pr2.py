@@ -276,6 +276,15 @@ class Pr2:
         grip = self.tool(side).inverse() * self.sim.pose(body)
         self._held[side] = body, self.sim.weld(self.body, self.index[f"{side[0]}_gripper_palm_link"], body), grip
 
+    @contextmanager
+    def as_if_holding(self, side: str, body: int) -> Iterator[None]:
+        """Let planners take a body, as it is now, for one that a hand holds."""
+        self._held[side] = body, -1, self.tool(side).inverse() * self.sim.pose(body)
+        try:
+            yield
+        finally:
+            del self._held[side]
+
     def let_go(self, side: str) -> None:
         """Undo :meth:`hold`; the fingers stay where they are."""
         if side in self._held:
