@@ -13,8 +13,7 @@ from tmd.robot.monitor.executor import MOST_REPAIRS
 from tmd.robot.monitor.listeners import Listener, Order
 from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import Execution
-from tmd.robot.video.film import Film
-from tmd.robot.video.movie_file import MovieFile
+from tmd.robot.video.film import Film, MovieFile
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 

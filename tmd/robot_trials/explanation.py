@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
@@ -12,12 +12,12 @@ from pathlib import Path
 
 from tmd.files import write_text
 from tmd.pddl.model import GroundAtom
-from tmd.robot.assets.colours import robot_colour
+from tmd.robot.assets.features import robot_colour
 from tmd.robot.monitor.listeners import Title
 from tmd.robot.pr2.urdf import BASE_JOINTS, TORSO
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
-from tmd.robot.skills.results import ExecutedStep, Rejected
+from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.video.camera import FOV, Camera
 from tmd.view.markup import data, style, templates
 
@@ -82,24 +82,26 @@ class Explanation:
         template = templates().get_template("explanation.html.j2")
         write_text(path, template.render(heading=heading, failures=self._failures, style=style() + data("page.css")))
 
-    def _reject(self, rejected: Rejected) -> None:
-        key = rejected.what, self._place(rejected), rejected.met
+    def _reject(
+        self, what: str, met: frozenset[str], positions: Mapping[str, float], hand: tuple[str, Pose] | None
+    ) -> None:
+        key = what, self._place(positions, hand), met
         if key in self._ways:
             return
         if len(self._ways) == _MOST:
             self._more += 1
             return
-        with self._floating(*rejected.hand) if rejected.hand else self._cell.robot.as_if(rejected.positions):
-            self._camera.follow(self._names, wide=BASE_JOINTS[0] in rejected.positions)
-            self._ways[key] = _Way(*key[:2], tuple(sorted(rejected.met)), self._picture())
+        with self._floating(*hand) if hand else self._cell.robot.as_if(positions):
+            self._camera.follow(self._names, wide=BASE_JOINTS[0] in positions)
+            self._ways[key] = _Way(*key[:2], tuple(sorted(met)), self._picture())
 
-    def _place(self, rejected: Rejected) -> str:
-        if rejected.hand is not None:
-            side, tool = rejected.hand
+    def _place(self, positions: Mapping[str, float], hand: tuple[str, Pose] | None) -> str:
+        if hand is not None:
+            side, tool = hand
             return f"{side} hand at {' '.join(f'{value:.2f}' for value in tool.position)}"
-        base = [rejected.positions.get(joint) for joint in BASE_JOINTS]
+        base = [positions.get(joint) for joint in BASE_JOINTS]
         x, y, heading = (here if at is None else at for at, here in zip(base, self._cell.robot.base(), strict=True))
-        torso = rejected.positions.get(TORSO, self._cell.robot.torso())
+        torso = positions.get(TORSO, self._cell.robot.torso())
         return f"from {x:.2f} {y:.2f}, facing {degrees(heading):.0f}°, torso at {torso:.2f} m"
 
     def _picture(self) -> str:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from tmd.robot.pr2.collision import Ignored
 from tmd.robot.pr2.quick_checks import HandChecker
 from tmd.robot.sim.pose import Pose
-from tmd.robot.skills.results import Hand, Rejected
 from tmd.robot.skills.robot_context import Base, Cell
 
 # Maximum number of things that a message names.
@@ -48,30 +48,23 @@ class _Rejecter:
         self._cell, self._what = cell, what
         self.met: Counter[str] = Counter()
 
-    def add(self, touched: Iterable[tuple[int, int]], positions: Mapping[str, float], hand: Hand | None = None) -> None:
+    def add(
+        self, touched: Iterable[tuple[int, int]], positions: Mapping[str, float], hand: tuple[str, Pose] | None = None
+    ) -> None:
         """Add a way: what it touches, and where the robot, or only a hand, is then."""
         names = _names(self._cell, touched)
         self.met.update(names)
         if names:
-            self._cell.rejected(Rejected(self._what, frozenset(names), positions, hand))
+            self._cell.rejected(self._what, frozenset(names), positions, hand)
 
-    def look(
-        self,
-        *,
-        side: str | None = None,
-        arm: Sequence[float] | None = None,
-        base: Base | None = None,
-        torso: float | None = None,
-        ignore: Ignored = (),
-        margin: float = 0.0,
-        itself: bool = True,
-    ) -> None:
-        """Add the robot at some positions; the arguments are those of :meth:`Pr2.collides`."""
-        robot = self._cell.robot
-        found = robot.collides(side=side, arm=arm, base=base, torso=torso, ignore=ignore, margin=margin)
-        arms = {} if side is None or arm is None else dict(zip(robot.arm_joints[side], arm, strict=True))
-        met = [(body, link) for _, body, link, _ in found if itself or body != robot.body]
-        self.add(met, robot.elsewhere(base, torso) | arms)
+    def look(self, *, itself: bool = True, **at: Any) -> None:  # noqa: ANN401 - as they are there
+        """Add the robot at some positions; the arguments are those of :meth:`tmd.robot.pr2.pr2.Pr2.collides`."""
+        robot, arm = self._cell.robot, at.get("arm")
+        positions = robot.elsewhere(at.get("base"), at.get("torso"))
+        if arm is not None:
+            positions |= dict(zip(robot.arm_joints[at["side"]], arm, strict=True))
+        found = robot.collides(**at)
+        self.add([(body, link) for _, body, link, _ in found if itself or body != robot.body], positions)
 
 
 def of_hand(cell: Cell, ways: Sequence[tuple[str, Sequence[Pose], Ignored]]) -> str:
@@ -93,7 +86,7 @@ def of_arm(cell: Cell, side: str, pose: Pose, bases: Sequence[Base], ignore: Ign
         for arm in arms:
             found.look(side=side, arm=arm, base=base, ignore=ignore)
         if not arms:
-            cell.rejected(Rejected(f"the {side} arm does not reach", frozenset(), cell.robot.elsewhere(base)))
+            cell.rejected(f"the {side} arm does not reach", frozenset(), cell.robot.elsewhere(base), None)
     if not reached:
         return "it is out of reach of the arm from every place where there is room to stand"
     return named(found.met)

@@ -10,10 +10,9 @@ from math import acos, cos, degrees, hypot, pi
 from tmd.robot.assets.features import Region
 from tmd.robot.parameters import CONTACT, GRASP, POURING
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import Option, follow, with_room
+from tmd.robot.skills.stance_search import Option, follow, reach_for, with_room
 
 # Force of fingers that squeeze a bottle, in N·m.
 _SQUEEZE = 40.0

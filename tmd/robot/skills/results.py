@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
 from tmd.pddl.model import GroundAtom, Instruction, State
-from tmd.robot.sim.pose import Pose
 from tmd.short_repr import short_repr
 
 
@@ -37,27 +35,6 @@ class SkillError(Exception):
         super().__init__(f"{stage}: {reason}")
         self.stage = stage
         self.reason = reason
-
-
-# An arm, and the pose of its tool in the world.
-Hand = tuple[str, Pose]
-
-
-@dataclass(frozen=True, slots=True)
-class Rejected:
-    """A way to do something that was rejected, for reports.
-
-    Attributes:
-        what: What is where it cannot be.
-        met: The things that it would be in; empty if it is out of reach.
-        positions: Of the robot's joints that would be elsewhere then.
-        hand: The hand that would be in something, wherever the robot stands.
-    """
-
-    what: str
-    met: frozenset[str]
-    positions: Mapping[str, float]
-    hand: Hand | None = None
 
 
 class Basis(StrEnum):

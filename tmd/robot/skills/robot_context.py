@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from math import acos, cos, degrees, hypot, inf, sin
@@ -20,7 +20,7 @@ from tmd.robot.pr2.pr2 import ARMS, Pr2
 from tmd.robot.scene.scene import FLOOR, Handle, Scene
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, WELD_FORCE, Simulator
-from tmd.robot.skills.results import Rejected, SkillError, SkillPhase
+from tmd.robot.skills.results import SkillError, SkillPhase
 
 # Pose of the robot's base: x, y in metres, heading in radians.
 Base = tuple[float, float, float]
@@ -49,7 +49,9 @@ class Cell:
         unfit_grips: Tool poses in the item's frame then, or when its contents were lost.
         until: The simulation's count of work at which an instruction is given up.
         moment: Called at the event of an instruction: a press, a pour, a turn.
-        rejected: Called with ways that were rejected, when something fails and the reason is looked for.
+        rejected: Called with ways that were rejected, when something fails and the reason is looked for: what is where
+            it cannot be, the things that it would be in, positions of the robot's joints, and the arm and pose of a
+            hand that is in something wherever the robot stands.
     """
 
     sim: Simulator
@@ -62,7 +64,7 @@ class Cell:
     unfit_grips: dict[str, list[Pose]] = field(default_factory=dict)
     until: float = inf
     moment: Callable[[], None] = _nothing
-    rejected: Callable[[Rejected], None] = _nothing
+    rejected: Callable[[str, frozenset[str], Mapping[str, float], tuple[str, Pose] | None], None] = _nothing
     _leant: dict[str, float] = field(default_factory=dict)
     _loaded: set[str] = field(default_factory=set)
 
@@ -102,10 +104,9 @@ class Cell:
         if not self.scene.is_item(item) or not self.scene.stands(item) or self.tilt(item) <= CONTACT.upright:
             return False
         place = None if item in self.in_hand.values() else self.support(item)
-        return place is not None and place != (FLOOR, "on") and not self._heaped(place) and not self._shut_in(place)
-
-    def _heaped(self, place: tuple[str, str]) -> bool:
-        return any(region.heap for _, region in self.scene.regions(*place))
+        if place is None or place == (FLOOR, "on") or any(region.heap for _, region in self.scene.regions(*place)):
+            return False
+        return not self._shut_in(place)
 
     def _shut_in(self, place: tuple[str, str]) -> bool:
         whole, relation = self.whole(place[0]), place[1]
@@ -442,12 +443,13 @@ class Cell:
         body = self.scene.bodies[item]
         motion, place = self.sim.motion(body), self.sim.pose(body)
         self.sim.set_pose(body, self.robot.tool(side) * tool.inverse() * place)
+        self.robot.hold(side, body)
         self.in_hand[side] = item
         try:
-            with self.robot.as_if_holding(side, body):
-                yield
+            yield
         finally:
             del self.in_hand[side]
+            self.robot.let_go(side)
             self.sim.set_motion(body, motion)
 
     @contextmanager
