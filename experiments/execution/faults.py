@@ -141,15 +141,13 @@ class FaultyPerformer:
         """The robot's."""
         return self._performer.idle(instruction)
 
-    def perform(
-        self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int, later: Sequence[Instruction]
-    ) -> str:
+    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Do it, and perhaps let something go wrong; see :class:`tmd.robot.monitor.executor.Performer`."""
         index = self._index(instruction, attempt)
         if self.log or index is None or index < self._from or index not in self._possible:
-            return self._performer.perform(instruction, gains, attempt, later)
+            return self._performer.perform(instruction, gains, attempt)
         with self._trouble(index):
-            return self._performer.perform(instruction, gains, attempt, later)
+            return self._performer.perform(instruction, gains, attempt)
 
     def _index(self, instruction: Instruction, attempt: int) -> int | None:
         """Where in the plan an instruction stands; ``None`` for a repair."""

@@ -14,8 +14,7 @@ from tests.bundled import corpus
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.articulated import swing
-from tmd.robot.skills.navigate_and_look import drive
-from tmd.robot.skills.pick_and_place import pick, pick_options, place, place_options
+from tmd.robot.skills.pick_and_place import pick_options, place, place_options
 from tmd.robot.skills.results import SkillError
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import candidates, with_room
@@ -143,22 +142,6 @@ def test_what_is_held_askew_is_laid_down(cell: Cell) -> None:
     assert others and not with_room(cell, (*below, *others))
     assert place(cell, "spoon1", "counter2", "on", 0) == "spoon1 is on counter2"
     assert not cell.in_hand and cell.support("spoon1") == ("counter2", "on")
-
-
-def test_a_thing_is_taken_so_that_it_can_be_put_where_it_goes() -> None:
-    """The drawer is nearly full, and still shut: from the left hand the spoon would not get into it."""
-    room = corpus("living_room")
-    environment, problem = load_environment(room.file("room3")), room.world("room3").task.problem
-    with SimulationSession(environment, room.folder, problem, kinematic=True) as session:
-        cell = session.cell
-        drive(cell, "spoon1", 0)
-        others = [cell.scene.bodies[name] for name in ("drawer1", "dvd1", "remote1")]
-        before = [cell.sim.pose(body) for body in others]
-        assert pick_options(cell, "spoon1")[0].side == "left"
-        pick(cell, "spoon1", 0, ("drawer1", "in"))
-        assert cell.side_of("spoon1") == "right"
-        assert [cell.sim.pose(body) for body in others] == before
-        assert cell.is_open("drawer1") is False
 
 
 @pytest.mark.parametrize(("share", "is_open"), [(0.0, False), (0.04, False), (0.3, None), (0.55, None), (0.65, True)])

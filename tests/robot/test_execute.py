@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection
 from copy import copy
 from dataclasses import replace
 from pathlib import Path
@@ -39,9 +39,7 @@ class Truth:
         self.beside: set[str] = set()
         self.leaned: dict[str, float] = {}
 
-    def perform(
-        self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int, later: Sequence[Instruction]
-    ) -> str:
+    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         self.clock += 480
         for fault in list(self.faults):
             if fault(self, instruction):

@@ -78,8 +78,6 @@ class GraspParameters(NamedTuple):
     bar: float = 0.05
     # Grasps of a lying thing that are looked at.
     most_lying: int = 64
-    # Grasps of which it is found out whether the thing can be put to where it is to be.
-    most_foreseen: int = 4
     # Metres from which a thing is not a small one.
     tall: float = 0.12
     # Number of headings tried for a thing that is put down, tipped or dipped.

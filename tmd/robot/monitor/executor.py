@@ -172,12 +172,10 @@ class Performer(Protocol):
         """Return whether an instruction moves nothing but the robot itself."""
         ...
 
-    def perform(
-        self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int, later: Sequence[Instruction]
-    ) -> str:
+    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Carry out an instruction for its ``gains``, and return the evidence of its event.
 
-        ``attempt`` is the number of earlier tries, ``later`` what is to be done afterwards.
+        ``attempt`` is the number of earlier tries.
 
         Raises:
             SkillError: It could not be done.
@@ -229,7 +227,7 @@ class Executor:
             tried = waiting[0][0] if waiting else None
             if tried is not None and first_broken(tried, state, self.problem) is None:
                 before = state
-                done, state = self._do(*waiting[0], state, attempt, [later for later, _ in waiting[1:]])
+                done, state = self._do(*waiting[0], state, attempt)
                 # it did what was predicted, and no more
                 exact = not done.failure and all(self._beside(mismatch, before) for mismatch in done.mismatches)
                 smooth = smooth and exact
@@ -282,15 +280,13 @@ class Executor:
             state = apply(instruction, state, self.problem)
         return bool(waiting) and _satisfied(wanted, state)
 
-    def _do(
-        self, instruction: Instruction, repair: bool, state: State, attempt: int, later: Sequence[Instruction]
-    ) -> tuple[ExecutedStep, State]:
+    def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
         key = instruction, self.performer.situation()
         self.begin(instruction, predicted - state)
         try:
-            evidence = self.performer.perform(instruction, predicted - state, attempt, later)
+            evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
             failure = str(error)
             self._setbacks.failed(instruction, state, error.stage)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Sequence
+from collections.abc import Collection, Hashable
 from contextlib import suppress
 
 from tmd.pddl.model import GroundAtom, Instruction
@@ -44,14 +44,12 @@ class RobotPerformer:
         """See :class:`tmd.robot.monitor.executor.Performer`."""
         return self.skills.task(instruction).skill in ("look", "drive", "wait")
 
-    def perform(
-        self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int, later: Sequence[Instruction]
-    ) -> str:
+    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Carry it out; see :class:`tmd.robot.monitor.executor.Performer`."""
         task = self.skills.task(instruction)
         self.cell.until = self.cell.sim.work + 1e6 * INSTRUCTION_TIME
         try:
-            said = self._do(task, gains, attempt, later)
+            said = self._do(task, gains, attempt)
         except SkillError as error:
             if error.stage in (SkillPhase.STANCE, SkillPhase.PATH, SkillPhase.TIME):
                 self._remember(task)
@@ -90,15 +88,7 @@ class RobotPerformer:
             else:
                 cell.unfit_grips.setdefault(item, []).append(cell.in_tool(side, item).inverse())
 
-    def _goal(self, item: str, later: Sequence[Instruction]) -> tuple[str, str] | None:
-        """Return where an item is put next, if that is furniture: what, and the relation."""
-        tasks = map(self.skills.task, later)
-        put = next((each for each in tasks if each.skill == "place" and each.object == item), None)
-        if put is None or self.cell.scene.is_item(self.cell.whole(put.target)):
-            return None
-        return put.target, put.relation
-
-    def _do(self, task: SkillTask, gains: Collection[GroundAtom], attempt: int, later: Sequence[Instruction]) -> str:
+    def _do(self, task: SkillTask, gains: Collection[GroundAtom], attempt: int) -> str:
         cell, name = self.cell, task.object
         match task.skill:
             case "look":
@@ -108,7 +98,7 @@ class RobotPerformer:
             case "wait":
                 return navigate_and_look.wait(cell, task.seconds)
             case "pick":
-                return pick_and_place.pick(cell, name, attempt, self._goal(name, later))
+                return pick_and_place.pick(cell, name, attempt)
             case "place":
                 wet = any(self.skills.inferred.get(a.predicate) == "contents" and a.args[0] == name for a in gains)
                 return pick_and_place.place(cell, name, task.target, task.relation, attempt, filled=wet)

@@ -11,11 +11,11 @@ import numpy as np
 
 from tmd.robot.assets.features import Frame, Grasp
 from tmd.robot.assets.fittings import DOWN, INTO, TIP
-from tmd.robot.parameters import BASE_MOTION, CONTACT, GRASP, MOTOR
+from tmd.robot.parameters import CONTACT, GRASP, MOTOR
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import Links, Option, candidates, follow, reach, reach_for, with_room
+from tmd.robot.skills.stance_search import Links, Option, follow, reach, reach_for, with_room
 
 # Metres between the fingers of a hand that is about to take something.
 _OPEN = 0.08
@@ -27,8 +27,8 @@ _LEANS = (0.0, 0.6, -0.6, 1.1, -1.1)
 _ALIKE = (0.03, 0.5)
 
 
-def pick(cell: Cell, item: str, attempt: int, goal: tuple[str, str] | None = None) -> str:
-    """Take ``item`` into a free hand, best so that it can be put to its ``goal``, a thing and a relation.
+def pick(cell: Cell, item: str, attempt: int) -> str:
+    """Take ``item`` into a free hand.
 
     Raises:
         SkillError: It cannot be reached, or the fingers close on nothing.
@@ -40,7 +40,7 @@ def pick(cell: Cell, item: str, attempt: int, goal: tuple[str, str] | None = Non
     lies_by_bar = cell.tilt(item) > CONTACT.upright and any(map(_of_bar, cell.scene.grasps(item)))
     for side in cell.free():
         cell.robot.open_gripper(side, GRASP.bar if lies_by_bar else _OPEN)
-    chosen = _reach_to_put(cell, item, options, attempt, goal)
+    chosen = reach(cell, item, options, cell.sim.pose(body), cell.front(item), attempt)
     side = chosen.side
     cell.robot.close_gripper(side)
     if not cell.robot.touches(side, body):
@@ -59,39 +59,6 @@ def pick(cell: Cell, item: str, attempt: int, goal: tuple[str, str] | None = Non
     if cell.gap(side, item) > 0.03:
         raise SkillError(SkillPhase.EFFECT, f"{item} slipped out of the {side} hand")
     return f"{item} is in the {side} hand"
-
-
-def _reach_to_put(
-    cell: Cell, item: str, options: Sequence[Option], attempt: int, goal: tuple[str, str] | None
-) -> Option:
-    """Bring a hand to an item, if possible in a way of which it is known that it can be put to its goal."""
-    known: dict[tuple[str, int], bool] = {}
-
-    def suits(option: Option) -> bool:
-        key = option.side, option.spot
-        if goal is not None and key not in known and len(known) < GRASP.most_foreseen:
-            known[key] = _can_be_put(cell, option, item, *goal)
-        return known.get(key, True)
-
-    focus, front = cell.sim.pose(cell.scene.bodies[item]), cell.front(item)
-    try:
-        return reach(cell, item, options, focus, front, attempt, suits=suits)
-    except SkillError as error:
-        if error.stage is not SkillPhase.STANCE or all(known.values()):
-            raise
-    return reach(cell, item, options, focus, front, attempt)
-
-
-def _can_be_put(cell: Cell, taken: Option, item: str, target: str, relation: str) -> bool:
-    """Return whether an item that is taken in a way can be put to a place, once that is open, with all else as now."""
-    with cell.as_if_open(cell.whole(target)), cell.as_if_held(taken.side, item, taken.poses[-1]):
-        below, others = place_options(cell, taken.side, item, target, relation)
-        options = with_room(cell, [*below, *others])
-        if not options:
-            return False
-        focus = options[0].poses[-1] * cell.in_tool(taken.side, item)
-        found = candidates(cell, options, focus, cell.front(target), BASE_MOTION.brief_budget)
-        return next(found, None) is not None
 
 
 def pick_options(cell: Cell, item: str) -> list[Option]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from math import acos, cos, degrees, hypot, inf, sin
 from pathlib import Path
@@ -436,38 +436,6 @@ class Cell:
         way = min(max(self.way(name), 0.0), 1.0)
         neither = ", which is neither open nor shut" if self.ajar(name) else ""
         return f"{name} is {100 * way:.0f} % open{neither}"
-
-    @contextmanager
-    def as_if_held(self, side: str, item: str, tool: Pose) -> Iterator[None]:
-        """Treat an item as taken with the tool at a pose of the world, as long as the context is open."""
-        body = self.scene.bodies[item]
-        motion, place = self.sim.motion(body), self.sim.pose(body)
-        self.sim.set_pose(body, self.robot.tool(side) * tool.inverse() * place)
-        self.robot.hold(side, body)
-        self.in_hand[side] = item
-        try:
-            yield
-        finally:
-            del self.in_hand[side]
-            self.robot.let_go(side)
-            self.sim.set_motion(body, motion)
-
-    @contextmanager
-    def as_if_open(self, whole: str) -> Iterator[None]:
-        """Treat the doors and drawers of a thing as open, with what is in them, as long as the context is open."""
-        handles = [self.scene.handle(name) for name in self.scene.names() if self.whole(name) == whole]
-        with ExitStack() as undo:
-            for handle in handles:
-                if handle is None or handle.kind in ("knob", "button"):
-                    continue
-                body, link = handle.body, handle.index
-                undo.callback(self.sim.set_joint, body, link, self.sim.joint_position(body, link))
-                frame, inside = self.sim.pose(body, link), self.in_drawer(handle)
-                self.sim.set_joint(body, link, handle.open)
-                for item in inside:
-                    undo.callback(self.sim.set_motion, item, self.sim.motion(item))
-                    self.sim.set_pose(item, self.sim.pose(body, link) * frame.inverse() * self.sim.pose(item))
-            yield
 
     # what skills ask
 

@@ -74,7 +74,6 @@ def reach(
     stop: int | None = None,
     stay: bool = False,
     accept: Accept | None = None,
-    suits: Callable[[Option], bool] = lambda option: True,
 ) -> Option:
     """Bring a hand through the poses of one of the ``options``.
 
@@ -88,7 +87,6 @@ def reach(
         stop: Number of poses to go to; the others must be possible from there.
         stay: Neither the base nor the torso may move.
         accept: Returns whether an option from a base will do.
-        suits: Returns whether an option that is possible will do.
 
     Raises:
         SkillError: None can be reached (stance), there is no way (path), the robot did not get there (execution), or
@@ -101,7 +99,7 @@ def reach(
         raise SkillError(
             SkillPhase.STANCE, f"no hand fits in at {what}, {len(options)} ways were tried{_in_the_way(cell, options)}"
         )
-    found = candidates(cell, fitting, focus, front, what=what, stay=stay, accept=accept, suits=suits)
+    found = candidates(cell, fitting, focus, front, what=what, stay=stay, accept=accept)
     said: list[SkillError] = []
     failed: list[StanceCandidate] = []
     closed: list[Base] = []
@@ -193,7 +191,6 @@ def candidates(
     what: str = "it",
     stay: bool = False,
     accept: Accept | None = None,
-    suits: Callable[[Option], bool] = lambda option: True,
 ) -> Iterator[StanceCandidate]:
     """Yield options from places to stand for which all poses have postures without collisions.
 
@@ -215,7 +212,7 @@ def candidates(
                     continue
                 possible, price = _possible(cell, option, base, torso)
                 left -= price
-                if possible and suits(option):
+                if possible:
                     yield StanceCandidate(option, base, torso)
                     break
         if left < 0:
