@@ -47,6 +47,7 @@ class Cell:
         over_rim: For things that may lean now, whether nothing is lost where the mouth is.
         unfit_spots: Poses of items when something could not be done with them.
         unfit_grips: Tool poses in the item's frame then, or when its contents were lost.
+        way_in: Positions of each arm on its last straight way.
         until: The simulation's count of work at which an instruction is given up.
         moment: Called at the event of an instruction: a press, a pour, a turn.
         rejected: Called with ways that were rejected, when something fails and the reason is looked for: what is where
@@ -62,6 +63,7 @@ class Cell:
     over_rim: dict[str, Callable[[], bool]] = field(default_factory=dict)
     unfit_spots: dict[str, list[Pose]] = field(default_factory=dict)
     unfit_grips: dict[str, list[Pose]] = field(default_factory=dict)
+    way_in: dict[str, list[tuple[float, ...]]] = field(default_factory=dict)
     until: float = inf
     moment: Callable[[], None] = _nothing
     rejected: Callable[[str, frozenset[str], Mapping[str, float], tuple[str, Pose] | None], None] = _nothing

@@ -328,6 +328,7 @@ def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
     if not cell.robot.move_arm(side, path):
         place = " ".join(f"{value:.2f}" for value in poses[-1].position)
         raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {place}{_held_up(cell)}")
+    cell.way_in[side] = path
 
 
 def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int = 300) -> None:
