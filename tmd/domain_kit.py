@@ -191,6 +191,7 @@ class DomainKit:
         video: str | Path | None = None,
         strip: str | Path | None = None,
         trajectory: str | Path | None = None,
+        explain: str | Path | None = None,
         rate: float = 10.0,
         robot: str = "pr2",
         urdf: str | Path | None = None,
@@ -208,6 +209,7 @@ class DomainKit:
             video: Where a film goes, an MP4 or GIF file.
             strip: Where a sheet with one picture for each instruction goes, a PNG file.
             trajectory: Where joints, base and things are recorded: a .jsonl or .mcap (ROS 2) file.
+            explain: Where a page with pictures of what failed and why goes, an HTML file.
             rate: Samples of that a second of simulated time.
             robot: ``pr2`` or ``tiago_pro``.
             urdf: Another PR2 or TIAGo Pro than the packaged one.
@@ -245,6 +247,7 @@ class DomainKit:
             video=_path(video),
             strip=_path(strip),
             trajectory=_path(trajectory),
+            explain=_path(explain),
             rate=rate,
             robot=None if urdf else robot,
             urdf=_path(urdf),

@@ -18,8 +18,7 @@ from pathlib import Path
 from tmd.diagnostics import TmdError
 from tmd.robot.monitor.listeners import Listener, Order
 from tmd.robot.session import SimulationSession
-from tmd.robot.sim.engine import STEPS_PER_SECOND
-from tmd.robot.sim.rendering import egl_starts
+from tmd.robot.sim.simulator import STEPS_PER_SECOND, egl_starts
 from tmd.robot.video.film import Film, open_movie
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration

@@ -14,7 +14,7 @@ import numpy as np
 
 from experiments.execution.recorder import Array, Frame, Recorder, Step
 from tmd.pddl.model import GroundAtom, State
-from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.results import Execution, SkillStatus
 
 UPRIGHT = 15.0

@@ -10,6 +10,8 @@ import signal
 import subprocess
 import sys
 import time
+from base64 import b64decode
+from io import BytesIO
 from pathlib import Path
 
 import pytest
@@ -143,13 +145,22 @@ def test_a_thing_out_of_reach_is_told_with_what_is_in_the_way(tmd: Tmd, tmp_path
         "  mug1: {class: mug, at: on table2, position: [3.55, 0.0, 0.74]}\n"
     )
     plan.write_text("(find mug1)\n(moveto mug1)\n(grasp mug1)\n")
-    ended = tmd("run", "--environment", "far.yaml", "--kinematic", "--plan", plan, "--repairs", "0")
+    options = ("--kinematic", "--plan", plan, "--repairs", "0", "--explain", "why.html")
+    ended = tmd("run", "--environment", "far.yaml", *options)
     assert ended.code == ExitCode.NOT_EXECUTED, ended.err
     assert re.search(
         r"^stopped: .*grasp\(mug1\) failed: stance: no place to stand reaches mug1, .* table1 .*in the way",
         ended.out,
         re.MULTILINE,
     ), ended.out
+    from PIL import Image
+
+    page = (tmp_path / "why.html").read_text()
+    assert "grasp(mug1)" in page
+    assert re.search(r"<b>a place to stand</b>, from [^<]*: in table1", page)
+    pictures = re.findall(r'src="data:image/jpeg;base64,([^"]+)"', page)
+    assert pictures, "no way has a picture"
+    assert {Image.open(BytesIO(b64decode(each))).size for each in pictures} == {(400, 300)}
 
 
 @pytest.mark.usefixtures("robot")

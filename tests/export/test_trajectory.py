@@ -75,8 +75,14 @@ def test_mcap_is_read_back_as_ros_2_messages(recorded: dict[str, Path]) -> None:
     assert transforms["base_footprint"].translation.x == pytest.approx(lines[-1].base[0], abs=1e-6)
     assert set(transforms) > {"pot1", "cup1"}
     assert {frame.child_frame_id for frame in found["/tf_static"][0][1].transforms} >= {"fridge1", "counter1"}
-    joints = {joint.get("name") for joint in ET.fromstring(found["/robot_description"][0][1].data).iter("joint")}
-    assert joints >= set(states[0][1].name)
+    robot = ET.fromstring(found["/robot_description"][0][1].data)
+    assert {joint.get("name") for joint in robot.iter("joint")} >= set(states[0][1].name)
+    parents = {frame.child_frame_id: frame.header.frame_id for frame in found["/tf"][-1][1].transforms}
+    parents |= {frame.child_frame_id: frame.header.frame_id for frame in found["/tf_static"][0][1].transforms}
+    assert {link.get("name") for link in robot.findall("link")} <= set(parents)
+    for name in list(parents):
+        while name != "map":
+            name = parents[name]
     with recorded[".mcap"].open("rb") as file:
         channels = make_reader(file).get_summary().channels.values()
     profiles = {

@@ -10,7 +10,8 @@ import pytest
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
-from tests.bundled import corpus
+from tests.bundled import corpus, kit
+from tmd.pddl.model import Instruction
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.articulated import swing
@@ -142,6 +143,15 @@ def test_what_is_held_askew_is_laid_down(cell: Cell) -> None:
     assert others and not with_room(cell, (*below, *others))
     assert place(cell, "spoon1", "counter2", "on", 0) == "spoon1 is on counter2"
     assert not cell.in_hand and cell.support("spoon1") == ("counter2", "on")
+
+
+def test_what_is_dipped_comes_back_as_it_went_in() -> None:
+    """Other postures for the same poses would lead to where the arm has to turn over, and the spoon would be tilted."""
+    steps = [("find", "spoon1"), ("moveto", "spoon1"), ("grasp", "spoon1"), ("find", "coffee_jar1")]
+    steps += [("moveto", "coffee_jar1"), ("open", "coffee_jar1"), ("scoopfrom", "spoon1", "coffee_jar1")]
+    room = ROOT / "experiments" / "execution" / "environments" / "crowded_counter.yaml"
+    run = kit("kitchen").run_plan([Instruction(name, tuple(args)) for name, *args in steps], room, kinematic=True)
+    assert (run.execution.status, run.execution.repairs) == ("done", 0)
 
 
 @pytest.mark.parametrize(("share", "is_open"), [(0.0, False), (0.04, False), (0.3, None), (0.55, None), (0.65, True)])

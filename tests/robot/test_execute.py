@@ -17,8 +17,7 @@ from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Setbacks, without
-from tmd.robot.monitor.inference import FactInference
-from tmd.robot.monitor.observation import Observer
+from tmd.robot.monitor.observation import FactInference, Observer
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillPhase, SkillStatus
 from tmd.robot.skills.skill_file import load_skills
 from tmd.world.corpus import Corpus

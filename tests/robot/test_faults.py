@@ -19,11 +19,10 @@ from experiments.execution.report import claimed_falsely, masked, report, seen
 from experiments.execution.run import corpus, holds, run, skills_of
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.pddl.model import GroundAtom, Instruction
-from tmd.robot.monitor.inference import Basis, KnownEffect
 from tmd.robot.monitor.listeners import Title
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
-from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
+from tmd.robot.skills.results import Basis, ExecutedStep, Execution, KnownEffect, SkillStatus
 from tmd.world.roots import Roots
 
 NOOK, DEN = (str(Path(__file__).parent / f"{name}.yaml") for name in ("nook", "den"))

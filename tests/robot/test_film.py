@@ -28,8 +28,7 @@ from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 from tmd.robot.video.camera import Camera
 from tmd.robot.video.captions import Caption, caption_height, filmstrip, under
-from tmd.robot.video.film import Film, open_movie
-from tmd.robot.video.movie_file import MovieFile
+from tmd.robot.video.film import Film, MovieFile, open_movie
 from tmd.world.roots import Roots
 
 if TYPE_CHECKING:

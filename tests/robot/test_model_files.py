@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tmd.check.checker import Checker
 from tmd.diagnostics import TmdError
 from tmd.domain_kit import DomainKit
 from tmd.pddl.reading.reader import with_goal
@@ -179,7 +180,7 @@ WRONG = {
         {"mug": "{mesh: mug.obj, scale: 0.03937}"},
         r"no hand fits round it.*`scale: 0\.000999998`.*inch.*or say under `grasps:`",
     ),
-    "xacro": ({"cabinet": "{urdf: macro.urdf}"}, r".*macro\.urdf is a xacro, not a URDF \(expand it"),
+    "xacro": ({"cabinet": "{urdf: macro.urdf}"}, r".*macro\.urdf is a xacro, not a URDF \(.* > macro_expanded\.urdf"),
     "degrees": ({"cabinet": "{urdf: degrees.urdf}"}, r".*joint 'hinge' has a limit of 90 \(limits are in radians"),
     "no-limits": ({"cabinet": "{urdf: loose.urdf}"}, r".*joint 'hinge' cannot move: .*<limit lower"),
     "beside-the-bar": (
@@ -236,6 +237,16 @@ def test_what_is_wrong_with_a_file_is_told_with_its_place(kitchen: Kitchen, shap
     assert place is not None
     line = (folder.path / "objects.yaml").read_text().splitlines()[place.line - 1]
     assert "shape:" in line
+
+
+def test_a_wrong_value_in_one_shape_does_not_hide_the_faults_of_others(kitchen: Kitchen) -> None:
+    folder = kitchen(mug=MUG.replace("0.001", "[1, 1, 1]"), cabinet="{urdf: gone.urdf}")
+    checker = Checker()
+    checker.check(folder.path / "objects.yaml")
+    faults = [finding.message for finding in checker.findings.sorted()]
+    assert len(faults) == 2
+    assert "shape.scale: should be a valid number" in faults[0]
+    assert "there is no file" in faults[1]
 
 
 def test_the_frame_of_a_joint_may_be_turned() -> None:

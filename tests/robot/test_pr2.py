@@ -11,12 +11,11 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
-from tmd.robot.pr2.posture import tuck
+from tmd.robot.pr2.arm_motion import tuck
 from tmd.robot.pr2.pr2 import Pr2
 from tmd.robot.pr2.urdf import TUCKED
 from tmd.robot.sim.pose import Pose
-from tmd.robot.sim.rendering import pybullet
-from tmd.robot.sim.simulator import Simulator
+from tmd.robot.sim.simulator import Simulator, pybullet
 
 Box = Callable[..., int]
 DOWN = (0.0, 0.7071067811865476, 0.0, 0.7071067811865476)

@@ -10,9 +10,8 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
-from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.pr2.pr2 import Pr2
-from tmd.robot.pr2.reach_bounds import Wrists
+from tmd.robot.pr2.quick_checks import HandChecker, Wrists
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 

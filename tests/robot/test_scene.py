@@ -11,7 +11,7 @@ import pytest
 
 from tmd.diagnostics import TmdError
 from tmd.robot.sim.pose import Pose
-from tmd.robot.sim.rendering import pybullet
+from tmd.robot.sim.simulator import pybullet
 from tmd.world.environment import Environment, load_environment
 from tmd.world.folder import DomainFolder
 

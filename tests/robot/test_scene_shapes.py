@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.robot.assets.colours import PALETTE, mixed, rgba
+from tmd.robot.assets.features import PALETTE, mixed, rgba
 from tmd.robot.assets.kinds import KINDS
 from tmd.robot.assets.shapes import Shapes
 from tmd.world.compile import compile_domain

@@ -14,8 +14,7 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
 from tmd.diagnostics import MissingToolError, TmdError
-from tmd.robot.sim import rendering
-from tmd.robot.sim.simulator import Pose, Simulator
+from tmd.robot.sim.simulator import Pose, Simulator, pybullet, window_opens
 
 Box = Callable[..., int]
 
@@ -39,7 +38,7 @@ def test_bodies_fall_and_rest(sim: Simulator, box: Box) -> None:
     sim.step(240)
     assert seen == list(range(1, 241))
     assert sim.pose(body).position[2] == pytest.approx(0, abs=2e-3)
-    points = rendering.pybullet().getContactPoints(body, floor, physicsClientId=sim.client)
+    points = pybullet().getContactPoints(body, floor, physicsClientId=sim.client)
     assert sum(point[9] for point in points) == pytest.approx(0.3 * 9.81, rel=0.05)
 
 
@@ -99,18 +98,18 @@ def test_without_pybullet_it_says_what_to_install(monkeypatch: pytest.MonkeyPatc
     def fail(name: str) -> None:
         raise ImportError(name)
 
-    rendering.pybullet.cache_clear()
+    pybullet.cache_clear()
     monkeypatch.setattr(importlib, "import_module", fail)
     with pytest.raises(MissingToolError, match=r"tell-me-dave\[robot\]"):
-        rendering.pybullet()
+        pybullet()
 
 
 def test_a_window_without_a_display_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("DISPLAY", raising=False)
-    rendering.window_opens.cache_clear()
+    window_opens.cache_clear()
     with pytest.raises(MissingToolError, match="--video"):
         Simulator(gui=True)
-    rendering.window_opens.cache_clear()
+    window_opens.cache_clear()
 
 
 def test_nothing_is_printed() -> None:

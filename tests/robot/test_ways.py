@@ -15,7 +15,7 @@ pytest.importorskip("pybullet", reason="needs the extra robot")
 
 from tests.bundled import corpus
 from tmd.robot.monitor.observation import REACH
-from tmd.robot.pr2.gripper_clearance import HandChecker
+from tmd.robot.pr2.quick_checks import HandChecker
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.articulated import swing_options

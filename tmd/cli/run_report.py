@@ -23,11 +23,10 @@ from tmd.records.run import (
     StepEvent,
     how_it_ended,
 )
-from tmd.robot.monitor.inference import Basis
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.session import SimulationSession
-from tmd.robot.sim.engine import STEPS_PER_SECOND
-from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
+from tmd.robot.sim.simulator import STEPS_PER_SECOND
+from tmd.robot.skills.results import Basis, ExecutedStep, Execution, SkillStatus
 from tmd.robot_trials.plan_runner import StepRecorder
 
 _FACTS = 2

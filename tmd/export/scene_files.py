@@ -17,8 +17,8 @@ import yaml
 
 from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.pddl.reading.syntax import nearest
-from tmd.robot.assets.room import build_room
 from tmd.robot.pr2.kinematics import angles
+from tmd.robot.scene.furniture_layout import build_room
 from tmd.robot.scene.scene import Scene
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator

@@ -8,6 +8,7 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from math import cos, sin
 from pathlib import Path
@@ -17,6 +18,7 @@ from typing import IO, Any, Self
 from tmd.diagnostics import MissingToolError, OutputError, install_extra
 from tmd.files import writing
 from tmd.records.trajectory import SampleLine, SceneLine, pose_record
+from tmd.robot.pr2.kinematics import Array, Link, Tree, motion
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.state_recorder import Recorded, Sample, StateRecorder
@@ -156,8 +158,11 @@ class _Mcap(TrajectoryFile):
         self._string = self._writer.register_msgdef("std_msgs/msg/String", _STRING)
         self._latch("/robot_description", self._string)
         self._latch("/tf_static", self._tf)
-        self._send("/robot_description", self._string, {"data": what.robot.read_text(encoding="utf-8")}, 0.0)
+        urdf = what.robot.read_text(encoding="utf-8")
+        self._send("/robot_description", self._string, {"data": urdf}, 0.0)
         frames = [_transform(0.0, name, pose) for name, pose in what.fixtures.items()]
+        self._links, still = _links(ET.fromstring(urdf))
+        frames += [_transform(0.0, name, Pose.from_matrix(frame), parent) for name, (parent, frame) in still.items()]
         self._send("/tf_static", self._tf, {"transforms": frames}, 0.0)
 
     def _latch(self, topic: str, schema: Any) -> None:  # noqa: ANN401 - theirs
@@ -177,6 +182,9 @@ class _Mcap(TrajectoryFile):
         self._send("/object_joint_states", self._joints, things, time)
         frames = [_transform(time, BASE, _base(sample))]
         frames += [_transform(time, name, pose) for name, pose in sample.objects.items()]
+        for link, leader, factor, shift in self._links:
+            frame = link.origin @ motion(link, factor * sample.joints.get(leader, 0.0) + shift)
+            frames.append(_transform(time, link.name, Pose.from_matrix(frame), link.parent))
         self._send("/tf", self._tf, {"transforms": frames}, time)
 
     def _send(self, topic: str, schema: Any, message: Mapping[str, object], time: float) -> None:  # noqa: ANN401 - theirs
@@ -197,10 +205,27 @@ def _joint_state(time: float, positions: Mapping[str, float], velocities: Mappin
     }
 
 
-def _transform(time: float, name: str, pose: Pose) -> dict[str, object]:
+def _links(robot: ET.Element) -> tuple[list[tuple[Link, str, float, float]], dict[str, tuple[str, Array]]]:
+    """Return the links on joints that move, and those on fixed joints with their parents and frames.
+
+    Each of the first has the joint that moves it, and factor and shift from the position there: of a joint that
+    mimics another one, these are the other's.
+    """
+    moving, still = [], {}
+    mimics = {joint.get("name"): mimic for joint in robot.findall("joint") for mimic in joint.findall("mimic")}
+    for link in Tree(robot).links.values():
+        if link.kind in ("revolute", "continuous", "prismatic"):
+            of = mimics.get(link.joint, ET.Element("mimic", joint=link.joint)).attrib
+            moving.append((link, of["joint"], float(of.get("multiplier", 1)), float(of.get("offset", 0))))
+        else:
+            still[link.name] = link.parent, link.origin
+    return moving, still
+
+
+def _transform(time: float, name: str, pose: Pose, parent: str = WORLD) -> dict[str, object]:
     x, y, z, qx, qy, qz, qw = pose_record(pose)
     return {
-        "header": {"stamp": _stamp(time), "frame_id": WORLD},
+        "header": {"stamp": _stamp(time), "frame_id": parent},
         "child_frame_id": name,
         "transform": {"translation": {"x": x, "y": y, "z": z}, "rotation": {"x": qx, "y": qy, "z": qz, "w": qw}},
     }

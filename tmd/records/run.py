@@ -11,7 +11,7 @@ from tmd.diagnostics import Location, TmdError
 from tmd.json_record import JsonRecord, json_value
 from tmd.pddl.model import Instruction
 from tmd.records.grounding import GroundingRecord, InstructionRecord
-from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.short_repr import short_repr
 
 if TYPE_CHECKING:

@@ -5,11 +5,10 @@ Metres, radians, newtons and seconds unless it says otherwise. Sequences are tri
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True, slots=True)
-class StanceParameters:
+class StanceParameters(NamedTuple):
     """Search for a base pose from which a hand gets to something."""
 
     # Metres from the base to what is to be reached, best first.
@@ -46,8 +45,7 @@ class StanceParameters:
     torso_step: float = 0.04
 
 
-@dataclass(frozen=True, slots=True)
-class GraspParameters:
+class GraspParameters(NamedTuple):
     """Taking, lifting and putting down."""
 
     # Metres from which a hand goes straight to what it takes.
@@ -90,8 +88,7 @@ class GraspParameters:
     lid_force: float = 1.0
 
 
-@dataclass(frozen=True, slots=True)
-class ArticulationParameters:
+class ArticulationParameters(NamedTuple):
     """Doors, drawers, lids, handles, buttons and knobs."""
 
     # Metres from which a hand goes straight to a handle or a button.
@@ -134,8 +131,7 @@ class ArticulationParameters:
     sweep_margin: float = 0.015
 
 
-@dataclass(frozen=True, slots=True)
-class PouringParameters:
+class PouringParameters(NamedTuple):
     """Pouring, and dipping a spoon."""
 
     # Metres between a rim and the mouth that is tipped over it, and from the middle of the rim to below the mouth on
@@ -179,8 +175,7 @@ class PouringParameters:
     stages: int = 4
 
 
-@dataclass(frozen=True, slots=True)
-class BaseMotionParameters:
+class BaseMotionParameters(NamedTuple):
     """Driving and looking round."""
 
     # Stances that a base drives to before it gives up.
@@ -227,8 +222,7 @@ class BaseMotionParameters:
     turn_cost: float = 0.35
 
 
-@dataclass(frozen=True, slots=True)
-class ArmMotionParameters:
+class ArmMotionParameters(NamedTuple):
     """Paths of an arm, tucked arms, and carrying."""
 
     # Metres that planned motions keep from things, where their start and their goal do.
@@ -281,8 +275,7 @@ class ArmMotionParameters:
     tuck_samples: int = 300
 
 
-@dataclass(frozen=True, slots=True)
-class InverseKinematicsParameters:
+class InverseKinematicsParameters(NamedTuple):
     """The inverse kinematics of an arm."""
 
     # Pans of the shoulder that are tried.
@@ -305,8 +298,7 @@ class InverseKinematicsParameters:
     smooth: float = 0.25
 
 
-@dataclass(frozen=True, slots=True)
-class ContactParameters:
+class ContactParameters(NamedTuple):
     """Definition of contact and rest."""
 
     # Metres: surfaces that are not deeper in each other than this do not collide.
@@ -329,8 +321,7 @@ class ContactParameters:
     settle_checks: int = 80
 
 
-@dataclass(frozen=True, slots=True)
-class MotorParameters:
+class MotorParameters(NamedTuple):
     """Motors and grippers."""
 
     # The part of a position error that a motor removes in one step.
@@ -351,15 +342,9 @@ class MotorParameters:
     finger_lag: float = 0.04
 
 
-@dataclass(frozen=True, slots=True)
-class TimeParameters:
-    """Budgets of computing."""
-
-    # Seconds of computing after which an instruction is given up, by the simulation's count of work: counted, so that a
-    # slow machine gets the same result.
-    instruction: float = 40.0
-
-
+# Seconds of computing after which an instruction is given up, by the simulation's count of work: counted, so that a
+# slow machine gets the same result.
+INSTRUCTION_TIME = 40.0
 STANCE = StanceParameters()
 GRASP = GraspParameters()
 ARTICULATION = ArticulationParameters()
@@ -369,4 +354,3 @@ ARM_MOTION = ArmMotionParameters()
 IK = InverseKinematicsParameters()
 CONTACT = ContactParameters()
 MOTOR = MotorParameters()
-TIME = TimeParameters()

@@ -13,8 +13,7 @@ from tmd.robot.monitor.executor import MOST_REPAIRS
 from tmd.robot.monitor.listeners import Listener, Order
 from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import Execution
-from tmd.robot.video.film import Film
-from tmd.robot.video.movie_file import MovieFile
+from tmd.robot.video.film import Film, MovieFile
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
@@ -54,6 +53,7 @@ def run_plan(
     seed: int = 0,
     urdf: Path | None = None,
     gui: bool = False,
+    pictures: bool = False,
 ) -> PlanRun:
     """Carry out a plan in a new simulation, each effect checked.
 
@@ -69,7 +69,7 @@ def run_plan(
         session = stack.enter_context(
             SimulationSession(
                 environment, folder, problem, kinematic=kinematic, seed=seed, urdf=urdf, gui=gui,
-                pictures=filming is not None,
+                pictures=pictures or filming is not None,
             )
         )  # fmt: skip
         listeners = list(prepare(session)) if prepare is not None else []

@@ -15,8 +15,7 @@ from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Performer
 from tmd.robot.monitor.listeners import Listener, Order, Recorder
 from tmd.robot.monitor.observation import Observer
 from tmd.robot.scene.scene import Scene
-from tmd.robot.sim.engine import STEPS_PER_SECOND
-from tmd.robot.sim.simulator import Simulator
+from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
 from tmd.robot.skills.performer import RobotPerformer
 from tmd.robot.skills.results import ExecutedStep, Execution
 from tmd.robot.skills.robot_context import make_cell

@@ -11,9 +11,8 @@ from tmd.pddl.model import GroundAtom
 from tmd.robot.monitor.listeners import Title
 from tmd.robot.pr2.urdf import BASE_JOINTS
 from tmd.robot.session import TICK, SimulationSession
-from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.pose import Pose
-from tmd.robot.sim.simulator import Simulator
+from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
 from tmd.robot.skills.results import ExecutedStep
 
 

@@ -16,12 +16,14 @@ from tmd.pddl.model import GroundAtom, Problem
 from tmd.planning.backends import IN_PROCESS
 from tmd.records.run import OrderRecord, RanStep, RunRequest
 from tmd.robot.monitor.executor import MOST_REPAIRS
-from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.monitor.listeners import Listener, Order, Title
 from tmd.robot.pr2.urdf import packaged_robot
 from tmd.robot.run_plan import Filming, PlanRun, Prepare, run_plan
+from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.video.captions import pillow
 from tmd.robot.video.film import open_movie
+from tmd.robot_trials.explanation import Explanation
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
@@ -58,19 +60,20 @@ class PlanRunner:
     video: Path | None = None
     strip: Path | None = None
     trajectory: Path | None = None
+    explain: Path | None = None
     rate: float | None = None
     robot: str | None = None
     urdf: Path | None = None
     gui: bool = False
 
     def __enter__(self) -> Self:
-        for output in filter(None, (self.video, self.strip, self.trajectory)):
+        for output in filter(None, (self.video, self.strip, self.trajectory, self.explain)):
             check_writable(output)
         if self.trajectory is not None and self.trajectory.suffix not in SUFFIXES:
             raise TmdError(f"{self.trajectory}: a trajectory ends in one of {', '.join(SUFFIXES)}")
         if self.robot is not None:
             self.urdf = packaged_robot(self.robot)
-        if self.strip is not None:
+        if self.strip is not None or self.explain is not None:
             pillow()
         self._stack = ExitStack()
         self._recording = self._stack.enter_context(open_trajectory(self.trajectory)) if self.trajectory else None
@@ -108,17 +111,29 @@ class PlanRunner:
             TmdError: The domain has no skills or no shapes, or the scene cannot be built.
         """
         recording, rate, filmed = self._recording, self.rate or DEFAULT_RATE, self._movie or self.strip
-        return run_plan(
-            self.room,
-            self.folder,
-            self.problem,
-            orders,
-            prepare=lambda session: (*prepare(session), *recorders(session, recording, rate)),
-            filming=Filming(heading, text, self._movie, self.strip) if filmed else None,
-            planner=self.planner,
-            repairs=self.repairs,
-            kinematic=self.kinematic,
-            seed=self.seed,
-            urdf=self.urdf,
-            gui=self.gui,
-        )
+        explained: list[Explanation] = []
+
+        def listeners(session: SimulationSession) -> Sequence[Listener]:
+            explained.extend([Explanation(session)] if self.explain is not None else [])
+            return (*prepare(session), *recorders(session, recording, rate), *explained)
+
+        try:
+            return run_plan(
+                self.room,
+                self.folder,
+                self.problem,
+                orders,
+                prepare=listeners,
+                filming=Filming(heading, text, self._movie, self.strip) if filmed else None,
+                planner=self.planner,
+                repairs=self.repairs,
+                kinematic=self.kinematic,
+                seed=self.seed,
+                urdf=self.urdf,
+                gui=self.gui,
+                pictures=self.explain is not None,
+            )
+        finally:
+            for explanation in explained:
+                assert self.explain is not None
+                explanation.write(self.explain, heading)

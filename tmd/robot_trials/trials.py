@@ -23,10 +23,9 @@ from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Skip, Trial, TrialRequest
 from tmd.robot.monitor.listeners import Order
 from tmd.robot.run_plan import Filming, run_plan
-from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.skill_file import load_skills
-from tmd.robot.video.film import open_movie
-from tmd.robot.video.movie_file import MovieFile
+from tmd.robot.video.film import MovieFile, open_movie
 from tmd.robot_trials.plan_runner import StepRecorder
 from tmd.world.corpus import Corpus
 from tmd.world.environment import load_environment

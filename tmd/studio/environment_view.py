@@ -11,7 +11,7 @@ from threading import Lock
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.task import Bits
-from tmd.robot.assets.room import build_room
+from tmd.robot.scene.furniture_layout import build_room
 from tmd.robot.skills.skill_file import visible
 from tmd.robot.video.symbolic_renderer import Picture, Still
 from tmd.studio.view3d.meshes import MeshPiece, pieces

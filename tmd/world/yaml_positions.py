@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
@@ -39,8 +39,10 @@ class YamlSource(Reporting):
         self._lines = self.text.splitlines()
         self._root = compose(self.text, str(path))
 
-    def load(self, model: type[Model]) -> Model:
+    def load(self, model: type[Model], optional: str = "") -> Model:
         """Return the file as ``model``.
+
+        Where faults are reported, the values of ``optional`` keys that do not fit are left out.
 
         Raises:
             TmdError: With the place of the first key that does not fit.
@@ -50,14 +52,19 @@ class YamlSource(Reporting):
                 f"{self.path}: the file is empty", code="empty-file", hint="see docs/domains.md for what belongs in it"
             )
         loader = Loader("")  # constructs the values of the nodes, without reading the text again
+        data: Any = None
         try:
-            return model.model_validate(loader.construct_document(self._root))
+            data = loader.construct_document(self._root)
+            return model.model_validate(data)
         except yaml.YAMLError as error:
             raise from_yaml(error, self.text, str(self.path)) from None
         except ValidationError as error:
             first, *others = self._from_model(error)
             for other in others if self.report is not None else ():
                 self.fault(other)
+            if self.report is not None and optional and _left_out(data, error, optional):
+                self.fault(first)
+                return model.model_validate(data)
             raise first from None
         finally:
             loader.dispose()
@@ -107,6 +114,7 @@ class YamlSource(Reporting):
 _MAPPING = "write `key: value`, a line each, further in than the line above"
 _HINTS = {
     "missing": "see docs/domains.md for what belongs there",
+    "float_type": "write one number, such as 0.5",
     "string_type": "put it into quotes",
     "list_type": "write [a, b], or a line with `- ` for each",
     "tuple_type": "write [a, b], or a line with `- ` for each",
@@ -116,6 +124,19 @@ _HINTS = {
     "mapping_type": _MAPPING,
     "string_pattern_mismatch": "a name has small letters, digits and _, a letter first; a colour is like '#a0c4ff'",
 }
+
+
+def _left_out(data: Any, error: ValidationError, key: str) -> bool:  # noqa: ANN401 - as YAML has it
+    """Leave out the values of ``key`` that have faults; return whether there are no other faults."""
+    paths = [fault["loc"] for fault in error.errors(include_url=False)]
+    if not all(key in path for path in paths):
+        return False
+    for path in {path[: path.index(key)] for path in paths}:
+        owner = data
+        for part in path:
+            owner = owner[part]
+        owner.pop(key, None)
+    return True
 
 
 def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mark] | None:

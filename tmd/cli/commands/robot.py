@@ -57,6 +57,9 @@ def _ending(*suffixes: str) -> Callable[[click.Context, click.Parameter, Path | 
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
 @click.option("--video", type=PATH, callback=_ending(".mp4", ".gif"), metavar="FILE", help="Film: out.mp4 or out.gif.")
 @click.option("--strip", type=PATH, callback=_ending(".png"), metavar="FILE", help="A picture for each instruction.")
+@click.option(
+    "--explain", type=PATH, callback=_ending(".html"), metavar="FILE", help="A page of rejected ways: out.html."
+)
 @click.option("--log", type=PATH, metavar="FILE", help="Write every step to a JSON Lines file.")
 @click.option(
     "--trajectory",

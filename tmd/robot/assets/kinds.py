@@ -10,23 +10,16 @@ from tmd.robot.assets.things import block, egg, remote, sack, strapped, tin, ute
 from tmd.robot.assets.vessels import bottle, bowl, capped_bottle, carafe, carton, cup, jar, kettle, pot, sugar_bowl
 
 _Size = tuple[float, float, float]
+_Takes = tuple[tuple[str, int], ...]
 
 
-def _fixture(
-    build: Builder, kind: str, size: _Size, colour: str, accent: str, takes: tuple[tuple[str, int], ...] = ()
-) -> ShapeKind:
+def _fixture(build: Builder, kind: str, size: _Size, colour: str, accent: str, takes: _Takes = ()) -> ShapeKind:
     return ShapeKind("fixture", Appearance(kind, size, colour, accent, 20.0), build, takes)
 
 
 def _item(
-    build: Builder,
-    kind: str,
-    size: _Size,
-    colour: str,
-    accent: str,
-    mass: float,
-    takes: tuple[tuple[str, int], ...] = (),
-) -> ShapeKind:
+    build: Builder, kind: str, size: _Size, colour: str, accent: str, mass: float, takes: _Takes = ()
+) -> ShapeKind:  # fmt: skip
     return ShapeKind("item", Appearance(kind, size, colour, accent, mass), build, takes)
 
 

@@ -15,7 +15,7 @@ from tmd.diagnostics import TmdError
 from tmd.files import real
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.assets.appearance import Appearance, Parts, ShapeKind
-from tmd.robot.assets.colours import PALETTE
+from tmd.robot.assets.features import PALETTE
 from tmd.robot.assets.kinds import KINDS
 from tmd.robot.assets.urdf_builder import ROOT as URDF_ROOT
 from tmd.robot.assets.urdf_builder import UrdfModel

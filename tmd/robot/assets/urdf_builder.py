@@ -12,8 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from tmd.robot.assets.colours import rgba
-from tmd.robot.assets.features import Grasp, Grip, Lamp, Opening, Region
+from tmd.robot.assets.features import Grasp, Grip, Lamp, Opening, Region, rgba
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.urdf_files import CUBE
 

@@ -228,7 +228,8 @@ class Executor:
             if tried is not None and first_broken(tried, state, self.problem) is None:
                 before = state
                 done, state = self._do(*waiting[0], state, attempt)
-                exact = self._exactly(done, before)
+                # it did what was predicted, and no more
+                exact = not done.failure and all(self._beside(mismatch, before) for mismatch in done.mismatches)
                 smooth = smooth and exact
                 attempt += 1
                 if exact or self._did(done, before, state):
@@ -254,10 +255,6 @@ class Executor:
         self._spent: set[tuple[Instruction, Hashable]] = set()
         self._on_course: State = self.problem.init
         self._named = {name for instruction in plan for name in instruction.args}
-
-    def _exactly(self, step: ExecutedStep, before: State) -> bool:
-        """Return whether an instruction did what was predicted, and no more."""
-        return not step.failure and all(self._beside(mismatch, before) for mismatch in step.mismatches)
 
     def _did(self, step: ExecutedStep, before: State, after: State) -> bool:
         """Return whether the changes of an instruction are as they should be."""

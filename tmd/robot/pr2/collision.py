@@ -208,12 +208,10 @@ class CollisionChecker:
                     near = other in hands[name]
                 else:
                     near = (name, other) in self._robot.model.disabled or 0 <= second <= index
-                if not near and not self._rigid(index, second):
+                # two movers of one group never move against one another
+                rigid = self._vary and second >= 0 and self._groups[second] == self._groups[index]
+                if not near and not rigid:
                     yield index, second if second >= 0 else other
-
-    def _rigid(self, index: int, second: int) -> bool:
-        """Return whether two movers never move against one another; a number below 0 is no mover."""
-        return bool(self._vary) and second >= 0 and self._groups[second] == self._groups[index]
 
     def allow(self, ends: Sequence[tuple[Array, float]], near: Array | None = None) -> bool:
         """Allow what is near at the ends of a way to be as near as it is there; return False if an end is too deep.

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tmd.robot.assets.colours import robot_colour
+from tmd.robot.assets.features import robot_colour
 from tmd.robot.parameters import MOTOR
 from tmd.robot.pr2.collision import Collision, CollisionChecker, Held, Ignored, LinkBox, link_boxes
 from tmd.robot.pr2.ik import ArmKinematics
@@ -90,7 +90,8 @@ class Pr2:
         self._make_groups()
         self._set_up(pose)
         self.boxes = self._find_boxes()
-        self._paint()
+        for name, index in self.index.items():
+            sim.colour(self.body, index, robot_colour(name))
 
     def _make_groups(self) -> None:
         def group(names: Sequence[str], speed: float, force: float, stride: float, tolerance: float) -> JointGroup:
@@ -131,10 +132,6 @@ class Pr2:
                 centre = frame[:3, :3].T @ ((lower + upper) / 2 - frame[:3, 3])
                 known[names[link]] = LinkBox(centre, np.abs(frame[:3, :3].T) @ ((upper - lower) / 2))
         return {name: box for name, box in known.items() if name in self.tree.links}
-
-    def _paint(self) -> None:
-        for name, index in self.index.items():
-            self.sim.colour(self.body, index, robot_colour(name))
 
     # where it is
 

@@ -11,15 +11,11 @@ from typing import TYPE_CHECKING
 from numpy.random import Generator
 
 from tmd.diagnostics import TmdError
-from tmd.robot.assets.colours import mixed
-from tmd.robot.assets.features import Grasp
-from tmd.robot.assets.room import build_room
+from tmd.robot.assets.features import Grasp, mixed
 from tmd.robot.assets.urdf_builder import ROOT
-from tmd.robot.scene.catalogue import FLOOR, built
-from tmd.robot.scene.furniture_layout import Room
-from tmd.robot.scene.inventory import Handle, Inventory
+from tmd.robot.scene.catalogue import FLOOR, Handle, Inventory, Spot, boxes_meet, built, free_spots, supported
+from tmd.robot.scene.furniture_layout import Room, build_room
 from tmd.robot.scene.placement import Placing
-from tmd.robot.scene.support_relations import Spot, boxes_meet, free_spots, supported
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.urdf_files import CUBE, cube
 from tmd.world.classes import ROOT as CLASS_ROOT
@@ -150,11 +146,11 @@ class Scene(Inventory):
     # ------------------------------------------------------------------ where things may stand, and stand
 
     def support(self, name: str, relation: str, item: str | None = None, held: Collection[str] = ()) -> list[Spot]:
-        """Return free places: see :func:`tmd.robot.scene.support_relations.free_spots`."""
+        """Return free places: see :func:`tmd.robot.scene.catalogue.free_spots`."""
         return free_spots(self, self.room, name, relation, item, held)
 
     def supported(self, item: str) -> tuple[str, str] | None:
-        """Return what an item is at: see :func:`tmd.robot.scene.support_relations.supported`."""
+        """Return what an item is at: see :func:`tmd.robot.scene.catalogue.supported`."""
         return supported(self, item)
 
     # ------------------------------------------------------------------ what can be taken and worked

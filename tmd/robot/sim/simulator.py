@@ -1,4 +1,4 @@
-"""One pybullet world: the only class that knows how pybullet is called, on top of the engine.
+"""One pybullet world: the only class that knows how pybullet is called.
 
 Metres, kilograms, radians, seconds; the floor is z = 0 and z is up. A *body* is a number that :meth:`Simulator.load`
 gives, a *link* is the number of the joint that carries it, and −1 is the root. Poses are those of the frames in the
@@ -9,17 +9,24 @@ The world is deterministic: the same calls in the same order give the same float
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import ctypes
+import importlib
+import importlib.util
+import os
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+from typing import Any, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
-from tmd.diagnostics import TmdError
-from tmd.robot.sim.engine import STEPS_PER_SECOND as STEPS_PER_SECOND
-from tmd.robot.sim.engine import Engine
+from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.sim.rendering import quiet
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +44,11 @@ class Joint:
     link_name: str
 
 
+STEPS_PER_SECOND = 240
+ITERATIONS = 50
+GRAVITY = 9.81
+# Microseconds of a step, about.
+_STEP_WORK = 500
 # Asked for a distance of 0, Bullet uses other algorithms, which find nothing between most bodies that overlap (metres).
 _LEAST_DISTANCE = 1e-6
 # Bullet's number for all links of a body.
@@ -63,16 +75,125 @@ class Hit:
     position: Vector
 
 
-class Simulator(Engine):
-    """A world with bodies that move, meet and are held; the arguments are those of the engine."""
+class Simulator:
+    """A world with gravity, empty at first, with bodies that move, meet and are held.
+
+    ``gui`` opens a window, for which a display is needed. ``pictures`` lets EGL draw if it starts, which must be known
+    before anything is loaded; without it, pictures are drawn by pybullet's own slower renderer.
+
+    Attributes:
+        client: The number of pybullet's connection, for direct calls.
+        steps: Physics steps so far.
+        ticks: Steps and kinematic ticks so far, that is calls of the watchers.
+        work: Approximate microseconds of computing on one core so far, counted and not measured: the same calls give
+            the same number on every machine.
+        renderer: ``window``, ``egl`` or ``tiny``.
+
+    Raises:
+        MissingToolError: pybullet is not installed, or a window was asked for and cannot be opened.
+    """
 
     def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
-        super().__init__(gui=gui, pictures=pictures)
+        bullet = pybullet()
+        if gui and not window_opens():
+            raise MissingToolError(
+                "no window can be opened: there is no display, or it has no OpenGL",
+                hint="leave --gui out and ask for a film with --video FILE.mp4",
+            )
+        self.steps = 0
+        self.ticks = 0
+        self.work = 0
+        self._watchers: list[Callable[[Any], None]] = []
+        with quiet():
+            # passes the number of the connection to every call
+            self._bullet: Any = bullet_client(bullet.GUI if gui else bullet.DIRECT)
+            self.client: int = self._bullet._client
+            self.renderer = "window" if gui else "egl" if pictures and egl_starts() else "tiny"
+            if self.renderer == "egl":
+                spec = importlib.util.find_spec("eglRenderer")
+                assert spec is not None  # the probe found it
+                self._bullet.loadPlugin(spec.origin, "_eglRendererPlugin")
+        if gui:
+            self._bullet.configureDebugVisualizer(bullet.COV_ENABLE_GUI, 0)
+        self._bullet.setGravity(0, 0, -GRAVITY)
+        self._bullet.setPhysicsEngineParameter(
+            fixedTimeStep=1 / STEPS_PER_SECOND, numSolverIterations=ITERATIONS, deterministicOverlappingPairs=1
+        )
         self._inertial: dict[int, Pose] = {}
         self._sleepers: set[int] = set()
         self._names: dict[int, dict[str, Joint]] = {}
         self._solid: dict[int, list[int]] = {}
         self._joined: dict[int, tuple[int, int]] = {}
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the world; nothing else can be called afterwards, except this."""
+        if self.client >= 0:
+            with quiet():
+                self._bullet.disconnect()
+            self.client = -1
+
+    # time
+
+    def add_watcher(self, watcher: Callable[[Self], None]) -> None:
+        """Call ``watcher(self)`` after every step and tick."""
+        self._watchers.append(watcher)
+
+    def remove_watcher(self, watcher: Callable[[Self], None]) -> None:
+        """Stop calling a watcher."""
+        self._watchers.remove(watcher)
+
+    def step(self, count: int = 1) -> None:
+        """Let ``count`` 240ths of a second pass."""
+        for _ in range(count):
+            self._bullet.stepSimulation()
+            self.steps += 1
+            self.work += _STEP_WORK
+            self.tick()
+
+    def tick(self) -> None:
+        """Call the watchers without letting time pass: something was moved kinematically."""
+        self.ticks += 1
+        for watcher in tuple(self._watchers):
+            watcher(self)
+
+    # pictures
+
+    def picture(
+        self,
+        eye: Sequence[float],
+        target: Sequence[float],
+        width: int,
+        height: int,
+        *,
+        fov: float = 60.0,
+        shadow: bool = True,
+    ) -> NDArray[np.uint8]:
+        """Return the picture of a camera, z up: (height, width, 3), RGB; ``fov`` is vertical, in degrees."""
+        bullet = self._bullet
+        view = bullet.computeViewMatrix(eye, target, (0, 0, 1))
+        projection = bullet.computeProjectionMatrixFOV(fov, width / height, 0.05, 30.0)
+        with quiet():  # EGL says hello at the first picture
+            image = bullet.getCameraImage(
+                width,
+                height,
+                view,
+                projection,
+                shadow=int(shadow),
+                lightDirection=(2.0, -3.0, 6.0),
+                lightAmbientCoeff=0.55,
+                lightDiffuseCoeff=0.5,
+                lightSpecularCoeff=0.05,
+                renderer=bullet.ER_TINY_RENDERER if self.renderer == "tiny" else bullet.ER_BULLET_HARDWARE_OPENGL,
+                flags=bullet.ER_NO_SEGMENTATION_MASK,
+            )
+        pixels = np.asarray(image[2], dtype=np.uint8).reshape(height, width, 4)
+        return np.ascontiguousarray(pixels[:, :, :3])
 
     # bodies
 
@@ -318,3 +439,79 @@ class Simulator(Engine):
     def colour(self, body: int, link: int, rgba: Sequence[float]) -> None:
         """Paint a link; each value in [0, 1]."""
         self._bullet.changeVisualShape(body, link, rgbaColor=rgba)
+
+
+_EGL = """
+import importlib.util, pybullet as p
+p.connect(p.DIRECT)
+plugin = p.loadPlugin(importlib.util.find_spec("eglRenderer").origin, "_eglRendererPlugin")
+assert plugin >= 0
+p.getCameraImage(16, 16, renderer=p.ER_BULLET_HARDWARE_OPENGL)
+"""
+_WINDOW = "import pybullet as p; assert p.connect(p.GUI) >= 0"
+_PATIENCE = 60.0
+
+
+@cache
+def pybullet() -> Any:  # noqa: ANN401 - it has no types
+    """Import the module ``pybullet``.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
+    try:
+        with quiet():
+            return importlib.import_module("pybullet")
+    except ImportError as error:
+        raise MissingToolError("the simulator pybullet is not installed", hint=install_extra("robot")) from error
+
+
+def bullet_client(mode: int) -> Any:  # noqa: ANN401 - it has no types
+    """Connect to a new world. The client makes each of pybullet's functions its own once, not at every call."""
+    base: Any = importlib.import_module("pybullet_utils.bullet_client").BulletClient
+
+    def bound(self: Any, name: str) -> Any:  # noqa: ANN401 - it has no types
+        return self.__dict__.setdefault(name, base.__getattr__(self, name))
+
+    return type("Client", (base,), {"__getattr__": bound})(mode)
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Discard the output of C code: standard output is for results, standard error for the program's messages."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    library = ctypes.CDLL(None)
+    library.fflush(None)
+    kept = [os.dup(stream) for stream in (1, 2)]
+    sink = os.open(os.devnull, os.O_WRONLY)
+    try:
+        for stream in (1, 2):
+            os.dup2(sink, stream)
+        yield
+    finally:
+        library.fflush(None)  # what C still buffers would come out later
+        for stream, copy in zip((1, 2), kept, strict=True):
+            os.dup2(copy, stream)
+            os.close(copy)
+        os.close(sink)
+
+
+@cache
+def egl_starts() -> bool:
+    """Return whether EGL can draw; tried in another process, which the plugin ends if it cannot start."""
+    return importlib.util.find_spec("eglRenderer") is not None and _succeeds(_EGL)
+
+
+@cache
+def window_opens() -> bool:
+    """Return whether pybullet can open its window; tried in another process, which may end without a display."""
+    return _succeeds(_WINDOW)
+
+
+def _succeeds(code: str) -> bool:
+    try:
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=_PATIENCE, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return run.returncode == 0

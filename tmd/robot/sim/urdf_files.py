@@ -37,7 +37,8 @@ def read_urdf(path: Path) -> ET.Element:
     except ET.ParseError as error:
         raise TmdError(f"{path} is not valid XML: {error}", hint="name a URDF file") from error
     if any("xacro" in each.tag for each in root.iter()):
-        raise TmdError(f"{path} is a xacro, not a URDF", hint=f"expand it: xacro {path.name} > {path.stem}.urdf")
+        target = f"{path.name.partition('.')[0]}_expanded.urdf"
+        raise TmdError(f"{path} is a xacro, not a URDF", hint=f"expand it: xacro {path.name} > {target}")
     if root.tag != "robot":
         raise TmdError(f"{path} is not a URDF: its root is <{root.tag}>, not <robot>", hint="name a URDF file")
     return root

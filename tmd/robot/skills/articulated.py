@@ -7,14 +7,13 @@ from math import copysign, cos, degrees, pi, sin
 
 from tmd.robot.assets.fittings import TIP
 from tmd.robot.parameters import ARTICULATION
-from tmd.robot.pr2.gripper_clearance import HandChecker
+from tmd.robot.pr2.quick_checks import HandChecker
 from tmd.robot.scene.scene import Handle
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import Simulator
-from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
-from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import Accept, Base, Links, Option, follow, reach
+from tmd.robot.skills.robot_context import Base, Cell
+from tmd.robot.skills.stance_search import Accept, Links, Option, follow, reach, reach_for
 
 _PULLED, _PUSHED = 0, 1
 # Radians by which the hand is turned about the way a finger points.

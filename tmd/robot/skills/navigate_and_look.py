@@ -12,8 +12,8 @@ from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.pick_and_place import pick_options
 from tmd.robot.skills.results import SkillError, SkillPhase
-from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import Base, candidates, get_to, stances
+from tmd.robot.skills.robot_context import Base, Cell
+from tmd.robot.skills.stance_search import candidates, get_to, stances
 
 _SHIFTS = (0.15, 0.3, 0.45)
 _SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (0.7, 0.7), (-0.7, 0.7), (0.7, -0.7), (-0.7, -0.7))

@@ -7,7 +7,7 @@ from contextlib import suppress
 
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.robot.monitor.observation import REACH
-from tmd.robot.parameters import TIME
+from tmd.robot.parameters import INSTRUCTION_TIME
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills import articulated, navigate_and_look, pick_and_place, pour_and_dip
 from tmd.robot.skills.results import SkillError, SkillPhase
@@ -47,7 +47,7 @@ class RobotPerformer:
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Carry it out; see :class:`tmd.robot.monitor.executor.Performer`."""
         task = self.skills.task(instruction)
-        self.cell.until = self.cell.sim.work + 1e6 * TIME.instruction
+        self.cell.until = self.cell.sim.work + 1e6 * INSTRUCTION_TIME
         try:
             said = self._do(task, gains, attempt)
         except SkillError as error:

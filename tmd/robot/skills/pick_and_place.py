@@ -13,10 +13,9 @@ from tmd.robot.assets.features import Frame, Grasp
 from tmd.robot.assets.fittings import DOWN, INTO, TIP
 from tmd.robot.parameters import CONTACT, GRASP, MOTOR
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
+from tmd.robot.skills.stance_search import Links, Option, follow, reach, reach_for, with_room
 
 # Metres between the fingers of a hand that is about to take something.
 _OPEN = 0.08

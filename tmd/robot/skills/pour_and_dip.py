@@ -10,10 +10,9 @@ from math import acos, cos, degrees, hypot, pi
 from tmd.robot.assets.features import Region
 from tmd.robot.parameters import CONTACT, GRASP, POURING
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import Option, follow, with_room
+from tmd.robot.skills.stance_search import Option, reach_for, with_room
 
 # Force of fingers that squeeze a bottle, in N·m.
 _SQUEEZE = 40.0
@@ -110,7 +109,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         beside = _beside(cell, leaving(), target)
         cell.load(target)
         cell.moment()
-        _go_back(cell, chosen)
+        _go_back(cell, chosen.side)
     said = (
         f"{item} was tipped by {degrees(tilt):.0f} degrees, its mouth {100 * beside:.1f} cm beside the rim of {target}"
     )
@@ -182,7 +181,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
         beside, below = _beside(cell, at, target), _rim_height(cell, target) - at[2]
         cell.load(item)
         cell.moment()
-        _go_back(cell, chosen)
+        _go_back(cell, chosen.side)
     lost = cell.leant(item)
     if lost is not None and lost[0] > lost[1]:  # held like this it does not stay level
         cell.unfit_grips.setdefault(item, []).append(cell.in_tool(chosen.side, item).inverse())
@@ -244,15 +243,12 @@ def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[f
     return found
 
 
-def _go_back(cell: Cell, chosen: Option) -> None:
-    """Bring what was tipped or dipped back the way it came, or any way that there is, and tuck the arms."""
-    try:
-        follow(cell, chosen.side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
-    except SkillError:
-        if not cell.fold():
-            raise
-    else:
-        cell.fold()
+def _go_back(cell: Cell, side: str) -> None:
+    """Bring what was tipped or dipped back the way it came, and tuck the arms."""
+    # the same postures: others for the same poses may lead to where the arm would have to turn over
+    came_back = cell.robot.move_arm(side, cell.way_in[side][-2::-1])
+    if not cell.fold() and not came_back:
+        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get back the way it came")
 
 
 def _refuse_fallen(cell: Cell, target: str) -> None:

@@ -13,8 +13,8 @@ from tmd.robot.scene.scene import Scene
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.pick_and_place import pick_options
-from tmd.robot.skills.robot_context import Cell, make_cell
-from tmd.robot.skills.stance_search import Base, candidates, stances, with_room
+from tmd.robot.skills.robot_context import Base, Cell, make_cell
+from tmd.robot.skills.stance_search import candidates, stances, with_room
 from tmd.robot.video.captions import pillow, write_picture
 from tmd.short_repr import short_repr
 from tmd.world.environment import Environment

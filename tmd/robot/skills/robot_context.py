@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from math import acos, cos, degrees, hypot, inf, sin
@@ -12,17 +12,18 @@ from pathlib import Path
 import numpy as np
 
 from tmd.pddl.model import GroundAtom
-from tmd.robot.parameters import ARTICULATION, BASE_MOTION, CONTACT, GRASP, TIME
-from tmd.robot.pr2.arm_motion import plan_line
+from tmd.robot.parameters import ARTICULATION, BASE_MOTION, CONTACT, GRASP, INSTRUCTION_TIME
+from tmd.robot.pr2.arm_motion import plan_line, tuck
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.collision import Ignored
-from tmd.robot.pr2.posture import tuck
 from tmd.robot.pr2.pr2 import ARMS, Pr2
 from tmd.robot.scene.scene import FLOOR, Handle, Scene
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, WELD_FORCE, Simulator
 from tmd.robot.skills.results import SkillError, SkillPhase
 
+# Pose of the robot's base: x, y in metres, heading in radians.
+Base = tuple[float, float, float]
 # Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid.
 _PAST = tuple((0.0, 0.0, away) for away in (0.1, -0.1, 0.05, -0.05))
 # Samples for a way of the arm where there is no other place to tuck it.
@@ -34,7 +35,7 @@ _LEANING_EVERY = 8
 _LEVEL = 0.05
 
 
-def _nothing(*_: str) -> None: ...
+def _nothing(*_: object) -> None: ...
 
 
 @dataclass(eq=False)
@@ -46,8 +47,12 @@ class Cell:
         over_rim: For things that may lean now, whether nothing is lost where the mouth is.
         unfit_spots: Poses of items when something could not be done with them.
         unfit_grips: Tool poses in the item's frame then, or when its contents were lost.
+        way_in: Positions of each arm on its last straight way.
         until: The simulation's count of work at which an instruction is given up.
         moment: Called at the event of an instruction: a press, a pour, a turn.
+        rejected: Called with ways that were rejected, when something fails and the reason is looked for: what is where
+            it cannot be, the things that it would be in, positions of the robot's joints, and the arm and pose of a
+            hand that is in something wherever the robot stands.
     """
 
     sim: Simulator
@@ -58,8 +63,10 @@ class Cell:
     over_rim: dict[str, Callable[[], bool]] = field(default_factory=dict)
     unfit_spots: dict[str, list[Pose]] = field(default_factory=dict)
     unfit_grips: dict[str, list[Pose]] = field(default_factory=dict)
+    way_in: dict[str, list[tuple[float, ...]]] = field(default_factory=dict)
     until: float = inf
     moment: Callable[[], None] = _nothing
+    rejected: Callable[[str, frozenset[str], Mapping[str, float], tuple[str, Pose] | None], None] = _nothing
     _leant: dict[str, float] = field(default_factory=dict)
     _loaded: set[str] = field(default_factory=set)
 
@@ -82,7 +89,7 @@ class Cell:
             SkillError: The instruction has used up its budget.
         """
         if self.sim.work > self.until:
-            raise SkillError(SkillPhase.TIME, f"given up after about {TIME.instruction:.0f} s of computing: {doing}")
+            raise SkillError(SkillPhase.TIME, f"given up after about {INSTRUCTION_TIME:.0f} s of computing: {doing}")
 
     # what the monitor measures
 
@@ -99,10 +106,9 @@ class Cell:
         if not self.scene.is_item(item) or not self.scene.stands(item) or self.tilt(item) <= CONTACT.upright:
             return False
         place = None if item in self.in_hand.values() else self.support(item)
-        return place is not None and place != (FLOOR, "on") and not self._heaped(place) and not self._shut_in(place)
-
-    def _heaped(self, place: tuple[str, str]) -> bool:
-        return any(region.heap for _, region in self.scene.regions(*place))
+        if place is None or place == (FLOOR, "on") or any(region.heap for _, region in self.scene.regions(*place)):
+            return False
+        return not self._shut_in(place)
 
     def _shut_in(self, place: tuple[str, str]) -> bool:
         whole, relation = self.whole(place[0]), place[1]

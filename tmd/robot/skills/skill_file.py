@@ -112,12 +112,8 @@ class Skills:
 
 # Sensors of predicates with usual names, in a domain without ``skills.yaml``.
 _USUAL: Mapping[str, Sensor | Confirmation] = {
-    "holding": "held",
-    "at": "support",
-    "opened": "joint",
-    "set_to": "setting",
-    "near": "reach",
-}
+    "holding": "held", "at": "support", "opened": "joint", "set_to": "setting", "near": "reach",
+}  # fmt: skip
 
 
 def visible(folder: DomainFolder) -> Skills:

@@ -12,11 +12,10 @@ from dataclasses import dataclass, replace
 from math import atan2
 
 from tmd.pddl.model import State
-from tmd.robot.assets.colours import mixed
+from tmd.robot.assets.features import mixed
 from tmd.robot.assets.urdf_builder import ROOT
-from tmd.robot.scene.catalogue import FLOOR, Catalogue, built
+from tmd.robot.scene.catalogue import FLOOR, Catalogue, built, free_spots
 from tmd.robot.scene.placement import Placing
-from tmd.robot.scene.support_relations import free_spots
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.skill_file import Skills
 from tmd.world.environment import Environment

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tmd.robot.assets.colours import robot_colour
+from tmd.robot.assets.features import robot_colour
 from tmd.robot.pr2.kinematics import Array, Tree, origin
 from tmd.robot.pr2.urdf import ARM, HEAD, TORSO, TUCKED, prepare
 from tmd.robot.sim.pose import Pose

@@ -13,8 +13,8 @@ from tmd.pddl.model import GroundAtom, Instruction
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
-from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.pose import Pose
+from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.video.symbolic_renderer import Colour
 from tmd.studio.environment_view import Reel, Setting
 from tmd.view.panels import StepLine
