@@ -150,19 +150,19 @@ class RuleDialogue(Dialogue):
 
         "A soda poured into the glass, and the glass left on the table": the glass stands elsewhere.
         """
-        untrue = []
         taken_up = {name for c in parsed.clauses for meant in c.antecedents.values() for name in meant[:1]}
-        for said in parsed.stated if parsed.clauses else ():
-            known = all(said.phrase(noun).definite or noun in said.antecedents for noun in said.objects)
-            reason = not taken_up.isdisjoint(said.resolved())  # "the fridge is open, close it"
-            if said.verb == BE and (said.result or said.relations) and known and not reason:
-                goal = self._goals.read(said, state, Memory(first=state))
-                if not isinstance(goal, Refusal) and not any(cube.holds(state) for cube in goal.cubes):
-                    untrue.append(said)
+        # "the fridge is open, close it" gives a reason
+        stated = [said for said in parsed.stated if taken_up.isdisjoint(said.resolved())] if parsed.clauses else []
+        untrue = [said for said in stated if _tells_state(said) and self._is_untrue(said, state)]
         clauses = sorted((*parsed.clauses, *untrue), key=lambda clause: clause.span)
         told = [clause.span for clause in untrue]
         skipped = tuple(s for s in parsed.skipped if not any(s.span.start <= t.start < s.span.end for t in told))
         return replace(parsed, clauses=tuple(clauses), skipped=skipped)
+
+    def _is_untrue(self, said: Clause, state: Bits) -> bool:
+        """Return whether a statement is understood, and not so."""
+        goal = self._goals.read(said, state, Memory(first=state))
+        return not isinstance(goal, Refusal) and not any(cube.holds(state) for cube in goal.cubes)
 
     def _names_thing(self, piece: Skipped, state: Bits) -> bool:
         """Return whether a piece that belongs to no verb names something that is here."""
@@ -323,6 +323,12 @@ def _candidate(goal: ClauseGoal, log_prior: float) -> CandidateGoal:
         explanation=row.pattern if row is not None else "",
         notes=goal.notes,
     )
+
+
+def _tells_state(said: Clause) -> bool:
+    """Return whether a statement says where or how known things are."""
+    known = all(said.phrase(noun).definite or noun in said.antecedents for noun in said.objects)
+    return known and said.verb == BE and bool(said.result or said.relations)
 
 
 def _of_any(clause: Clause) -> bool:

@@ -243,12 +243,16 @@ class GoalReader:
         deed = next(filter(self._is_verb, meant), "")
         own = self._is_verb(clause.verb) and clause.verb not in section("placing")
         gives = given[0].relation == TO if is_verb(clause.verb, "giving") else not own
-        lays = clause.verb in section("placing") or is_verb(clause.verb, "giving")
-        mark = self._mark_states.get(noun) if lays else None
+        mark = self._laid_mark(noun, clause)
         if not (deed or mark) or not gives or self._names_thing(deed or noun):
             return None
         treated = replace(clause, verb=deed or BE, direct=receivers, objects=receivers, relations=())
         return treated if deed else replace(treated, result=mark)
+
+    def _laid_mark(self, noun: str, clause: Clause) -> str | None:
+        """Return the state of what is given a mark: "put a price on it", of things that are ``price_tagged``."""
+        lays = clause.verb in section("placing") or is_verb(clause.verb, "giving")
+        return self._mark_states.get(noun) if lays else None
 
     def _dative(self, clause: Clause) -> Clause | None:
         """Return "give Ann bed 3" as "give bed 3 to Ann": two names that were read as one."""

@@ -140,7 +140,9 @@ class _Words:
                     *noun, last = split_name(predicate.name)
                     if not predicate.parameters and noun and last == wanted:  # ``shop_open``: "close the shop"
                         alone = Atom(predicate.name, ()) if positive else Not(Atom(predicate.name, ()))
-                        row = self._row((verb,), (), alone, f"{verb} {'_'.join(noun)}", f"'{wanted}' in {predicate.name}")
+                        row = self._row(
+                            (verb,), (), alone, f"{verb} {'_'.join(noun)}", f"'{wanted}' in {predicate.name}"
+                        )
                         yield replace(row, noun="_".join(noun))
                     condition = self._state(predicate, wanted, any_value=not positive)
                     if condition is not None:

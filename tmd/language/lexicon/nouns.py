@@ -85,25 +85,23 @@ def rank(
         Matches of the strongest kind of evidence that speaks, best first; ties in the order of the
         candidates' names. Empty if the noun names nothing here.
     """
-    parsed = _parse(noun)
-    aliases = (lexicon or builtin()).nouns
-    numbered = [c.name for c in candidates if noun.isdigit() and _number(c.name) == int(noun)]
-    if len(numbered) == 1:  # "in 102", where the only thing with that number is room_102
-        return [Match(numbered[0], 1.0, NAME)]
-    named = _by_name(parsed, candidates)
+    parsed, aliases = _parse(noun), (lexicon or builtin()).nouns
+    named = _only_one_numbered(noun, candidates) or _by_name(parsed, candidates)
     if max((match.score for match in named), default=0.0) < 1.0:
         # an alias or a synonym of the whole noun says more than a name that shares its head only
         spelled = {form: aliases[form] for form in _spellings(noun, parsed)[:-1] if form in aliases}
         synonyms = {match.name for match in _by_synonym(parsed, candidates)} if parsed.modifiers else set()
         named = [match for match in named if match.name in synonyms] or named
         named = _by_alias(noun, parsed, candidates, spelled) or named
-    found = (
-        named
-        or _by_alias(noun, parsed, candidates, aliases)
-        or _by_synonym(parsed, candidates)
-        or _by_wordnet(parsed, candidates, threshold)
-    )
+    named = named or _by_alias(noun, parsed, candidates, aliases) or _by_synonym(parsed, candidates)
+    found = named or _by_wordnet(parsed, candidates, threshold)
     return sorted(_numbered(found, parsed), key=lambda m: (-m.score, _natural(m.name)))
+
+
+def _only_one_numbered(noun: str, candidates: Sequence[NounMatch]) -> list[Match]:
+    """Return the only thing with a number in its name that is called by it: "in 102", of room_102."""
+    found = [c.name for c in candidates if noun.isdigit() and _number(c.name) == int(noun)]
+    return [Match(found[0], 1.0, NAME)] if len(found) == 1 else []
 
 
 def _natural(name: str) -> tuple[tuple[int, int | str], ...]:

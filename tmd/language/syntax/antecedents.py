@@ -65,16 +65,19 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
     hosted: dict[int, list[ClauseDraft]] = {}
     for draft in reading.drafts:
         hosted.setdefault(id(draft.host), []).append(draft)
-    for index, draft in enumerate([*reading.drafts, None]):
-        while statements and (draft is None or statements[0][0] <= index):
+
+    def tell(last: int) -> None:
+        """Take up what is stated before a clause."""
+        while statements and statements[0][0] <= last:
             said = statements.pop(0)[1]
             fact = _resolved(said.clause(reading.text), said, scenes)
             contrast = said.mood is Mood.AVOID and said.verb.form == IMPLIED  # "the film instead of the game"
             scenes.insert(max(len(scenes) - contrast, 0), _scene(said, fact))
-            facts |= _new(fact, clauses)
+            facts.update(_new(fact, clauses))
             stated.append(fact)
-        if draft is None:
-            break
+
+    for index, draft in enumerate(reading.drafts):
+        tell(index)
         clause = draft.clause(reading.text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
@@ -85,6 +88,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         clause = replace(clause, stated=(*clause.stated, *_stated(clause, facts)))
         clauses.append(_missing_state(clause))
         scenes.append(_scene(draft, clause))
+    tell(len(reading.drafts))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]
     return tuple(clauses), tuple(forbidden), tuple(stated)
 
@@ -96,8 +100,14 @@ def _missing_state(clause: Clause) -> Clause:
     vague = clause.verb in section("pro_verbs") and not clause.relations and all(map(is_pronoun, clause.direct))
     if not vague or len(missing) != 1:
         return clause
-    said = {"span": clause.span, "text": clause.text, "condition": clause.condition, "conditions": clause.conditions}
-    return replace(missing[0], otherwise=clause.otherwise, **said)
+    return replace(
+        missing[0],
+        span=clause.span,
+        text=clause.text,
+        condition=clause.condition,
+        conditions=clause.conditions,
+        otherwise=clause.otherwise,
+    )
 
 
 def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:
@@ -106,19 +116,30 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
         places.append("")
     antecedents, together = {}, {}
     for pronoun in places:
-        before = {r.relation for r in clause.relations if r.target == pronoun}
-        ranked, count = _rank(pronoun, draft, scenes, before)
-        if is_one(pronoun):
-            ranked, count = _one(pronoun, ranked, clause, draft, before), 1
-            ranked = _in_order(pronoun, scenes) or ranked
-        elif pronoun in section("singular_pronouns") and not before.isdisjoint(section("insides")):
-            ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
-        if any(r.target == pronoun for r in clause.stated):  # "the one that is in there": in a place, if one was named
-            places_named = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.behind}
-            ranked = tuple(sorted(ranked, key=lambda name: name not in places_named))
+        ranked, count = _meanings(pronoun, clause, draft, scenes)
         if ranked:
             antecedents[pronoun], together[pronoun] = ranked, count
     return replace(clause, antecedents=antecedents, together=together, relations=_without_kinds(clause, antecedents))
+
+
+def _meanings(pronoun: str, clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> tuple[tuple[str, ...], int]:
+    """Return what a pronoun of a clause may mean, likeliest first, and how many of them it means."""
+    before = {r.relation for r in clause.relations if r.target == pronoun}
+    ranked, count = _rank(pronoun, draft, scenes, before)
+    if is_one(pronoun):
+        ranked, count = _one(pronoun, ranked, clause, draft, before), 1
+        ranked = _in_order(pronoun, scenes) or ranked
+    elif pronoun in section("singular_pronouns") and not before.isdisjoint(section("insides")):
+        ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
+    return _places_first(pronoun, ranked, clause, scenes), count
+
+
+def _places_first(pronoun: str, ranked: tuple[str, ...], clause: Clause, scenes: Sequence[_Scene]) -> tuple[str, ...]:
+    """Return what "in there" of a relative clause may mean: first what was named as a place."""
+    if all(r.target != pronoun for r in clause.stated):
+        return ranked
+    places = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.behind}
+    return tuple(sorted(ranked, key=lambda name: name not in places))
 
 
 def _without_kinds(clause: Clause, antecedents: Mapping[str, Sequence[str]]) -> tuple[Relation, ...]:

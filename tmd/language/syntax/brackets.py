@@ -318,24 +318,32 @@ class Bracketer(ClauseEnds):
         if own and self.stem_among(verb, "ordering") and self.tokens[verb].form != "ing":
             self._told, self._somebody = self.stem_among(verb, "liking"), True
             return at + 1  # "I'll have a tea"
-        belongs = self.stem_among(verb, "belonging") or self.among(verb, "belonging")
-        if belongs and self.among(at, "plural_pronouns") and self.follows(verb + 1, "IDLE* (P|TO)"):
-            subject, said = self.tokens[at], self.tokens[verb]  # "they belong on the bench"
-            subject.kind, subject.text = K.PRON, first_of("plural_pronouns")
-            said.kind, said.stem = K.FINITE, first_of("belonging")
+        if self._they_belong(at, verb):
             self._begin_telling(at, own=False)
             return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(verb))
         tells = self._begin_telling(at, own=own)
         self._somebody = True
-        noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
-        done = self.kind(verb) is K.PARTICIPLE and self.among(verb - 1, "having") and at + 1 < verb
-        noticed = noticed or done  # "somebody has put it there"
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
-        if self._verb is not None or not (own or noticed) or leads:
+        if self._verb is not None or not (own or self._noticed(at, verb)) or leads:
             self._told = self._told or tells
             return at + 1
         self.tokens[at].kind = K.PRON
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
+
+    def _noticed(self, at: int, verb: int) -> bool:
+        """Return whether a subject notices something, or has done something: "somebody has put it there"."""
+        done = self.kind(verb) is K.PARTICIPLE and self.among(verb - 1, "having") and at + 1 < verb
+        return done or (self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX)
+
+    def _they_belong(self, at: int, verb: int) -> bool:
+        """Read "they belong on the bench" as a statement of things; return whether it is one."""
+        belongs = self.stem_among(verb, "belonging") or self.among(verb, "belonging")
+        if not (belongs and self.among(at, "plural_pronouns") and self.follows(verb + 1, "IDLE* (P|TO)")):
+            return False
+        subject, said = self.tokens[at], self.tokens[verb]
+        subject.kind, subject.text = K.PRON, first_of("plural_pronouns")
+        said.kind, said.stem = K.FINITE, first_of("belonging")
+        return True
 
     def _begin_telling(self, at: int, *, own: bool) -> bool:
         """Begin a unit where somebody is the subject; return whether it is somebody other than the addressee."""

@@ -67,13 +67,16 @@ class ClauseEnds(Words):
         for place in range(at + 1, self._clause_end(at)):
             if verb and (self.kind(place) is K.CC or ((said or done) and self.follows(place, "FINITE|AUX"))):
                 return place  # "everything that is empty | goes in the bin", "… that was washed | goes on the shelf"
-            # "… that was washed", "who left"
-            done = done or (self.kind(place) is K.PARTICIPLE and (verb or place == at + 1))
+            done = done or self._has_happened(at, place, verb=verb)
             if self.follows(place, "INF AUX") or self._goes_on(at, place, verb=verb, said=said):
                 return place
             said = said or (verb and (self.follows(place, "HEAD|ADJ") or self.among(place, "there_words")))
             verb = verb or self.follows(place, "FINITE|AUX|PARTICIPLE")
         return self._clause_end(at)
+
+    def _has_happened(self, at: int, place: int, *, verb: bool) -> bool:
+        """Return whether a participle is the verb of a relative clause: "… that was washed", "who left"."""
+        return self.kind(place) is K.PARTICIPLE and (verb or place == at + 1)
 
     def _goes_on(self, at: int, place: int, *, verb: bool, said: bool) -> bool:
         """Return whether a preposition belongs to the main clause again."""

@@ -254,10 +254,8 @@ class _Particles(Words):
     def run(self) -> None:
         for at, verb in enumerate(self.tokens):
             deed = verb.kind is K.ING and self.kind(at - 1) not in HEADS
-            if self.stem_among(at, "waiting") and self.among(at + 1, "static") and self.follows(at + 2, "IDLE* NP"):
-                continue  # "the cart can wait in the yard"
-            if verb.kind is K.ING and self.stem_among(at, "belonging"):
-                continue  # "the ropes are going on the cart"
+            if self._stands(at):
+                continue
             if (verb.kind in (K.V, K.LET) or deed) and verb.stem:
                 if not self._several_words(at):
                     self._particle(at)
@@ -266,6 +264,11 @@ class _Particles(Words):
             elif verb.kind is K.ADJ and verb.form == "ed" and self._match(verb.stem, at + 1) is not None:
                 verb.kind = K.PARTICIPLE  # "the bag should be tied up"
                 self._next_particle(at)
+
+    def _stands(self, at: int) -> bool:
+        """Return whether a place follows a verb: "the cart can wait in the yard", "the ropes are going on the cart"."""
+        waits = self.stem_among(at, "waiting") and self.among(at + 1, "static") and self.follows(at + 2, "IDLE* NP")
+        return waits or (self.kind(at) is K.ING and self.stem_among(at, "belonging"))
 
     def _next_particle(self, at: int) -> None:
         """Join a verb of a clause with the particle right behind it."""

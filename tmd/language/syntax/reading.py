@@ -277,10 +277,8 @@ class TextReading:
         opener, purpose = next(leaves(node)), node.data == "purpose"
         text = " ".join(self.text[slice(*hull(spans([node])))].split()).lower()
         drafts = self._said(node)
-        nothing = any(
-            phrase.name in pairs("affirmed") for draft in drafts for phrase in (*draft.direct, *draft.landmarks)
-        )
-        negated = (opener.negated and not _mixed(node)) or nothing
+        nothing = any(p.name in pairs("affirmed") for draft in drafts for p in (*draft.direct, *draft.landmarks))
+        negated = _denied_whole(node) or nothing
         for draft in drafts if negated else ():
             # "no" and "nothing" are in the negation of the condition
             draft.affirm(each=any(t.text in section("negations") for t in leaves(node) if t.kind is Kind.CC))
@@ -409,7 +407,7 @@ class TextReading:
             allowed = any(t.text in section("modals") for t in saying.helpers)
             asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
             if asked and not saying.talk:
-                self._demand(node, drafts, conditions, denied=saying.denied if _mixed(node) else opener.negated)
+                self._demand(node, drafts, conditions, denied=_is_denied(node, saying))
             else:
                 self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
 
@@ -659,6 +657,16 @@ def _repeat(draft: ClauseDraft, before: ClauseDraft) -> None:
 def _mixed(node: Tree[Leaf]) -> bool:
     """Return whether only some parts of a clause are denied: "that the lamp is on and the radio is not"."""
     return len({Saying(part).denied for part in trees(node.children, "part")}) > 1
+
+
+def _denied_whole(node: Tree[Leaf]) -> bool:
+    """Return whether a negation is about a clause as a whole."""
+    return next(leaves(node)).negated and not _mixed(node)
+
+
+def _is_denied(node: Tree[Leaf], saying: Saying) -> bool:
+    """Return whether a part of a clause is denied: by itself, or with all of the clause."""
+    return saying.denied if _mixed(node) else next(leaves(node)).negated
 
 
 def _says_nothing(clause: Clause) -> bool:
