@@ -87,20 +87,31 @@ def rank(
     """
     parsed, aliases = _parse(noun), (lexicon or builtin()).nouns
     named = _only_one_numbered(noun, candidates) or _by_name(parsed, candidates)
-    if max((match.score for match in named), default=0.0) < 1.0:
-        # an alias or a synonym of the whole noun says more than a name that shares its head only
-        spelled = {form: aliases[form] for form in _spellings(noun, parsed)[:-1] if form in aliases}
-        synonyms = {match.name for match in _by_synonym(parsed, candidates)} if parsed.modifiers else set()
-        named = [match for match in named if match.name in synonyms] or named
-        named = _by_alias(noun, parsed, candidates, spelled) or named
+    if all(match.score < 1.0 for match in named):
+        named = _as_a_whole(noun, parsed, named, candidates, aliases)
     named = named or _by_alias(noun, parsed, candidates, aliases) or _by_synonym(parsed, candidates)
     found = named or _by_wordnet(parsed, candidates, threshold)
     return sorted(_numbered(found, parsed), key=lambda m: (-m.score, _natural(m.name)))
 
 
+def _as_a_whole(
+    noun: str,
+    parsed: _Noun,
+    named: list[Match],
+    candidates: Sequence[NounMatch],
+    aliases: Mapping[str, tuple[str, ...]],
+) -> list[Match]:
+    """Return the matches by an alias or a synonym of the whole noun, which says more than a name with the same head."""
+    spelled = {form: aliases[form] for form in _spellings(noun, parsed)[:-1] if form in aliases}
+    synonyms = {match.name for match in _by_synonym(parsed, candidates)} if parsed.modifiers else set()
+    named = [match for match in named if match.name in synonyms] or named
+    return _by_alias(noun, parsed, candidates, spelled) or named
+
+
 def _only_one_numbered(noun: str, candidates: Sequence[NounMatch]) -> list[Match]:
     """Return the only thing with a number in its name that is called by it: "in 102", of room_102."""
-    found = [c.name for c in candidates if noun.isdigit() and _number(c.name) == int(noun)]
+    number = int(noun) if noun.isdecimal() and len(noun) > 1 else None
+    found = [c.name for c in candidates if number is not None and _number(c.name) == number]
     return [Match(found[0], 1.0, NAME)] if len(found) == 1 else []
 
 

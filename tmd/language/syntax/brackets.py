@@ -625,7 +625,7 @@ class Bracketer(ClauseEnds):
         if also := self._also(at):
             return also
         self._deny_ahead(at)
-        if self._last() is K.END and self._is_reason(at + 1):
+        if self._last() is K.END and self._is_reason(at + 1) and not self.follows(at + 2, "IDLE* V"):
             return self._stop(at)  # "they are here, so the toys in the chest"
         if self.among(at, "dashes") and self._verb is None and self._named():
             return self._stop(at)  # "the radio - off"
