@@ -120,6 +120,20 @@ REPAIRED = {
         "section-order",
         "before",
     ),
+    "types of all lines above": (
+        "domain",
+        "(:types can bed)",
+        "(:types\n can\n bed\n herb_bed - bed)",
+        "type-cycle",
+        '"- object"',
+    ),
+    "types of one line": ("domain", "(:types can bed)", "(:types can bed herb_bed - bed)", "type-cycle", '"- object"'),
+    "its own parent": ("domain", "(:types can bed)", "(:types can bed - bed)", "type-cycle", '"bed" too'),
+    "its own only parent": ("domain", "(:types can bed)", "(:types bed - bed can)", "type-cycle", "bed - object"),
+    "entities": ("domain", "?c - can ?b - bed)", "?c&nbsp;&#45; can ?b - bed)", "foreign-text", ">"),
+    "entities of entities": ("problem", "jug - can", "jug &amp;#45; can", "foreign-text", "signs"),
+    "tags": ("domain", DOMAIN, f'<pre><code class="language-pddl">{DOMAIN}</code></pre>', "foreign-text", "remove"),
+    "ends of lines of HTML": ("problem", "jug - can", "jug - can<br/>", "foreign-text", "remove"),
     "plural": (
         "domain",
         ":precondition (and (at ?c ?b)",
@@ -131,13 +145,6 @@ REPAIRED = {
 
 # The same, where only the author knows the repair.
 TOLD = {
-    "types of all lines above": (
-        "domain",
-        "(:types can bed)",
-        "(:types\n can\n bed\n herb_bed - bed)",
-        "type-cycle",
-        '"- object"',
-    ),
     "a variable in the goal": ("problem", "(moist roses)", "(moist ?b)", "free-variable", "exists (?b - bed)"),
     "undeclared": (
         "domain",
@@ -200,7 +207,22 @@ def test_an_object_of_the_domain_moves_from_the_problem(tmp_path: Path) -> None:
     paths = _written(tmp_path, "domain", "(full ?c))", "(full ?c) (path roses ?b) (path ?b herbs))")
     check_paths(paths, fix=True)
     assert "(:constants roses - bed herbs - bed)" in paths[0].read_text()
-    assert "(:objects tin jug - can )" in paths[1].read_text()
+    assert "(:objects tin jug - can)" in paths[1].read_text()
+
+
+def test_a_list_of_types_is_ended_before_those_of_its_type(tmp_path: Path) -> None:
+    paths = _written(tmp_path, "domain", "(:types can bed)", "(:types\n  can\n  mulch\n  bed\n  herb_bed - bed)")
+    paths[1].write_text(PROBLEM.replace("roses herbs - bed", "roses - mulch herbs - herb_bed"))
+    assert _wrong(check_paths(paths, fix=True).diagnostics) == []
+    assert "(:types\n  can\n  bed - object mulch\n  herb_bed - bed)" in paths[0].read_text()
+
+
+def test_numbers_are_compared_as_in_html(tmp_path: Path) -> None:
+    paths = _written(tmp_path, "domain", "(full ?c))", "(full ?c) (&gt;= (weight ?c) 2)) ; 3 &gt; 2")
+    told = {d.code: d for d in _wrong(check_paths(paths).diagnostics)}
+    assert told.keys() == {"foreign-text", "not-supported"} and '">="' in told["not-supported"].message
+    check_paths(paths, fix=True)
+    assert "(>= (weight ?c) 2)) ; 3 &gt; 2" in paths[0].read_text()
 
 
 def test_a_new_file_never_replaces_one(tmp_path: Path) -> None:

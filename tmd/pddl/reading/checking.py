@@ -216,23 +216,49 @@ class _Check:
         if cycle and self.hierarchy.parents.get(cycle[-1]) == name:
             if name not in self.cyclic:
                 self.cyclic.update(cycle)
-                self.fault(*self.cycle(name, cycle, location), "type-cycle")
+                self.cycle(name, cycle, location)
         elif len(chain) >= MOST_LEVELS and self.deepest_type is None:
             self.deepest_type = name
             message = f'the type "{name}" has {MOST_LEVELS} ancestors or more'
             self.fault(message, location, "declare fewer levels of types", "nested-too-deeply")
 
-    def cycle(self, name: str, cycle: Sequence[str], location: Location | None) -> tuple[str, Location | None, str]:
-        """Return message, place and hint of a type that is its own ancestor.
+    def cycle(self, name: str, cycle: Sequence[str], location: Location | None) -> None:
+        """Report a type that is its own ancestor.
 
         Where it is its own parent, it stands in the list that "- type" ends, perhaps lines below.
         """
         dash = self.dash(location)
-        listed = [t.name for t in self.domain.types if t.parent == name and self.dash(t.location) == dash]
-        if len(cycle) > 1 or len(listed) < 2 or dash is None:
-            return f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name))
-        message = f'"- {name}" in line {dash.line} is the parent of {", ".join(listed)}, so of "{name}" itself'
-        return message, location, f'end the types that are not of "{name}" with "- object", and "{name}" too'
+        listed = [t for t in self.domain.types if t.parent == name and self.dash(t.location) == dash]
+        if len(cycle) > 1 or location is None or dash is None:
+            self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name)), "type-cycle")
+        elif len(listed) == 1:
+            message, hint = f'type "{name}" is its own parent', f"write {name} - {OBJECT}"
+            parent = self.source.type_of(location, name) or location
+            self.fault(message, location, hint, "type-cycle", [Edit(parent, shifted(parent, len(name)), OBJECT)])
+        else:
+            names = ", ".join(t.name for t in listed)
+            message = f'"- {name}" in line {dash.line} is the parent of {names}, so of "{name}" itself'
+            hint = f'end the types that are not of "{name}" with "- {OBJECT}", and "{name}" too'
+            self.fault(message, location, hint, "type-cycle", list(self.apart(name, location, listed)))
+
+    def apart(self, name: str, place: Location, listed: Sequence[TypeDeclaration]) -> Iterator[Edit]:
+        """Yield the edits that end a list of types with ``- object`` behind ``name``, the type that ends the list.
+
+        What stands behind it in the list stays of this type, and so do types before it that nothing else in the domain
+        names: they are of use as this type only.
+        """
+        named = (*self.domain.predicates, *self.domain.functions, *self.domain.actions)
+        used = {kind for n in named for parameter in n.parameters for kind in parameter.types}
+        stay = [t for t in listed if t.location and t.location < place and t.name not in used]
+        for declared in stay:
+            assert declared.location is not None
+            yield self.source.removal(declared.location, shifted(declared.location, len(declared.name)))
+        behind = shifted(place, len(name))
+        if stay or any(t.location and t.location > place for t in listed):
+            yield Edit(behind, behind, " ".join((f" - {OBJECT}", *(t.name for t in stay))))
+        else:
+            parent = self.source.type_of(place, name) or place
+            yield Edit(parent, shifted(parent, len(name)), OBJECT)
 
     def dash(self, location: Location | None) -> Location | None:
         """Return the place of the next dash in the list in which a typed name stands."""

@@ -6,6 +6,7 @@ that everything else keeps its place and is read as if it were alone.
 
 from __future__ import annotations
 
+import html
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -15,14 +16,18 @@ from pathlib import Path
 from tmd.diagnostics import Edit, Location, TmdError
 
 _MARKS = re.compile(
-    r"(?P<comment>;[^\n]*)"
+    r"(?P<entity>&(?:amp;)*(?:\#\d+|\#x[\da-f]+|[a-z]+);=?)"  # before comments: its end would begin one
+    r"|(?P<comment>;[^\n]*)"
+    r"|(?P<tag></?(?:br|code|div|p|pre|span)(?:\s+[a-z-]+=\"[^\"\n]*\")*\s*/?>)"
     r"|(?P<fence>(?:```|~~~)[a-zA-Z]*)"
     r"|(?P<block>\#\|.*?(?:\|\#|\Z)|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z))"
     r"|(?P<escape>\\[nrt\"])"
     r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*)",
-    re.DOTALL,
+    re.DOTALL | re.IGNORECASE,
 )
 _TOLD = {
+    "entity": ("signs are written as in HTML here", "write the signs themselves, such as > for &gt;"),
+    "tag": ("the marks of HTML are not PDDL", "remove them"),
     "fence": ("the marks of a Markdown block are not PDDL", "remove them"),
     "block": ("this is not a comment of PDDL", 'write ";" before each of its lines'),
     "escape": ("the ends of lines are written as letters here", "write them as ends of lines"),
@@ -90,7 +95,8 @@ class _Text:
         for match in _MARKS.finditer(self.bare):
             if match.lastgroup and match.lastgroup != "comment":
                 found.setdefault(match.lastgroup, []).append(match)
-        self.change((match.span() for matches in found.values() for match in matches), _blanks)
+        for kind, matches in found.items():
+            self.change((match.span() for match in matches), _plain if kind == "entity" else _blanks)
         self.bare = re.sub(r";[^\n]*", lambda comment: _blanks(comment[0]), self.bare)
         for kind, matches in found.items():
             message, hint = _TOLD[kind]
@@ -98,8 +104,10 @@ class _Text:
             self.fault(message, matches[0].start() + _indent(matches[0][0]), hint, "foreign-text", edits)
 
     def _mended(self, kind: str, match: re.Match[str]) -> Iterator[Edit]:
-        if kind == "fence":
+        if kind in ("fence", "tag"):
             yield self.removal(*match.span())
+        elif kind == "entity":
+            yield self.edit(*match.span(), _plain(match[0]).rstrip(" ") or " ")
         elif kind == "escape":
             yield self.edit(*match.span(), {"n": "\n", '"': '"'}.get(match[0][1], " "))
         elif kind == "remark":
@@ -183,6 +191,11 @@ class _Text:
         more = f" ({len(places)} of them)" if len(places) > 1 else ""
         self.fault(f"PDDL has no commas{more}", places[0], "separate words by blanks", "other-notation", edits)
         self.change([(place, place + 1) for place in places], _blanks)
+
+
+def _plain(text: str) -> str:
+    """Return an entity of HTML as the sign that it means, filled up with blanks."""
+    return html.unescape(html.unescape(text)).replace("\xa0", " ").ljust(len(text))
 
 
 def _blanks(text: str) -> str:

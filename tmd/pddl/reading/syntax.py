@@ -151,6 +151,16 @@ class Source(Reporting):
         lines[0] = lines[0][start.column - 1 :]
         return "\n".join(lines)
 
+    def removal(self, start: Location, end: Location) -> Edit:
+        """Return the edit that removes words with the blanks before them, or lines where nothing else is in them."""
+        before, behind = self.lines[start.line - 1][: start.column - 1], self.lines[end.line - 1][end.column - 1 :]
+        if before.strip():
+            kept = before if before.endswith("(") else before.rstrip()
+            return Edit(Location(start.file, start.line, len(kept) + 1), end)
+        if behind.strip() or end.line == len(self.lines):
+            return Edit(start, shifted(end, len(behind) - len(behind.lstrip())))
+        return Edit(Location(start.file, start.line, 1), Location(end.file, end.line + 1, 1))
+
     def declaration(self, section: str, words: str) -> Edit:
         """Return the edit that adds ``words`` to a section, which is made where there is none."""
         if section in self.sections:
