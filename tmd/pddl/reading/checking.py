@@ -247,7 +247,11 @@ class _Check:
         What stands behind it in the list stays of this type, and so do types before it that nothing else in the domain
         names: they are of use as this type only.
         """
-        named = (*self.domain.predicates, *self.domain.functions, *self.domain.actions)
+        named: Sequence[Predicate | ActionSchema] = (
+            *self.domain.predicates,
+            *self.domain.functions,
+            *self.domain.actions,
+        )
         used = {kind for n in named for parameter in n.parameters for kind in parameter.types}
         stay = [t for t in listed if t.location and t.location < place and t.name not in used]
         for declared in stay:
