@@ -7,6 +7,7 @@ features that are used without their requirement. :mod:`tmd.pddl.reading.reader`
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby, islice
 
 from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.derived import strata
@@ -119,6 +120,8 @@ class _Check:
         self.action_checked: ActionSchema | None = None
         self.first: dict[object, tuple[TmdError, str, int]] = {}
         """The first fault of each name, its message, and the number of times that it stands elsewhere."""
+        self.unbound: dict[str, tuple[tuple[str, ...], Location | None]] = {}
+        """The variables of the action without parameters that is checked, with the types that they should have."""
         self.undeclared: dict[str, Location | None] = {}
         """Types where the domain declares none at all."""
         self.deepest_type: str | None = None
@@ -295,6 +298,7 @@ class _Check:
 
     def action(self, action: ActionSchema) -> None:
         scope = self.parameters(action.parameters, {})
+        self.unbound.clear()
         self.two_of_one_name = len(scope) < len(action.parameters)
         self.action_checked = action
         self.formula(action.precondition, scope)
@@ -308,6 +312,25 @@ class _Check:
             if not self.again(TOTAL_COST, place):
                 edits = [self.source.declaration(":functions", f"({TOTAL_COST}) - number")]
                 self.fault(f'unknown function "{TOTAL_COST}"', place, hint, "unknown-function", edits, TOTAL_COST)
+
+        self.parameters_missing(action)
+
+    def parameters_missing(self, action: ActionSchema) -> None:
+        """Report the variables of an action without any parameters."""
+        if not self.unbound:
+            return
+        typed = " ".join(TypedName(name, kinds).typed() for name, (kinds, _) in self.unbound.items())
+        place = min(filter(None, (place for _, place in self.unbound.values())), default=action.location)
+        edits: list[Edit] = []
+        if action.location is not None:
+            end = shifted(action.location, len(action.name))
+            behind = list(islice(self.source.tokens(end), 3))
+            if [token.lower() for token, _ in behind] == [":parameters", "(", ")"]:
+                edits = [Edit(behind[2][1], behind[2][1], typed)]
+            elif behind and behind[0][0].lower() != ":parameters":
+                edits = [Edit(end, end, f" :parameters ({typed})")]
+        message = f'action "{action.name}" has no parameters for {", ".join(self.unbound)}'
+        self.fault(message, place, f"write :parameters ({typed})", "free-variable", edits)
 
     def effect(self, effect: Effect, scope: Mapping[str, tuple[str, ...]]) -> None:
         inner = self.parameters(effect.parameters, scope)
@@ -404,6 +427,10 @@ class _Check:
         typed = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
         cure = f"declare ({' '.join((atom.predicate, *typed))}) under (:{what}s ...)"
         hint = _or_cure(nearest(atom.predicate, known, what=f"{what}s"), cure)
+        action = next((a for a in self.domain.actions if a.name == atom.predicate), None)
+        if action is not None:
+            made = next((f", such as ({e.atom.predicate} ...)" for e in action.effects if e.positive), "")
+            hint = f"this is an action: write what holds after it{made}"
         self.fault(f'unknown {what} "{atom.predicate}"', place, hint, f"unknown-{what}", slip=slip)
 
     def typed_far_below(self, name: str) -> str | None:
@@ -487,6 +514,10 @@ class _Check:
         bound = _bound_in(self.action_checked, term)
         if bound is not None:
             hint = f"it is bound only in {bound}: make it a parameter"
+        elif self.action_checked and not self.action_checked.parameters and not scope:
+            if not self.unbound.get(term, ((), None))[0]:
+                self.unbound[term] = tuple(wanted), place
+            return
         elif self.of_problem:
             hint = f"bind it: (exists ({TypedName(term, tuple(wanted)).typed()}) ...), or name an object"
         elif self.action_checked:
@@ -499,6 +530,7 @@ class _Check:
         self.unique(problem.objects, "object")
         if self.types_first(problem):
             return
+        self.untyped(problem)
         constants = {c.name: c.types for c in problem.domain.constants}
         for declared in problem.objects:
             self.one_type(declared, "object")
@@ -516,6 +548,30 @@ class _Check:
         message = "the type stands behind the names of its objects"
         self.fault(message, turned[0].location, f"write {turned[0].types[0]} - {turned[0].name}", "unknown-type")
         return True
+
+    def untyped(self, problem: Problem) -> None:
+        """Report several objects that have no type and need one, with the types that their uses tell."""
+        plain = [o for o in problem.objects if o.types == (OBJECT,) and o.location is not None]
+        needed: dict[str, set[str]] = {}
+        goal = (part for part in walk(problem.goal) if isinstance(part, Atom))
+        for atom in (*(Atom(a.predicate, a.args) for a in sorted(problem.init)), *goal) if plain else ():
+            signature = self.predicates.get(atom.predicate)
+            for term, parameter in zip(atom.terms, signature.parameters if signature else (), strict=False):
+                needed.setdefault(term, set()).update(parameter.types[:1] if len(parameter.types) == 1 else ())
+        wrong = [o for o in plain if needed.get(o.name, {OBJECT}) - {OBJECT}]
+        if len(wrong) < 2:
+            return
+        above = self.hierarchy.ancestors
+        kinds = {o.name: next((k for k in sorted(needed[o.name]) if needed[o.name] <= {*above(k)}), "") for o in wrong}
+        names = ", ".join(o.name for o in wrong[:8]) + (f" and {len(wrong) - 8} more" if len(wrong) > 8 else "")
+        runs = [(k, list(run)) for k, run in groupby(plain, lambda o: kinds.get(o.name, OBJECT))]
+        ends = [(kind, shifted(run[-1].location, len(run[-1].name))) for kind, run in runs if run[-1].location]
+        edits = [Edit(end, end, f" - {kind}") for kind, end in ends] if all(kinds.values()) else []
+        kind, run = next((kind, run) for kind, run in runs if kind != OBJECT)
+        hint = f"write {' '.join(o.name for o in run[:8])} - {kind or 'type'}"
+        message = f"these objects have no type, and need one: {names}"
+        self.fault(message, wrong[0].location, hint, "wrong-type", edits)
+        self.known_objects.update(dict.fromkeys((o.name for o in wrong), None))
 
     def values(self, problem: Problem) -> None:
         """Check the values of cost functions, and that there is a cost to minimise."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import html
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from pathlib import Path
 
@@ -22,6 +22,10 @@ _MARKS = re.compile(
     r"|(?P<fence>(?:```|~~~)[a-zA-Z]*)"
     r"|(?P<block>\#\|.*?(?:\|\#|\Z)|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z))"
     r"|(?P<escape>\\[nrt\"])"
+    r"|(?P<slash>\\(?=[()]))"
+    r"|(?P<text>(?<!\():[a-z-]+\s+\"[^\"\n]*\s[^\"\n]*\")"
+    r"|(?P<quoted>(?<![\w?-])[\"'`\u2018-\u201f]\??[\w-]+[\"'`\u2018-\u201f](?![\w-]))"
+    r"|(?P<dollar>(?<![^\s()])\$(?=[a-z]))"
     r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*)",
     re.DOTALL | re.IGNORECASE,
 )
@@ -31,6 +35,10 @@ _TOLD = {
     "fence": ("the marks of a Markdown block are not PDDL", "remove them"),
     "block": ("this is not a comment of PDDL", 'write ";" before each of its lines'),
     "escape": ("the ends of lines are written as letters here", "write them as ends of lines"),
+    "slash": ("a backslash before a parenthesis is not PDDL", "remove it"),
+    "text": ("a text in quotes is no part of PDDL", 'write it behind ";"'),
+    "quoted": ("names have no quotes in PDDL", "remove them"),
+    "dollar": ("a variable begins with a question mark", 'write "?" for "$"'),
     "remark": ("this is not a comment of PDDL", 'begin it with ";"'),
 }
 _DEFINE = re.compile(r"\(\s*define\b", re.IGNORECASE)
@@ -96,20 +104,47 @@ class _Text:
             if match.lastgroup and match.lastgroup != "comment":
                 found.setdefault(match.lastgroup, []).append(match)
         for kind, matches in found.items():
-            self.change((match.span() for match in matches), _plain if kind == "entity" else _blanks)
+            self.change((match.span() for match in matches), _KEPT.get(kind, _blanks))
         self.bare = re.sub(r";[^\n]*", lambda comment: _blanks(comment[0]), self.bare)
+        self.hidden()
         for kind, matches in found.items():
             message, hint = _TOLD[kind]
             edits = [edit for match in matches for edit in self._mended(kind, match)]
             self.fault(message, matches[0].start() + _indent(matches[0][0]), hint, "foreign-text", edits)
 
+    def hidden(self) -> None:
+        """Read on behind the one ";" that hides the parentheses that are missing."""
+        missing = self.bare.count("(") - self.bare.count(")")
+        found = [
+            match
+            for match in re.finditer(r"(?<=\S);(?=\s*[()])([^;\n]*)", self.kept)
+            if missing > 0 and not self.bare[match.start() : match.end()].strip()
+            if match[1].count(")") - match[1].count("(") == missing
+        ]
+        if len(found) == 1:
+            start, end = found[0].span()
+            message = f'";" begins a comment, and hides "{found[0][1].strip()}" here'
+            edits = [self.edit(start, start + 1, " ")]
+            self.fault(message, start, "remove it", "other-notation", edits)
+            text = self.kept[start + 1 : end]
+            self.kept = f"{self.kept[:start]} {text}{self.kept[end:]}"
+            self.bare = f"{self.bare[:start]} {text}{self.bare[end:]}"
+
     def _mended(self, kind: str, match: re.Match[str]) -> Iterator[Edit]:
-        if kind in ("fence", "tag"):
+        if kind in ("fence", "tag", "slash"):
             yield self.removal(*match.span())
         elif kind == "entity":
             yield self.edit(*match.span(), _plain(match[0]).rstrip(" ") or " ")
         elif kind == "escape":
             yield self.edit(*match.span(), {"n": "\n", '"': '"'}.get(match[0][1], " "))
+        elif kind == "text":
+            end = "" if self.kept[match.end() :].lstrip(" \t").startswith("\n") else "\n"
+            yield self.edit(*match.span(), f"; {match[0].split(chr(34))[1]}{end}")
+        elif kind == "quoted":
+            yield self.edit(match.start(), match.start() + 1)
+            yield self.edit(match.end() - 1, match.end())
+        elif kind == "dollar":
+            yield self.edit(*match.span(), "?")
         elif kind == "remark":
             mark = match[0].split()[0]
             start = match.start() + _indent(match[0])
@@ -198,6 +233,10 @@ def _plain(text: str) -> str:
     return html.unescape(html.unescape(text)).replace("\xa0", " ").ljust(len(text))
 
 
+def _unquoted(text: str) -> str:
+    return f" {text[1:-1]} "
+
+
 def _blanks(text: str) -> str:
     return re.sub(r"[^\n]", " ", text)
 
@@ -214,3 +253,11 @@ def _end_of_group(text: str, begin: int, end: int) -> int:
         if not depth:
             return match.end()
     return end
+
+
+# What stays of marks that are not blanked out.
+_KEPT: Mapping[str, Callable[[str], str]] = {
+    "entity": _plain,
+    "quoted": _unquoted,
+    "dollar": lambda _: "?",
+}

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
-from itertools import pairwise, takewhile
+from itertools import groupby, pairwise, takewhile
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -43,6 +43,7 @@ from tmd.pddl.reading.formulas import (
     read_only_condition,
     read_parameters,
     read_typed_list,
+    types_of,
     unsupported,
 )
 from tmd.pddl.reading.syntax import (
@@ -233,6 +234,12 @@ def _read_signature(node: Node, document: Document, comment: str = "") -> Predic
     rest = node.parts[len(named) :]
     if len(named) < 2 or not rest or not isinstance(rest[0], Word) or rest[0].text[0] != "?":
         named, rest = [node.parts[0]], node.parts[1:]  # those are variables without a mark
+    elif (
+        isinstance(named[1], Word)
+        and named[1].text in types_of(source)
+        and not any(isinstance(part, Word) and part.text == "-" for part in rest)
+    ):
+        named, rest = [node.parts[0]], node.parts[1:]  # and this is a type before its variable
     name = read_title(named, node.location, source, "the name of a predicate")
     parameters = read_typed_list(rest, source, variables=True, what="a parameter")
     return Predicate(name.text, _each_named(parameters, source), comment, node.location)
@@ -346,13 +353,25 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
         if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
             value = nodes[0] = _in_parentheses(nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
+        if keyword.text not in PARTS:  # what else belongs to it is not reported as well
+            extra = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes[1:]))
+            del nodes[1 : 1 + len(extra)]
         # the value of a misspelt keyword is not reported as missing as well
-        meant = [] if keyword.text in PARTS else get_close_matches(keyword.text, PARTS, n=1)
+        listed = keyword.text in PARTS or keyword.text.replace("_", "-") in _LISTS
+        meant = [] if listed else get_close_matches(keyword.text, PARTS, n=1)
         parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
         if keyword.text in PARTS:
             found.append((PARTS.index(keyword.text), keyword.text, keyword.location, after(value)))
     warn_of_order(found, source)
     return parts
+
+
+# The effects of STRIPS before PDDL.
+_LISTS = frozenset({
+    ":add", ":adds", ":add-list", ":add-effect", ":add-effects", ":del", ":dels", ":delete", ":deletes", ":del-list",
+    ":delete-list", ":del-effect", ":del-effects", ":delete-effect", ":delete-effects",
+})  # fmt: skip
+_EFFECT = "write :effect (and (added ...) (not (deleted ...)))"
 
 
 def _in_parentheses(nodes: list[Node], source: Source) -> Group:
@@ -404,6 +423,10 @@ def _meant(word: Word, names: Sequence[str]) -> list[Edit]:
 def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Source) -> None:
     if keyword.text in UNSUPPORTED:
         raise unsupported(source, UNSUPPORTED[keyword.text], keyword.text, keyword.location)
+    if keyword.text.replace("_", "-") in _LISTS:
+        message = "an action of PDDL has no lists of what is added and deleted"
+        source.fault_once(message, keyword.location, _EFFECT, "unknown-keyword", ())
+        return
     if keyword.text not in PARTS:
         hint = nearest(keyword.text, PARTS, what="parts of an action")
         message = f'"{keyword.text}" is not a part of an action'
@@ -605,14 +628,42 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
         found = f", found ({title.head} ...)" if isinstance(title, Group) else ""
         raise source.error(f"expected ({kind} name){found}", title.location)
     name = read_title(title.parts[1:], title.location, source, f"the name of a {kind}")
-    for section in sections:
-        if isinstance(section, Word):
-            source.fault_at(
-                f'"{section.text}" stands outside its section',
-                section.location,
-                "a parenthesis before it is too many",
-            )
+    for words, run in groupby(sections, lambda section: isinstance(section, Word)):
+        if words:
+            _outside([section for section in run if isinstance(section, Word)], source)
+    _of_kind(kind, title.parts[0], name.text, [s for s in sections if isinstance(s, Group)], source)
     return name, [s for s in sections if isinstance(s, Group)]
+
+
+def _outside(words: Sequence[Word], source: Source) -> None:
+    """Report words between the sections of a definition: a sentence, or what a parenthesis too many left over."""
+    first, last = words[0], words[-1]
+    if len(words) > 1 and all(word.text[0] not in ":?" for word in words):
+        ends = source.lines[last.location.line - 1][after(last).column - 1 :].strip()
+        starts = sorted({word.location.line: word.location for word in reversed(words)}.values())
+        edits = [Edit(start, start, "; ") for start in starts]
+        edits += [Edit(after(last), after(last), "\n")] if ends else []
+        source.fault_at("this text is not PDDL", first.location, 'write ";" before it', "foreign-text", edits)
+        return
+    for word in words:
+        message, hint = f'"{word.text}" stands outside its section', "a parenthesis before it is too many"
+        source.fault_at(message, word.location, hint)
+
+
+def _of_kind(kind: str, named: Node, name: str, sections: Sequence[Group], source: Source) -> None:
+    """Make sure that a definition has not the sections of the other kind only.
+
+    Raises:
+        TmdError: It has.
+    """
+    heads = {section.head for section in sections} - {":requirements"}
+    own, other = _RANKS_OF_DOMAIN, _RANKS_OF_PROBLEM
+    needed, meant = {":init", ":goal"}, "problem"
+    if kind == "problem":
+        own, other, needed, meant = other, own, {":predicates", ":action"}, "domain"
+    if needed <= heads and heads <= other.keys() and not heads & own.keys():
+        hint, edits = f"write (define ({meant} {name}) ...)", [replaced(named, meant)]
+        raise source.error(f"this is a {meant}, and is called a {kind}", named.location, hint, "syntax", edits)
 
 
 def _title_in_parentheses(kind: Word, name: Node, source: Source) -> Group:

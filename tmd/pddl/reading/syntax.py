@@ -13,7 +13,7 @@ import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
-from itertools import islice
+from itertools import islice, takewhile
 from pathlib import Path
 from typing import ParamSpec, TypeAlias, TypeVar
 
@@ -374,6 +374,19 @@ def _may_be_name(word: str) -> bool:
     return bool(NAME.fullmatch(word)) and word not in _OPERATORS - {"not"} and word not in ("minimize", "maximize")
 
 
+def _around_an_atom(parts: Sequence[Node]) -> Group | None:
+    """Return the first atom that has another one in it, which should have been closed before that."""
+    waiting = list(reversed(parts))
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Group):
+            inner = next((part for part in node.parts if isinstance(part, Group)), None)
+            if inner and all(NAME.fullmatch(group.head) and group.head not in _OPERATORS for group in (node, inner)):
+                return node
+            waiting.extend(reversed(node.parts))
+    return None
+
+
 def _keyword_before(around: _Open) -> bool:
     """Return whether the last word is a condition or effect itself, as in ``:effect done()``."""
     before = around.parts[-2] if len(around.parts) > 1 else None
@@ -625,6 +638,13 @@ class _Parser:
             self.pop(end)
 
     def never_closed(self, opened: _Open, count: int = 1) -> None:
+        atom = _around_an_atom(opened.parts) if count <= 2 else None
+        if atom is not None:
+            words = [*takewhile(lambda part: isinstance(part, Word), atom.parts)]
+            place, self.suspect = after(words[-1]), None
+            message, edits = f'this parenthesis "({atom.head}" is never closed', [Edit(place, place, ")")]
+            self.fault(message, atom.location, 'add the missing ")" behind it', "unclosed-parenthesis", edits)
+            return
         name = f' "({opened.head}"' if opened.head else ""
         hint = 'add the missing ")"' if count == 1 else f'add the {count} missing ")"'
         if self.suspect is not None and self.suspect.location != opened.location:
