@@ -133,6 +133,13 @@ REPAIRED = {
     "entities": ("domain", "?c - can ?b - bed)", "?c&nbsp;&#45; can ?b - bed)", "foreign-text", ">"),
     "entities of entities": ("problem", "jug - can", "jug &amp;#45; can", "foreign-text", "signs"),
     "tags": ("domain", DOMAIN, f'<pre><code class="language-pddl">{DOMAIN}</code></pre>', "foreign-text", "remove"),
+    "thoughts in tags": (
+        "domain",
+        "(define (domain",
+        "<think>\nShall it be (define (domain garden) (:types can))?\n</think>\n(define (domain",
+        "foreign-text",
+        "remove",
+    ),
     "ends of lines of HTML": ("problem", "jug - can", "jug - can<br/>", "foreign-text", "remove"),
     "quotes": ("problem", "tin jug - can", '"tin" "jug" - can', "foreign-text", "remove"),
     "quotes of a printer": ("problem", "(full tin)", "(full \u2018tin\u2019)", "foreign-text", "remove"),

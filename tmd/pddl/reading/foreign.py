@@ -16,8 +16,10 @@ from pathlib import Path
 from tmd.diagnostics import Edit, Location, TmdError
 
 _MARKS = re.compile(
+    r"(?=[&;<`~#/\\:\"'$%\s-]|[\u2018-\u201f])(?:"  # how they begin
     r"(?P<entity>&(?:amp;)*(?:\#\d+|\#x[\da-f]+|[a-z]+);=?)"  # before comments: its end would begin one
     r"|(?P<comment>;[^\n]*)"
+    r"|(?P<thought><think(?:ing)?>.*?</think(?:ing)?>)"
     r"|(?P<tag></?(?:br|code|div|p|pre|span)(?:\s+[a-z-]+=\"[^\"\n]*\")*\s*/?>)"
     r"|(?P<fence>(?:```|~~~)[a-zA-Z]*)"
     r"|(?P<block>\#\|.*?(?:\|\#|\Z)|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z))"
@@ -26,11 +28,12 @@ _MARKS = re.compile(
     r"|(?P<text>(?<!\():[a-z-]+\s+\"[^\"\n]*\s[^\"\n]*\")"
     r"|(?P<quoted>(?<![\w?-])[\"'`\u2018-\u201f]\??[\w-]+[\"'`\u2018-\u201f](?![\w-]))"
     r"|(?P<dollar>(?<![^\s()])\$(?=[a-z]))"
-    r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*)",
+    r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*))",
     re.DOTALL | re.IGNORECASE,
 )
 _TOLD = {
     "entity": ("signs are written as in HTML here", "write the signs themselves, such as > for &gt;"),
+    "thought": ("what a language model thinks is not PDDL", "remove it"),
     "tag": ("the marks of HTML are not PDDL", "remove them"),
     "fence": ("the marks of a Markdown block are not PDDL", "remove them"),
     "block": ("this is not a comment of PDDL", 'write ";" before each of its lines'),
@@ -131,7 +134,7 @@ class _Text:
             self.bare = f"{self.bare[:start]} {text}{self.bare[end:]}"
 
     def _mended(self, kind: str, match: re.Match[str]) -> Iterator[Edit]:
-        if kind in ("fence", "tag", "slash"):
+        if kind in ("fence", "tag", "slash", "thought"):
             yield self.removal(*match.span())
         elif kind == "entity":
             yield self.edit(*match.span(), _plain(match[0]).rstrip(" ") or " ")

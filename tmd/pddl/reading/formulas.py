@@ -328,6 +328,7 @@ _CONNECTIVES = {
     "\u2192": "imply", "\u21d2": "imply", "\u2200": "forall", "\u2203": "exists",
 }  # fmt: skip
 _UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~=", "neq", "not-equal", "not=", "\u2260"})
+_SIGNS = _UNEQUAL | {"=", "=="}
 
 
 def _not_in_parentheses(node: Word, source: Source, what: str) -> TmdError:
@@ -350,12 +351,13 @@ def _in_pddl(node: Group, source: Source) -> Group:
         return _truth_value(node, rest[0], rest[1], source)
     if isinstance(head, Group):
         return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
-    signs = {*_UNEQUAL, "=", "=="}
     between = rest[0].text if len(rest) == 2 and isinstance(rest[0], Word) else ""
-    if between in signs:
+    if between in _SIGNS:
         return _equation(node, between, (head, rest[1]), source)
+    if node.head not in _SIGNS and node.head not in _CONNECTIVES:
+        return node
     groups = any(isinstance(part, Group) for part in rest)
-    if node.head in signs - {"="} and not groups:
+    if node.head != "=" and node.head in _SIGNS and not groups:
         return _equation(node, node.head, rest, source)
     plain = _CONNECTIVES.get(node.head) if groups else None
     if plain:
