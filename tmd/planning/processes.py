@@ -18,6 +18,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
+from copy import copy
 from functools import cache
 from pathlib import Path
 from pkgutil import resolve_name
@@ -75,7 +76,9 @@ class Deadline:
 
     def until(self, over: Callable[[], bool]) -> Deadline:
         """Return this deadline, which ends as soon as ``over`` holds."""
-        return Deadline(self.left(), self.memory, self.processor, lambda: self._over() or over())
+        earlier = copy(self)  # which is of so many seconds as well, for messages
+        earlier._over = lambda: self._over() or over()
+        return earlier
 
     def memory_limit(self) -> str:
         """Describe the memory limit."""
