@@ -296,6 +296,38 @@ REPAIRED = {
         "it",
     ),
     "a semicolon at an end": ("domain", "(not (at ?c ?x))))", "(not (at ?c ?x));))", "other-notation", "remove"),
+    "numbers of lines": (
+        "domain",
+        DOMAIN,
+        "".join(f"{number:3} {line}\n" for number, line in enumerate(DOMAIN.splitlines(), start=1)),
+        "foreign-text",
+        "remove",
+    ),
+    "a quoted mail": (
+        "problem",
+        PROBLEM,
+        "".join(f"> {line}\n" for line in PROBLEM.splitlines()),
+        "foreign-text",
+        "remove",
+    ),
+    "a compared text": (
+        "problem",
+        PROBLEM,
+        PROBLEM.replace("\n", "\n+")[:-1].join(("+", "\n")),
+        "foreign-text",
+        "remove",
+    ),
+    "not written together": ("domain", "(not (at ?c ?x))", "(!at ?c ?x)", "other-notation", "(not (at ?c ?x))"),
+    "not without parentheses": ("domain", "(not (at ?c ?x))", "(not at ?c ?x)", "syntax", "(not (at ?c ?x))"),
+    "requirements in parentheses": ("domain", ":strips :typing)", "(:strips :typing))", "syntax", "remove"),
+    "two pairs of parentheses": ("domain", "(moist ?b - bed)", "((moist ?b - bed))", "syntax", "remove"),
+    "no predicates": (
+        "domain",
+        "  (:predicates (at ?c - can ?b - bed) (path ?x ?y - bed) (full ?c - can) (moist ?b - bed))\n",
+        "",
+        "missing-section",
+        "(:predicates (at ?c - can ?x - bed)",
+    ),
     "plural": (
         "domain",
         ":precondition (and (at ?c ?b)",
@@ -341,6 +373,20 @@ TOLD = {
     "effects that are added": ("domain", ":effect (moist ?b)", ":add_effects (moist ?b)", "unknown-keyword", ":effect"),
     "an unknown part": ("domain", ":effect (moist ?b)", ":effect (moist ?b) :agent ?a - can", "not-supported", ""),
     "an action in the goal": ("problem", "(moist herbs)", "(pour jug herbs)", "unknown-predicate", "(moist ...)"),
+    "predicates without parentheses": (
+        "domain",
+        "(:predicates (at ?c - can ?b - bed)",
+        "(:predicates at full (at ?c - can ?b - bed)",
+        "syntax",
+        "(at ?x - type)",
+    ),
+    "a merge": (
+        "domain",
+        "    :effect (moist ?b)))",
+        "<<<<<<< HEAD\n    :effect (moist ?b)))\n=======\n    :effect (and (moist ?b))))\n>>>>>>> other",
+        "foreign-text",
+        "one of the two",
+    ),
     "left out": ("problem", "(path roses herbs))", "(path roses herbs) ...)", "syntax", "left out"),
 }
 
@@ -373,6 +419,21 @@ def test_a_slip_is_told_once_with_its_cure(tmp_path: Path, name: str) -> None:
     *change, kind, hint = TOLD[name]
     (told,) = _wrong(check_paths(_written(tmp_path, *change)).diagnostics)
     assert told.code == kind and hint in (told.hint or "")
+
+
+@pytest.mark.parametrize(
+    ("text", "cure"),
+    [
+        ("<!DOCTYPE html>\n<html><body>(define (domain garden))</body></html>\n", "download"),
+        ("<html>\n", "download"),
+        ("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 120\n", "git lfs pull"),
+        ("404: Not Found", "address"),
+    ],
+)
+def test_a_file_of_another_kind_is_named(tmp_path: Path, text: str, cure: str) -> None:
+    paths = _written(tmp_path, "domain", DOMAIN, text)
+    (told,) = check_paths(paths).diagnostics
+    assert told.code == "empty-file" and cure in (told.hint or "")
 
 
 def test_an_object_of_the_domain_moves_from_the_problem(tmp_path: Path) -> None:

@@ -39,6 +39,9 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.reading.syntax import Source, Word, nearest, shifted
 
+# Of a declaration that a hint proposes.
+_LONGEST_HINT = 150
+
 MOST_FAULTS = 250
 """Number of faults after which the rest of a problem is not checked: their places and hints take time."""
 
@@ -54,6 +57,7 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
     for action in domain.actions:
         check.action(action)
     check.types_missing()
+    check.predicates_missing()
     check.faults.extend(missing_requirements(domain, None, check.source))
     return _in_order(check.faults, source)
 
@@ -120,6 +124,8 @@ class _Check:
         self.action_checked: ActionSchema | None = None
         self.first: dict[object, tuple[TmdError, str, int]] = {}
         """The first fault of each name, its message, and the number of times that it stands elsewhere."""
+        self.used: dict[str, tuple[str, Location | None]] = {}
+        """Predicates where the domain declares none at all, as they should be declared, and their places."""
         self.unbound: dict[str, tuple[tuple[str, ...], Location | None]] = {}
         """The variables of the action without parameters that is checked, with the types that they should have."""
         self.undeclared: dict[str, Location | None] = {}
@@ -202,6 +208,15 @@ class _Check:
             place = min(filter(None, self.undeclared.values()), default=None)
             hint, edits = f"add (:types {names})", [self.source.declaration(":types", names)]
             self.fault(f"the domain has no (:types ...) for {names}", place, hint, "missing-section", edits)
+
+    def predicates_missing(self) -> None:
+        """Report that the domain uses predicates and declares none."""
+        if self.used:
+            declared, place = " ".join(shown for shown, _ in self.used.values()), next(iter(self.used.values()))[1]
+            shown = declared if len(declared) < _LONGEST_HINT else f"{declared[:_LONGEST_HINT]}..."
+            edits = [self.source.declaration(":predicates", declared)]
+            message = f"the domain has no (:predicates ...) for {', '.join(self.used)}"
+            self.fault(message, place, f"add (:predicates {shown})", "missing-section", edits)
 
     def types_of_objects_missing(self) -> None:
         """Report that the problem uses types, and neither its domain nor the predicates in it do."""
@@ -425,7 +440,12 @@ class _Check:
             return
         names = (term if term.startswith("?") else f"?x{number}" for number, term in enumerate(atom.terms, start=1))
         typed = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
-        cure = f"declare ({' '.join((atom.predicate, *typed))}) under (:{what}s ...)"
+        declared = f"({' '.join((atom.predicate, *typed))})"
+        cure = f"declare {declared} under (:{what}s ...)"
+        if what == "predicate" and not self.domain.predicates and ":predicates" not in self.source.sections:
+            if not self.of_problem:
+                self.used.setdefault(atom.predicate, (declared, place))
+            return
         hint = _or_cure(nearest(atom.predicate, known, what=f"{what}s"), cure)
         action = next((a for a in self.domain.actions if a.name == atom.predicate), None)
         if action is not None:

@@ -44,6 +44,15 @@ _TOLD = {
     "dollar": ("a variable begins with a question mark", 'write "?" for "$"'),
     "remark": ("this is not a comment of PDDL", 'begin it with ";"'),
 }
+# What the lines of numbered, quoted and compared texts begin with.
+_MARGINS = tuple(map(re.compile, (r"\s*\d+(?:[:.|)]|(?=\s|$))", r"\s*>(?=\s|$|\()", r"\+", r"[-*](?=\s|$)", r"\|")))
+_CONFLICT = re.compile(r"^(<{7}[^\n]*)$.*?^(={7}$.*?^>{7}[^\n]*)$", re.MULTILINE | re.DOTALL)
+# Files that are something else altogether, and their cure.
+_OTHER_FILES = {
+    "a page of the web": (re.compile(r"\s*<(?:!doctype html|html)\b", re.IGNORECASE), "download the file itself"),
+    "a pointer of Git LFS": (re.compile(r"version https://git-lfs"), "get the file with: git lfs pull"),
+    "the answer that there is no such file": (re.compile(r"\s*404\b"), "look at its address"),
+}
 _DEFINE = re.compile(r"\(\s*define\b", re.IGNORECASE)
 _DEFINITION = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\b\s*([^\s()]*)", re.IGNORECASE)
 # Text behind a definition that belongs into it: the definition was closed too early.
@@ -53,9 +62,16 @@ _LINE = re.compile(r"[^\n]+")
 _PARENTHESIS = re.compile(r"[()]")
 
 
+def other_file(text: str) -> tuple[str, str] | None:
+    """Return what a text is that is no PDDL at all, and the cure."""
+    return next(((what, cure) for what, (begin, cure) in _OTHER_FILES.items() if begin.match(text)), None)
+
+
 def pddl_lines(lines: Sequence[str], file: str) -> tuple[tuple[str, ...], list[TmdError]]:
     """Return ``lines`` with everything blanked out that is not PDDL, and a fault for each kind of that."""
     text = _Text(lines, file)
+    text.margin()
+    text.conflict()
     text.marks()
     text.around()
     text.brackets()
@@ -99,6 +115,29 @@ class _Text:
         for start, end in spans:
             kept[start:end], bare[start:end] = how(self.kept[start:end]), how(self.bare[start:end])
         self.kept, self.bare = "".join(kept), "".join(bare)
+
+    def margin(self) -> None:
+        """Blank what all lines begin with: their numbers, or the marks of quoted and compared texts."""
+        full = [number for number, line in enumerate(self.lines) if line.strip()]
+        for margin in _MARGINS if len(full) > 2 and _DEFINE.search(self.kept) else ():
+            found = [margin.match(self.lines[number]) for number in full]
+            spans = [(self.starts[n], self.starts[n] + m.end()) for n, m in zip(full, found, strict=True) if m]
+            if len(spans) == len(full):
+                edits = [self.edit(*span) for span in spans]
+                message = (
+                    f'each line begins with something like "{self.kept[slice(*spans[0])].strip()}", which is not PDDL'
+                )
+                self.fault(message, 0, "remove it", "foreign-text", edits)
+                self.change(spans, _blanks)
+                return
+
+    def conflict(self) -> None:
+        """Blank the marks of a merge that is not done, and the second of its two versions."""
+        found = list(_CONFLICT.finditer(self.kept))
+        if found:
+            message, hint = "a merge was left undone here", "keep one of the two versions, and remove the marks"
+            self.fault(message, found[0].start(), hint, "foreign-text", ())
+            self.change((span for match in found for span in (match.span(1), match.span(2))), _blanks)
 
     def marks(self) -> None:
         """Blank the marks of Markdown and comments of other languages; comments of PDDL are no part of ``bare``."""

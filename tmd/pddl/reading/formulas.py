@@ -32,6 +32,7 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.reading.syntax import (
     CONNECTIVES,
+    NAME,
     Document,
     Group,
     Node,
@@ -345,6 +346,16 @@ def _in_pddl(node: Group, source: Source) -> Group:
     if not node.parts:
         return node
     head, *rest = node.parts
+    if isinstance(head, Word) and head.text[0] in "!~\u00ac" and NAME.fullmatch(head.text[1:]):
+        atom = _group(node, Word(head.text[1:], shifted(head.location, 1)), *rest)
+        shown = source.text(node.location, after(node)).replace(head.text[0], "", 1)
+        _of_pddl(node, f"(not {shown})", head.text[0], source)
+        return _group(node, Word("not", node.location), atom)
+    if node.head == "not" and len(rest) > 1 and all(isinstance(part, Word) for part in rest):
+        edits = enclosed(rest[0], rest[-1])
+        hint = f"write (not ({source.text(rest[0].location, after(rest[-1]))}))"
+        source.fault_at('what is behind "not" stands in parentheses', rest[0].location, hint, "syntax", edits)
+        return _group(node, head, Group(tuple(rest), rest[0].location, node.end, node.depth + 1))
     if node.head in _TIMES and len(rest) == 2 and isinstance(rest[0], Word) and isinstance(rest[1], Group):
         return _timeless(node, rest[0], rest[1], source)
     if node.head in ("=", "==", "assign", "set") and len(rest) == 2 and isinstance(rest[0], Group):

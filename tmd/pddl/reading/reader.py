@@ -60,6 +60,7 @@ from tmd.pddl.reading.syntax import (
     parse,
     read_text,
     replaced,
+    shifted,
 )
 from tmd.pddl.semantics import close
 
@@ -99,7 +100,13 @@ def read_title(nodes: Sequence[Node], place: Location, source: Source, what: str
 def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
     """Read ``(:requirements ...)``, each once."""
     names: list[str] = []
-    for node in group.parts[1:]:
+    nodes = list(group.parts[1:])
+    for node in nodes:
+        if isinstance(node, Group) and node.head.startswith(":"):
+            edits = [Edit(node.location, shifted(node.location, 1)), Edit(node.end, shifted(node.end, 1))]
+            source.fault_once("a requirement has no parentheses", node.location, "remove them", "syntax", edits)
+            nodes += node.parts
+            continue
         if isinstance(node, Group) or not node.text.startswith(":"):
             plain = isinstance(node, Word) and f":{node.text}" in REQUIREMENTS
             edits = [Edit(node.location, node.location, ":")] if plain else []
@@ -212,7 +219,12 @@ def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> Non
 
 def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
     """Read ``(:predicates ...)``, each with the comment that stands beside it."""
-    declared = group.parts[1:]
+    declared: Sequence[Node] = group.parts[1:]
+    words = [node for node in declared if isinstance(node, Word)]
+    if len(words) > 1:
+        names, hint = ", ".join(word.text for word in words[:8]), f"write ({words[0].text} ?x - type)"
+        document.source.fault_at(f"expected (predicate ...), found {names}", words[0].location, hint)
+        declared = [node for node in declared if isinstance(node, Group)]
     following = [*(n.location.line for n in declared[1:]), group.end.line + 1][: len(declared)]
     found: list[Predicate | None] = []
     for node, next_line in zip(declared, following, strict=True):
@@ -226,6 +238,11 @@ def _read_signature(node: Node, document: Document, comment: str = "") -> Predic
     source = document.source
     if isinstance(node, Word):
         raise source.error(f'expected (predicate ...), found "{node.text}"', node.location)
+    if len(node.parts) == 1 and isinstance(node.parts[0], Group):
+        edits = [Edit(node.location, shifted(node.location, 1)), Edit(node.end, shifted(node.end, 1))]
+        message, hint = "these are two pairs of parentheses", "remove one of them"
+        source.fault_once(message, node.location, hint, "syntax", edits)
+        return _read_signature(node.parts[0], document, comment)
     if node.head == ":private":
         raise unsupported(source, UNSUPPORTED[node.head], node.head, node.location)
     if not node.parts:

@@ -19,7 +19,7 @@ from typing import ParamSpec, TypeAlias, TypeVar
 
 from tmd.diagnostics import Edit, Location, TmdError
 from tmd.files import read_bytes
-from tmd.pddl.reading.foreign import pddl_lines
+from tmd.pddl.reading.foreign import other_file, pddl_lines
 
 TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+")
 """Parentheses and words; a variable always begins a new word."""
@@ -283,6 +283,8 @@ def read_text(path: str | Path, report: Report | None = None) -> str:
         raise TmdError(
             f"cannot be read: {error.strerror or error}", location=place, hint=hint, code="unreadable"
         ) from error
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise TmdError("is UTF-16, not UTF-8", location=place, hint="save it as UTF-8", code="not-utf8")
     if b"\0" in data:
         raise TmdError("is not a text file", location=place, hint="save it as UTF-8 text", code="not-text")
     try:
@@ -405,6 +407,9 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
     """
     lines = split_lines(text)
+    if other := other_file(text):
+        source = Source(file, lines)
+        raise source.error(f"this is {other[0]}, not PDDL", Location(file, 1, 1), other[1], "empty-file")
     code, foreign = pddl_lines(lines, file)
     source = Source(file, lines, report, code)
     commas = [fault for fault in foreign if "commas" in fault.message]
