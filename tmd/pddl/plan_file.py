@@ -188,6 +188,13 @@ class _Vocabulary:
         arguments = self.parameters.get(words[0])
         return arguments is not None and len(arguments) == len(words) - 1 and self.objects.issuperset(words[1:])
 
+    def step_of(self, words: Sequence[str]) -> str:
+        """Return the step that has these words, in any order and perhaps with others; the empty text for none."""
+        arguments = [word for word in words if word in self.objects]
+        known = [word for word in words if word in self.parameters]
+        action = known or [word for word in words if arguments and word not in self.objects][:1]
+        return f"({' '.join([*action, *arguments])})" if len(action) == 1 else ""
+
     def resembles(self, words: Sequence[str]) -> bool:
         """Return whether ``words`` begin with an action, or are objects behind a name of nothing else."""
         if words[0] in self.parameters:
@@ -519,20 +526,18 @@ class _JsonReader:
     def _as_line(self, value: Any) -> str:  # noqa: ANN401 - any JSON
         """Return a step as a line of text; the empty line for anything else."""
         if isinstance(value, str):
-            return " ".join(value.split())
-        texts = [" ".join(text.split()) for text in _texts(value, 1)]
-        steps = [text for text in texts if any(plan.steps for plan in self._reader.plans_of_text(text))]
+            return _on_a_line(value)
+        steps = [text for text in map(_on_a_line, _texts(value, 1)) if self._reader.plans_of_text(text)]
         if isinstance(value, dict) and len(steps) == 1:
             return steps[0]
-        names = self._reader.vocabulary
-        inner = _texts(value, 2)
-        words = [text.lower() for text in inner if NAME.fullmatch(text.lower())]
-        if len(words) < len(inner) and any(self._reader.plans_of_text(t) for t in inner if t.lower() not in words):
+        words = [text.lower() for text in _texts(value, 2)]
+        if any(self._reader.plans_of_text(text) for text in words if not NAME.fullmatch(text)):
             return ""  # a list of steps
-        arguments = [word for word in words if word in names.objects]
-        known = [word for word in words if word in names.parameters]
-        action = known or [word for word in words if arguments and word not in names.objects][:1]
-        return f"({' '.join([*action, *arguments])})" if len(action) == 1 else ""
+        return self._reader.vocabulary.step_of([word for word in words if NAME.fullmatch(word)])
+
+
+def _on_a_line(text: str) -> str:
+    return " ".join(text.split())
 
 
 def _texts(value: Any, depth: int = 99) -> list[str]:  # noqa: ANN401 - any JSON

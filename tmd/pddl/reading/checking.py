@@ -7,7 +7,7 @@ features that are used without their requirement. :mod:`tmd.pddl.reading.reader`
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from itertools import groupby, islice
+from itertools import islice, takewhile
 
 from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.derived import strata
@@ -37,6 +37,7 @@ from tmd.pddl.model import (
     parts_of,
     walk,
 )
+from tmd.pddl.reading.missing_types import apart, narrowest, typed, types_needed
 from tmd.pddl.reading.syntax import Source, Word, nearest, shifted
 
 # Of a declaration that a hint proposes.
@@ -257,30 +258,9 @@ class _Check:
             names = ", ".join(t.name for t in listed)
             message = f'"- {name}" in line {dash.line} is the parent of {names}, so of "{name}" itself'
             hint = f'end the types that are not of "{name}" with "- {OBJECT}", and "{name}" too'
-            self.fault(message, location, hint, "type-cycle", list(self.apart(name, location, listed)))
-
-    def apart(self, name: str, place: Location, listed: Sequence[TypeDeclaration]) -> Iterator[Edit]:
-        """Yield the edits that end a list of types with ``- object`` behind ``name``, the type that ends the list.
-
-        What stands behind it in the list stays of this type, and so do types before it that nothing else in the domain
-        names: they are of use as this type only.
-        """
-        named: Sequence[Predicate | ActionSchema] = (
-            *self.domain.predicates,
-            *self.domain.functions,
-            *self.domain.actions,
-        )
-        used = {kind for n in named for parameter in n.parameters for kind in parameter.types}
-        stay = [t for t in listed if t.location and t.location < place and t.name not in used]
-        for declared in stay:
-            assert declared.location is not None
-            yield self.source.removal(declared.location, shifted(declared.location, len(declared.name)))
-        behind = shifted(place, len(name))
-        if stay or any(t.location and t.location > place for t in listed):
-            yield Edit(behind, behind, " ".join((f" - {OBJECT}", *(t.name for t in stay))))
-        else:
-            parent = self.source.type_of(place, name) or place
-            yield Edit(parent, shifted(parent, len(name)), OBJECT)
+            self.fault(
+                message, location, hint, "type-cycle", list(apart(self.domain, name, location, listed, self.source))
+            )
 
     def dash(self, location: Location | None) -> Location | None:
         """Return the place of the next dash in the list in which a typed name stands."""
@@ -424,12 +404,7 @@ class _Check:
 
     def unknown(self, atom: Atom, scope: Mapping[str, tuple[str, ...]], known: Sequence[str], what: str) -> None:
         """Report an undeclared predicate or function, and check its arguments."""
-        joined = f"{atom.predicate}-{atom.terms[0]}" if atom.terms else ""
-        if joined in known:
-            start, end = self.word(atom, 0), self.word(atom, 1)
-            edits = [Edit(shifted(start, len(atom.predicate)), end, "-")] if start and end else []
-            if not self.again((what, joined), start, edits):
-                self.fault("a name has no blanks", start, f"write {joined}", "bad-name", edits, (what, joined))
+        if self.with_blank(atom, known, what):
             return
         types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
         place, slip = self.word(atom, 0), (what, atom.predicate)
@@ -439,19 +414,33 @@ class _Check:
             self.fault(f'"({atom.predicate})" is not PDDL', place, "write (and)", "other-notation", slip=slip)
             return
         names = (term if term.startswith("?") else f"?x{number}" for number, term in enumerate(atom.terms, start=1))
-        typed = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
-        declared = f"({' '.join((atom.predicate, *typed))})"
-        cure = f"declare {declared} under (:{what}s ...)"
+        typed_names = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
+        declared = f"({' '.join((atom.predicate, *typed_names))})"
         if what == "predicate" and not self.domain.predicates and ":predicates" not in self.source.sections:
-            if not self.of_problem:
-                self.used.setdefault(atom.predicate, (declared, place))
+            self.used.setdefault(atom.predicate, (declared, place))
             return
-        hint = _or_cure(nearest(atom.predicate, known, what=f"{what}s"), cure)
-        action = next((a for a in self.domain.actions if a.name == atom.predicate), None)
-        if action is not None:
-            made = next((f", such as ({e.atom.predicate} ...)" for e in action.effects if e.positive), "")
-            hint = f"this is an action: write what holds after it{made}"
+        hint = _or_cure(nearest(atom.predicate, known, what=f"{what}s"), f"declare {declared} under (:{what}s ...)")
+        hint = self.of_action(atom.predicate) or hint
         self.fault(f'unknown {what} "{atom.predicate}"', place, hint, f"unknown-{what}", slip=slip)
+
+    def with_blank(self, atom: Atom, known: Sequence[str], what: str) -> bool:
+        """Return whether the name of an atom has a blank, which is reported."""
+        joined = f"{atom.predicate}-{atom.terms[0]}" if atom.terms else ""
+        if joined not in known:
+            return False
+        start, end = self.word(atom, 0), self.word(atom, 1)
+        edits = [Edit(shifted(start, len(atom.predicate)), end, "-")] if start and end else []
+        if not self.again((what, joined), start, edits):
+            self.fault("a name has no blanks", start, f"write {joined}", "bad-name", edits, (what, joined))
+        return True
+
+    def of_action(self, name: str) -> str | None:
+        """Return the hint for an action that stands where a predicate should."""
+        action = next((a for a in self.domain.actions if a.name == name), None)
+        if action is None:
+            return None
+        made = next((f", such as ({e.atom.predicate} ...)" for e in action.effects if e.positive), "")
+        return f"this is an action: write what holds after it{made}"
 
     def typed_far_below(self, name: str) -> str | None:
         """Return a hint where the type of an object stands in a line below it: that of a list which it ends."""
@@ -572,24 +561,16 @@ class _Check:
     def untyped(self, problem: Problem) -> None:
         """Report several objects that have no type and need one, with the types that their uses tell."""
         plain = [o for o in problem.objects if o.types == (OBJECT,) and o.location is not None]
-        needed: dict[str, set[str]] = {}
-        goal = (part for part in walk(problem.goal) if isinstance(part, Atom))
-        for atom in (*(Atom(a.predicate, a.args) for a in sorted(problem.init)), *goal) if plain else ():
-            signature = self.predicates.get(atom.predicate)
-            for term, parameter in zip(atom.terms, signature.parameters if signature else (), strict=False):
-                needed.setdefault(term, set()).update(parameter.types[:1] if len(parameter.types) == 1 else ())
-        wrong = [o for o in plain if needed.get(o.name, {OBJECT}) - {OBJECT}]
+        needed = types_needed(problem) if plain else {}
+        wrong = [o for o in plain if needed.get(o.name)]
         if len(wrong) < 2:
             return
-        above = self.hierarchy.ancestors
-        kinds = {o.name: next((k for k in sorted(needed[o.name]) if needed[o.name] <= {*above(k)}), "") for o in wrong}
+        kinds = {o.name: narrowest(needed[o.name], self.hierarchy) for o in wrong}
         names = ", ".join(o.name for o in wrong[:8]) + (f" and {len(wrong) - 8} more" if len(wrong) > 8 else "")
-        runs = [(k, list(run)) for k, run in groupby(plain, lambda o: kinds.get(o.name, OBJECT))]
-        ends = [(kind, shifted(run[-1].location, len(run[-1].name))) for kind, run in runs if run[-1].location]
-        edits = [Edit(end, end, f" - {kind}") for kind, end in ends] if all(kinds.values()) else []
-        kind, run = next((kind, run) for kind, run in runs if kind != OBJECT)
-        hint = f"write {' '.join(o.name for o in run[:8])} - {kind or 'type'}"
+        run = list(takewhile(lambda o: kinds[o.name] == kinds[wrong[0].name], wrong[:8]))
+        hint = f"write {' '.join(o.name for o in run)} - {kinds[wrong[0].name] or 'type'}"
         message = f"these objects have no type, and need one: {names}"
+        edits = list(typed(plain, kinds)) if all(kinds.values()) else []
         self.fault(message, wrong[0].location, hint, "wrong-type", edits)
         self.known_objects.update(dict.fromkeys((o.name for o in wrong), None))
 

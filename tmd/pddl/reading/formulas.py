@@ -191,16 +191,8 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
             _without_parentheses(node, source)
             rest += reversed(node.parts)
             continue
-        if variables and isinstance(node, Word):
-            node = _before_glued_type(node, rest, source)
-        if isinstance(node, Word) and ":" in node.text and node.text[0] != ":":
-            node = _before_colon(node, rest, source)
-        if isinstance(node, Word) and len(node.text) > 1 and node.text[0] == "-":
-            rest.append(_after_dash(node, source))
-            node = Word("-", node.location)
-        if isinstance(node, Word) and _LOOK_ALIKES.get(node.text) == "-":
-            source.recover(None, read_name, node, source, "a dash")
-            node = Word("-", node.location)
+        if isinstance(node, Word):
+            node = _apart(node, rest, variables, source)
         if isinstance(node, Word) and node.text == "-":
             behind = rest[-1] if rest else node
             types = source.recover((OBJECT,), _read_types, rest, node.location, source)
@@ -214,6 +206,21 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
             waiting.extend(_read_listed(node, source, variables, what))
     found.extend(TypedName(w.text, (OBJECT,), w.location) for w in waiting)
     return tuple(found)
+
+
+def _apart(node: Word, rest: list[Node], variables: bool, source: Source) -> Word:
+    """Return the first of the words that are written as one; the rest begins with the others then."""
+    if variables:
+        node = _before_glued_type(node, rest, source)
+    if ":" in node.text and node.text[0] != ":":
+        node = _before_colon(node, rest, source)
+    if len(node.text) > 1 and node.text[0] == "-":
+        rest.append(_after_dash(node, source))
+        return Word("-", node.location)
+    if _LOOK_ALIKES.get(node.text) == "-":
+        source.recover(None, read_name, node, source, "a dash")
+        return Word("-", node.location)
+    return node
 
 
 def types_of(source: Source) -> frozenset[str]:
@@ -346,22 +353,34 @@ def _in_pddl(node: Group, source: Source) -> Group:
     if not node.parts:
         return node
     head, *rest = node.parts
-    if isinstance(head, Word) and head.text[0] in "!~\u00ac" and NAME.fullmatch(head.text[1:]):
+    if isinstance(head, Group):
+        return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
+    if head.text == "not" or head.text[0] in "!~\u00ac":
+        return _negation(node, head, rest, source)
+    if len(rest) == 2 and node.head in _TIMES:
+        return _timeless(node, rest[0], rest[1], source)
+    if len(rest) == 2 and node.head in _ASSIGNED and isinstance(rest[0], Group):
+        return _truth_value(node, rest[0], rest[1], source)
+    return _connective(node, head, rest, source)
+
+
+def _negation(node: Group, head: Word, rest: Sequence[Node], source: Source) -> Group:
+    """Return ``(!p ?x)`` and ``(not p ?x)``, which are reported, as ``(not (p ?x))``."""
+    if NAME.fullmatch(head.text[1:]) and head.text != "not":
         atom = _group(node, Word(head.text[1:], shifted(head.location, 1)), *rest)
         shown = source.text(node.location, after(node)).replace(head.text[0], "", 1)
         _of_pddl(node, f"(not {shown})", head.text[0], source)
         return _group(node, Word("not", node.location), atom)
-    if node.head == "not" and len(rest) > 1 and all(isinstance(part, Word) for part in rest):
+    if head.text == "not" and len(rest) > 1 and all(isinstance(part, Word) for part in rest):
         edits = enclosed(rest[0], rest[-1])
         hint = f"write (not ({source.text(rest[0].location, after(rest[-1]))}))"
         source.fault_at('what is behind "not" stands in parentheses', rest[0].location, hint, "syntax", edits)
         return _group(node, head, Group(tuple(rest), rest[0].location, node.end, node.depth + 1))
-    if node.head in _TIMES and len(rest) == 2 and isinstance(rest[0], Word) and isinstance(rest[1], Group):
-        return _timeless(node, rest[0], rest[1], source)
-    if node.head in ("=", "==", "assign", "set") and len(rest) == 2 and isinstance(rest[0], Group):
-        return _truth_value(node, rest[0], rest[1], source)
-    if isinstance(head, Group):
-        return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
+    return _connective(node, head, rest, source)
+
+
+def _connective(node: Group, head: Word, rest: Sequence[Node], source: Source) -> Group:
+    """Return a group whose head or sign is that of another notation, which is reported, with that of PDDL."""
     between = rest[0].text if len(rest) == 2 and isinstance(rest[0], Word) else ""
     if between in _SIGNS:
         return _equation(node, between, (head, rest[1]), source)
@@ -379,11 +398,13 @@ def _in_pddl(node: Group, source: Source) -> Group:
 
 # How the times of durative actions begin, and the words behind that.
 _TIMES = {"at": ("start", "end"), "over": ("all",)}
+# What some write to make an atom true or false.
+_ASSIGNED = ("=", "==", "assign", "set")
 
 
-def _timeless(node: Group, time: Word, inner: Group, source: Source) -> Group:
+def _timeless(node: Group, time: Node, inner: Node, source: Source) -> Group:
     """Return the condition or effect in ``(at start (...))``, which is reported."""
-    if time.text not in _TIMES[node.head]:
+    if isinstance(time, Group) or isinstance(inner, Word) or time.text not in _TIMES[node.head]:
         return node
     edits = [Edit(node.location, inner.location), Edit(node.end, shifted(node.end, 1))]
     message = f'"{node.head} {time.text}" belongs in durative actions'
@@ -401,7 +422,7 @@ def _truth_value(node: Group, atom: Group, value: Node, source: Source) -> Group
     return atom if value.text == "true" else _group(node, Word("not", node.location), atom)
 
 
-def _quantifier(node: Group, source: Source) -> Group:
+def _quantifier(node: Group, source: Source, what: str) -> Group:
     """Return a quantifier with parameters in parentheses and one part behind them; anything else is reported."""
     head, *parts = node.parts
     words = [part for part in takewhile(lambda part: isinstance(part, Word), parts)]
@@ -415,7 +436,9 @@ def _quantifier(node: Group, source: Source) -> Group:
         message, hint = f'"{node.head}" takes one part behind its parameters', "use (and (...) (...)) for several"
         source.fault_at(message, parts[1].location, hint, "syntax", edits)
         parts = [parts[0], _group(node, Word("and", parts[1].location), *parts[1:])]
-    return _group(node, head, *parts)
+    node = _group(node, head, *parts)
+    _expect(node, 2, f"({node.head} (parameters) {what})", source)
+    return node
 
 
 def _equation(node: Group, sign: str, terms: Sequence[Node], source: Source) -> Group:
@@ -480,11 +503,9 @@ def read_condition(node: Node, source: Source) -> Formula:
         _expect(node, 2, "(imply condition condition)", source)
         return Imply(read_condition(parts[0], source), read_condition(parts[1], source), place)
     if head in ("forall", "exists"):
-        node = _quantifier(node, source)
-        parts = node.parts[1:]
-        _expect(node, 2, f"({head} (parameters) condition)", source)
-        parameters, part = read_parameters(parts[0], source), read_condition(parts[1], source)
-        return Forall(parameters, part, place) if head == "forall" else Exists(parameters, part, place)
+        _, parameters, part = _quantifier(node, source, "condition").parts
+        quantified = Forall if head == "forall" else Exists
+        return quantified(read_parameters(parameters, source), read_condition(part, source), place)
     if head == "=":
         _expect(node, 2, "(= term term)", source)
         if any(isinstance(p, Group) or p.text[0].isdigit() for p in parts):
@@ -583,10 +604,8 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
         for part in parts:
             source.recover(None, _read_effect, part, source, around, found)
     elif head == "forall":
-        node = _quantifier(node, source)
-        parts = node.parts[1:]
-        _expect(node, 2, "(forall (parameters) effect)", source)
-        _read_effect(parts[1], source, _quantified(node, source, around), found)
+        node = _quantifier(node, source, "effect")
+        _read_effect(node.parts[2], source, _quantified(node, source, around), found)
     elif head == "when":
         _expect(node, 2, "(when condition effect)", source)
         if around.conditions:

@@ -247,19 +247,22 @@ def _read_signature(node: Node, document: Document, comment: str = "") -> Predic
         raise unsupported(source, UNSUPPORTED[node.head], node.head, node.location)
     if not node.parts:
         raise source.error("expected (name ?parameter ...), found ()", node.location)
-    named = list(takewhile(lambda part: isinstance(part, Word) and part.text[0] not in "?-", node.parts))
+    named = _name_of_signature(node, source)
     rest = node.parts[len(named) :]
-    if len(named) < 2 or not rest or not isinstance(rest[0], Word) or rest[0].text[0] != "?":
-        named, rest = [node.parts[0]], node.parts[1:]  # those are variables without a mark
-    elif (
-        isinstance(named[1], Word)
-        and named[1].text in types_of(source)
-        and not any(isinstance(part, Word) and part.text == "-" for part in rest)
-    ):
-        named, rest = [node.parts[0]], node.parts[1:]  # and this is a type before its variable
     name = read_title(named, node.location, source, "the name of a predicate")
     parameters = read_typed_list(rest, source, variables=True, what="a parameter")
     return Predicate(name.text, _each_named(parameters, source), comment, node.location)
+
+
+def _name_of_signature(node: Group, source: Source) -> Sequence[Node]:
+    """Return the words before the parameters: a name with blanks, or the name alone where others are no part of it."""
+    named = [*takewhile(lambda part: isinstance(part, Word) and part.text[0] not in "?-", node.parts)]
+    words = [part.text for part in node.parts if isinstance(part, Word)]
+    variables = words[len(named) : len(named) + 1]
+    if len(named) < 2 or not variables or variables[0][0] != "?":
+        return node.parts[:1]  # those are variables without a mark
+    typed_before = words[1] in types_of(source) and "-" not in words
+    return node.parts[:1] if typed_before else named
 
 
 def _each_named(parameters: tuple[TypedName, ...], source: Source) -> tuple[TypedName, ...]:
@@ -300,7 +303,7 @@ def read_action(group: Group, source: Source) -> ActionSchema:
     """Read ``(:action name ...)``; what is left out is empty."""
     if len(group.parts) < 2:
         raise source.error("this action has no name", group.location)
-    named = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), group.parts[1:]))
+    named = _words_before_keyword(group.parts[1:])
     name = read_title(named or group.parts[1:2], group.location, source, "the name of an action")
     parts = _parts_of_action(group, len(named) + 1, name.text, source)
     effects = Effects()
@@ -370,13 +373,9 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
         if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
             value = nodes[0] = _in_parentheses(nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
+        parts.setdefault(_part_meant(keyword.text), nodes.pop(0))
         if keyword.text not in PARTS:  # what else belongs to it is not reported as well
-            extra = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes[1:]))
-            del nodes[1 : 1 + len(extra)]
-        # the value of a misspelt keyword is not reported as missing as well
-        listed = keyword.text in PARTS or keyword.text.replace("_", "-") in _LISTS
-        meant = [] if listed else get_close_matches(keyword.text, PARTS, n=1)
-        parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
+            del nodes[: len(_words_before_keyword(nodes))]
         if keyword.text in PARTS:
             found.append((PARTS.index(keyword.text), keyword.text, keyword.location, after(value)))
     warn_of_order(found, source)
@@ -391,9 +390,20 @@ _LISTS = frozenset({
 _EFFECT = "write :effect (and (added ...) (not (deleted ...)))"
 
 
+def _part_meant(keyword: str) -> str:
+    """Return the part of an action that a keyword means, so that its value is not reported as missing as well."""
+    if keyword in PARTS or keyword in UNSUPPORTED or keyword.replace("_", "-") in _LISTS:
+        return keyword
+    return next(iter(get_close_matches(keyword, PARTS, n=1)), keyword)
+
+
+def _words_before_keyword(nodes: Sequence[Node]) -> list[Node]:
+    return list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
+
+
 def _in_parentheses(nodes: list[Node], source: Source) -> Group:
     """Return the parameters that ``nodes`` begin with, which lack their parentheses, and keep one of them."""
-    words = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
+    words = _words_before_keyword(nodes)
     del nodes[1 : len(words)]
     start, edits = words[0].location, enclosed(words[0], words[-1])
     source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
@@ -645,11 +655,17 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
         found = f", found ({title.head} ...)" if isinstance(title, Group) else ""
         raise source.error(f"expected ({kind} name){found}", title.location)
     name = read_title(title.parts[1:], title.location, source, f"the name of a {kind}")
-    for words, run in groupby(sections, lambda section: isinstance(section, Word)):
+    groups = _sections(sections, source)
+    _of_kind(kind, title.parts[0], name.text, groups, source)
+    return name, groups
+
+
+def _sections(nodes: Sequence[Node], source: Source) -> list[Group]:
+    """Return the sections of a definition; the words between them are reported."""
+    for words, run in groupby(nodes, lambda node: isinstance(node, Word)):
         if words:
-            _outside([section for section in run if isinstance(section, Word)], source)
-    _of_kind(kind, title.parts[0], name.text, [s for s in sections if isinstance(s, Group)], source)
-    return name, [s for s in sections if isinstance(s, Group)]
+            _outside([node for node in run if isinstance(node, Word)], source)
+    return [node for node in nodes if isinstance(node, Group)]
 
 
 def _outside(words: Sequence[Word], source: Source) -> None:
