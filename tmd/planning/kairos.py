@@ -22,7 +22,7 @@ _PROVEN = "solved (proven optimal)"
 # Seconds after its time limit in which kairos, which knows the limit, prints a plan.
 _LATER = 1.0
 # Seconds of the processor that kairos has to itself: most of what it solves, it solves sooner.
-_ALONE = 0.3
+_ALONE = 0.15
 # Seconds by the clock, and share of the time limit, after which the other planner begins in any case.
 _ALONE_BY_CLOCK = 5.0
 _SHARE = 0.25
