@@ -104,6 +104,22 @@ REPAIRED = {
     "comments of TeX": ("domain", "  (:types", "  % two types\n  (:types", "foreign-text", '";"'),
     "thoughts": ("domain", "(define (domain", "I (define) it:\n(define (domain", "foreign-text", "remove"),
     "no (define": ("domain", "(define (domain garden)", "(domain garden)", "syntax", "(define (domain"),
+    "no parenthesis at the beginning": ("domain", "(define (domain", "define (domain", "syntax", "(define"),
+    "no parenthesis at the beginning of a problem": ("problem", "(define (pro", "Define (pro", "syntax", "(define"),
+    "objects twice": (
+        "problem",
+        "roses herbs - bed)",
+        "roses - bed)\n  (:objects herbs - bed) ; more",
+        "duplicate-section",
+        "join",
+    ),
+    "predicates twice": (
+        "domain",
+        " (moist ?b - bed))",
+        ")\n  (:predicates ; more\n    (moist ?b - bed) ; wet\n  )",
+        "duplicate-section",
+        "join",
+    ),
     "no (domain": ("domain", "(domain garden)", "domain garden", "syntax", "(domain garden)"),
     "no :domain": ("problem", "  (:domain garden)\n", "", "missing-section", "(:domain garden)"),
     "order of an action": (

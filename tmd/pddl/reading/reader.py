@@ -6,7 +6,7 @@ Supported: typed ADL with action costs. Everything else is refused by its name. 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
@@ -727,8 +727,22 @@ def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source:
         edits = _meant(word, known) if isinstance(word, Word) and (head[0] == ":" or f":{head}" in known) else []
         raise source.error(f"{shown} is not a section", group.location, nearby, "unknown-section", edits)
     if head in seen:
-        raise source.error(f'the section "{head}" appears twice', group.location, "join the two", "duplicate-section")
+        edits = list(_moved(group, source.sections[head], source)) if head in _LISTED else []
+        message = f'the section "{head}" appears twice'
+        raise source.error(message, group.location, "join the two", "duplicate-section", edits)
     return head
+
+
+# The sections that are lists, of which two are one.
+_LISTED = frozenset({":requirements", ":types", ":constants", ":predicates", ":functions", ":objects", ":init"})
+
+
+def _moved(group: Group, first: Group, source: Source) -> Iterator[Edit]:
+    """Yield the edits that move what is in a section to the end of the first one of its name."""
+    content = source.text(after(group.parts[0]), group.end).strip()
+    end = "\n" if ";" in content.rpartition("\n")[2] else ""
+    yield Edit(first.end, first.end, f"\n    {content}{end}")
+    yield source.removal(group.location, after(group))
 
 
 class InitReader:

@@ -573,6 +573,12 @@ class _Parser:
             self.closed_too_early(self.groups[-1])
             self.stack.append(_reopened(self.groups.pop()))
             return True
+        if word.text == "define" and not self.outside:
+            edits = [Edit(word.location, word.location, "(")]
+            message = 'a parenthesis is missing before "define"'
+            self.fault(message, word.location, 'write "(define"', "syntax", edits)
+            self.stack.append(_Open(word.location, [word], True))
+            return False
         if not self.outside:
             self.fault(f'"{word.text}" stands outside all parentheses', word.location, None, "syntax")
         self.outside = True
