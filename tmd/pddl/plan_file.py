@@ -44,6 +44,8 @@ _NAMED = re.compile(r"\??([A-Za-z_][\w-]*)\s*[=:]\s*\??(?=\w)")
 _THOUGHTS = re.compile(r"<think(?:ing)?>.*?</think(?:ing)?>", re.DOTALL | re.IGNORECASE)
 _FENCED = re.compile(r"^[ \t]*```[^\n]*\n(.*?)```", re.DOTALL | re.MULTILINE)
 _DATA = re.compile(r"[\[{].*[\]}]", re.DOTALL)
+# What of data is in a text that has steps as well; the brackets of durations have numbers in them.
+_MAY_BE_DATA = re.compile(r"[{`]|\[\s*[^\s\d]")
 # Longer texts are logs, which have no data in them.
 _MOST_DATA = 100_000
 _OPEN = re.compile(r"\(\s*([A-Za-z0-9_][\w-]*)(?:[\s,]+[\w-]+)*\s*$")
@@ -111,7 +113,8 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
     reader = _Reader(file, _Vocabulary.of(problem))
     value = _json(text)
     plans = [] if value is not None else reader.plans_of_text(text)
-    data = list(_JsonReader(text, reader).plans(_data(text) if value is None else value))
+    likely = value is not None or not plans or _MAY_BE_DATA.search(text)
+    data = list(_JsonReader(text, reader).plans(_data(text) if value is None else value)) if likely else []
     if max(map(reader.known, data), default=0) > max(map(reader.known, plans), default=-1):
         plans, value = data, text
     whole = [plan for plan in plans if not plan.cut]

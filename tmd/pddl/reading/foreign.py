@@ -6,7 +6,6 @@ that everything else keeps its place and is read as if it were alone.
 
 from __future__ import annotations
 
-import html
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -272,7 +271,9 @@ class _Text:
 
 def _plain(text: str) -> str:
     """Return an entity of HTML as the sign that it means, filled up with blanks."""
-    return html.unescape(html.unescape(text)).replace("\xa0", " ").ljust(len(text))
+    from html import unescape  # which most texts do not need
+
+    return unescape(unescape(text)).replace("\xa0", " ").ljust(len(text))
 
 
 def _unquoted(text: str) -> str:
