@@ -52,6 +52,8 @@ _OTHER_FILES = {
     "a pointer of Git LFS": (re.compile(r"version https://git-lfs"), "get the file with: git lfs pull"),
     "the answer that there is no such file": (re.compile(r"\s*404\b"), "look at its address"),
 }
+# The kinds that mean nothing before the definition.
+_WITHIN = frozenset({"text", "quoted", "dollar", "slash"})
 _DEFINE = re.compile(r"\(\s*define\b", re.IGNORECASE)
 _DEFINITION = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\b\s*([^\s()]*)", re.IGNORECASE)
 # Text behind a definition that belongs into it: the definition was closed too early.
@@ -141,7 +143,11 @@ class _Text:
     def marks(self) -> None:
         """Blank the marks of Markdown and comments of other languages; comments of PDDL are no part of ``bare``."""
         found: dict[str, list[re.Match[str]]] = {}
+        first = _DEFINE.search(self.bare)
+        begin = first.start() if first else len(self.bare)
         for match in _MARKS.finditer(self.bare):
+            if match.lastgroup in _WITHIN and match.start() < begin:
+                continue  # all of this is not PDDL, which is reported
             if match.lastgroup and match.lastgroup != "comment":
                 found.setdefault(match.lastgroup, []).append(match)
         for kind, matches in found.items():
