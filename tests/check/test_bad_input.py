@@ -41,7 +41,7 @@ FILES: dict[str, tuple[str, bytes, str]] = {
         "nested-too-deeply",
     ),
     "binary": ("d.pddl", b"\x7fELF\x00\x01", "not-text"),
-    "utf-16": ("d.pddl", DOMAIN.encode("utf-16"), "not-text"),
+    "utf-16": ("d.pddl", DOMAIN.encode("utf-16"), "not-utf8"),
     "latin-1": ("d.pddl", b"(define (domain caf\xe9))", "not-utf8"),
     "empty": ("d.pddl", b"", "empty-file"),
     "only a comment": ("d.pddl", b"; nothing\n", "empty-file"),

@@ -43,6 +43,20 @@ REPAIRED = {
     "a sentence behind": ("problem", "herbs))))\n", "herbs))))\nWater (all) beds.\n", "foreign-text", "remove"),
     "a heading": ("domain", "(define (domain", "## The domain\n(define (domain", "foreign-text", '";"'),
     "Lisp": ("problem", "(define (problem", "(in-package :pddl)\n(define (problem", "foreign-text", "remove"),
+    "Lisp with a name in quotes": (
+        "domain",
+        "(define (domain",
+        '(in-package "GARDENS")\n(define (domain',
+        "foreign-text",
+        "remove",
+    ),
+    "a sentence with quotes": (
+        "domain",
+        "(define (domain",
+        'The "garden" domain costs $nothing:\n(define (domain',
+        "foreign-text",
+        "remove",
+    ),
     "a block of comments": ("domain", "  (:types", "#| two\ntypes |# (:types", "foreign-text", '";"'),
     "comments of C": ("domain", "  (:types", "  // two types\n  (:types", "foreign-text", '";"'),
     "escaped": ("domain", DOMAIN, DOMAIN.replace("\n", "\\n"), "foreign-text", "ends of lines"),
@@ -104,6 +118,22 @@ REPAIRED = {
     "comments of TeX": ("domain", "  (:types", "  % two types\n  (:types", "foreign-text", '";"'),
     "thoughts": ("domain", "(define (domain", "I (define) it:\n(define (domain", "foreign-text", "remove"),
     "no (define": ("domain", "(define (domain garden)", "(domain garden)", "syntax", "(define (domain"),
+    "no parenthesis at the beginning": ("domain", "(define (domain", "define (domain", "syntax", "(define"),
+    "no parenthesis at the beginning of a problem": ("problem", "(define (pro", "Define (pro", "syntax", "(define"),
+    "objects twice": (
+        "problem",
+        "roses herbs - bed)",
+        "roses - bed)\n  (:objects herbs - bed) ; more",
+        "duplicate-section",
+        "join",
+    ),
+    "predicates twice": (
+        "domain",
+        " (moist ?b - bed))",
+        ")\n  (:predicates ; more\n    (moist ?b - bed) ; wet\n  )",
+        "duplicate-section",
+        "join",
+    ),
     "no (domain": ("domain", "(domain garden)", "domain garden", "syntax", "(domain garden)"),
     "no :domain": ("problem", "  (:domain garden)\n", "", "missing-section", "(:domain garden)"),
     "order of an action": (
@@ -120,6 +150,214 @@ REPAIRED = {
         "section-order",
         "before",
     ),
+    "types of all lines above": (
+        "domain",
+        "(:types can bed)",
+        "(:types\n can\n bed\n herb_bed - bed)",
+        "type-cycle",
+        '"- object"',
+    ),
+    "types of one line": ("domain", "(:types can bed)", "(:types can bed herb_bed - bed)", "type-cycle", '"- object"'),
+    "its own parent": ("domain", "(:types can bed)", "(:types can bed - bed)", "type-cycle", '"bed" too'),
+    "its own only parent": ("domain", "(:types can bed)", "(:types bed - bed can)", "type-cycle", "bed - object"),
+    "entities": ("domain", "?c - can ?b - bed)", "?c&nbsp;&#45; can ?b - bed)", "foreign-text", ">"),
+    "entities of entities": ("problem", "jug - can", "jug &amp;#45; can", "foreign-text", "signs"),
+    "tags": ("domain", DOMAIN, f'<pre><code class="language-pddl">{DOMAIN}</code></pre>', "foreign-text", "remove"),
+    "thoughts in tags": (
+        "domain",
+        "(define (domain",
+        "<think>\nShall it be (define (domain garden) (:types can))?\n</think>\n(define (domain",
+        "foreign-text",
+        "remove",
+    ),
+    "ends of lines of HTML": ("problem", "jug - can", "jug - can<br/>", "foreign-text", "remove"),
+    "quotes": ("problem", "tin jug - can", '"tin" "jug" - can', "foreign-text", "remove"),
+    "quotes of a printer": ("problem", "(full tin)", "(full \u2018tin\u2019)", "foreign-text", "remove"),
+    "a description": (
+        "domain",
+        "(:action pour\n",
+        '(:action pour\n    :description "Water a bed"\n',
+        "foreign-text",
+        '";"',
+    ),
+    "a description on a line": (
+        "domain",
+        "(:action pour\n",
+        '(:action pour :documentation "Water a bed (once)" ',
+        "foreign-text",
+        '";"',
+    ),
+    "marks of the shell": ("domain", "(?c - can ?b - bed)\n", "($c - can ?b - bed)\n", "foreign-text", '"?"'),
+    "backslashes": ("domain", "  (:types can bed)", "  \\(:types can bed\\)", "foreign-text", "remove"),
+    "backslashes in names": ("domain", "(moist ?b)))", "(moi\\st ?b)))", "other-notation", "moist"),
+    "a sentence within": (
+        "domain",
+        "  (:action pour",
+        "  This action waters\n  beds\n  (:action pour",
+        "foreign-text",
+        '";"',
+    ),
+    "a remark within": ("problem", "  (:init", "  now the state (:init", "foreign-text", '";"'),
+    "dashes of a printer": ("domain", "(?c - can ?b - bed)\n", "(?c \u2013 can ?b \u2013 bed)\n", "look-alike", '"-"'),
+    "logic": ("domain", "(and (at ?c ?b)", "(\u2227 (at ?c ?b)", "other-notation", "and"),
+    "logic of effects": (
+        "domain",
+        "(and (at ?c ?y) (not (at ?c ?x)))",
+        "(and (at ?c ?y) (\u00ac (at ?c ?x)))",
+        "other-notation",
+        "not",
+    ),
+    "unequal as a sign": ("domain", "(path ?x ?y))\n", "(path ?x ?y) (?x \u2260 ?y))\n", "other-notation", "(not (="),
+    "true": ("domain", ":effect (moist ?b)", ":effect (= (moist ?b) true)", "other-notation", "(moist ?b)"),
+    "false": (
+        "domain",
+        "(not (at ?c ?x))",
+        "(assign (at ?c ?x) false)",
+        "other-notation",
+        "(not (at ?c ?x))",
+    ),
+    "true in a condition": ("domain", "(full ?c))\n", "(= (full ?c) true))\n", "other-notation", "(full ?c)"),
+    "times": ("domain", "(full ?c))\n", "(at start (full ?c)))\n", "other-notation", "alone"),
+    "times of effects": (
+        "domain",
+        ":effect (moist ?b)",
+        ":effect (and (at end (moist ?b)))",
+        "other-notation",
+        "alone",
+    ),
+    "a type of nothing": ("domain", "(:types can bed)", "(:types can bed - object - object)", "syntax", "remove"),
+    "types without a word": ("domain", "(moist ?b - bed)", "(moist ?b - (can bed))", "syntax", "(either can bed)"),
+    "no blanks": ("domain", "(?c - can ?b - bed)\n", "(?c-can ?b-bed)\n", "other-notation", "?c - can"),
+    "no blanks in a declaration": ("domain", "(moist ?b - bed)", "(moist ?b-bed)", "other-notation", "?b - bed"),
+    "types before variables": ("domain", "(?c - can ?b - bed)\n", "(can ?c bed ?b)\n", "other-notation", "?c - can"),
+    "a type before a variable": ("domain", "(moist ?b - bed)", "(moist bed ?b)", "other-notation", "?b - bed"),
+    "types in the initial state": (
+        "problem",
+        "(at tin roses)",
+        "(at tin - can roses - bed)",
+        "other-notation",
+        "remove",
+    ),
+    "types in a condition": ("domain", "(and (at ?c ?b)", "(and (at ?c - can ?b)", "other-notation", "remove"),
+    "parentheses of types": ("domain", "(:types can bed)", "(:types (can bed))", "other-notation", "a b - type"),
+    "parentheses of variables": (
+        "domain",
+        "(?c - can ?b - bed)\n",
+        "((?c - can) (?b - bed))\n",
+        "other-notation",
+        "a b - type",
+    ),
+    "parentheses of objects": (
+        "problem",
+        "tin jug - can roses herbs - bed",
+        "(tin jug - can) (roses herbs - bed)",
+        "other-notation",
+        "a b - type",
+    ),
+    "quantified without parentheses": (
+        "problem",
+        "(and (moist roses) (moist herbs))",
+        "(forall ?b - bed (moist ?b))",
+        "syntax",
+        "(?x - type)",
+    ),
+    "quantified without and": (
+        "problem",
+        "(and (moist roses) (moist herbs))",
+        "(exists (?b - bed) (moist ?b) (moist herbs))",
+        "syntax",
+        "(and",
+    ),
+    "effects quantified without and": (
+        "domain",
+        ":effect (moist ?b)",
+        ":effect (forall (?b2 - bed) (moist ?b2) (moist ?b))",
+        "syntax",
+        "(and",
+    ),
+    "no parameters": (
+        "domain",
+        "    :parameters (?c - can ?b - bed)\n    :precondition (and (at ?c ?b)",
+        "    :precondition (and (at ?c ?b)",
+        "free-variable",
+        ":parameters (?c - can ?b - bed)",
+    ),
+    "empty parameters": (
+        "domain",
+        "(?c - can ?b - bed)\n    :precondition (and (at ?c ?b)",
+        "()\n    :precondition (and (at ?c ?b)",
+        "free-variable",
+        ":parameters (?c - can ?b - bed)",
+    ),
+    "objects without types": (
+        "problem",
+        "tin jug - can roses herbs - bed",
+        "tin jug roses herbs",
+        "wrong-type",
+        "tin jug - can",
+    ),
+    "some objects without types": (
+        "problem",
+        "tin jug - can roses herbs - bed",
+        "tin jug - can roses herbs",
+        "wrong-type",
+        "roses herbs - bed",
+    ),
+    "an atom that is not closed": (
+        "problem",
+        "(at tin roses) (at jug",
+        "(at tin roses (at jug",
+        "unclosed-parenthesis",
+        "behind it",
+    ),
+    "a condition that is not closed": (
+        "domain",
+        "(and (at ?c ?x) (path ?x ?y))",
+        "(and (at ?c ?x (path ?x ?y))",
+        "unclosed-parenthesis",
+        "behind it",
+    ),
+    "a problem called a domain": ("problem", "(problem june)", "(domain june)", "syntax", "(define (problem june)"),
+    "a semicolon in a list": (
+        "domain",
+        "(path ?x ?y - bed) (full",
+        "(path ?x ?y - bed); (full",
+        "other-notation",
+        "it",
+    ),
+    "a semicolon at an end": ("domain", "(not (at ?c ?x))))", "(not (at ?c ?x));))", "other-notation", "remove"),
+    "numbers of lines": (
+        "domain",
+        DOMAIN,
+        "".join(f"{number:3} {line}\n" for number, line in enumerate(DOMAIN.splitlines(), start=1)),
+        "foreign-text",
+        "remove",
+    ),
+    "a quoted mail": (
+        "problem",
+        PROBLEM,
+        "".join(f"> {line}\n" for line in PROBLEM.splitlines()),
+        "foreign-text",
+        "remove",
+    ),
+    "a compared text": (
+        "problem",
+        PROBLEM,
+        PROBLEM.replace("\n", "\n+")[:-1].join(("+", "\n")),
+        "foreign-text",
+        "remove",
+    ),
+    "not written together": ("domain", "(not (at ?c ?x))", "(!at ?c ?x)", "other-notation", "(not (at ?c ?x))"),
+    "not without parentheses": ("domain", "(not (at ?c ?x))", "(not at ?c ?x)", "syntax", "(not (at ?c ?x))"),
+    "requirements in parentheses": ("domain", ":strips :typing)", "(:strips :typing))", "syntax", "remove"),
+    "two pairs of parentheses": ("domain", "(moist ?b - bed)", "((moist ?b - bed))", "syntax", "remove"),
+    "no predicates": (
+        "domain",
+        "  (:predicates (at ?c - can ?b - bed) (path ?x ?y - bed) (full ?c - can) (moist ?b - bed))\n",
+        "",
+        "missing-section",
+        "(:predicates (at ?c - can ?x - bed)",
+    ),
     "plural": (
         "domain",
         ":precondition (and (at ?c ?b)",
@@ -131,13 +369,6 @@ REPAIRED = {
 
 # The same, where only the author knows the repair.
 TOLD = {
-    "types of all lines above": (
-        "domain",
-        "(:types can bed)",
-        "(:types\n can\n bed\n herb_bed - bed)",
-        "type-cycle",
-        '"- object"',
-    ),
     "a variable in the goal": ("problem", "(moist roses)", "(moist ?b)", "free-variable", "exists (?b - bed)"),
     "undeclared": (
         "domain",
@@ -162,6 +393,30 @@ TOLD = {
         "tin - can",
     ),
     "predicates in a problem": ("problem", "  (:init", "  (:predicates (wet))\n  (:init", "unknown-section", "domain"),
+    "lists of effects": (
+        "domain",
+        ":effect (and (at ?c ?y) (not (at ?c ?x)))",
+        ":add (at ?c ?y) :delete (at ?c ?x)",
+        "unknown-keyword",
+        ":effect (and",
+    ),
+    "effects that are added": ("domain", ":effect (moist ?b)", ":add_effects (moist ?b)", "unknown-keyword", ":effect"),
+    "an unknown part": ("domain", ":effect (moist ?b)", ":effect (moist ?b) :agent ?a - can", "not-supported", ""),
+    "an action in the goal": ("problem", "(moist herbs)", "(pour jug herbs)", "unknown-predicate", "(moist ...)"),
+    "predicates without parentheses": (
+        "domain",
+        "(:predicates (at ?c - can ?b - bed)",
+        "(:predicates at full (at ?c - can ?b - bed)",
+        "syntax",
+        "(at ?x - type)",
+    ),
+    "a merge": (
+        "domain",
+        "    :effect (moist ?b)))",
+        "<<<<<<< HEAD\n    :effect (moist ?b)))\n=======\n    :effect (and (moist ?b))))\n>>>>>>> other",
+        "foreign-text",
+        "one of the two",
+    ),
     "left out": ("problem", "(path roses herbs))", "(path roses herbs) ...)", "syntax", "left out"),
 }
 
@@ -196,11 +451,41 @@ def test_a_slip_is_told_once_with_its_cure(tmp_path: Path, name: str) -> None:
     assert told.code == kind and hint in (told.hint or "")
 
 
+@pytest.mark.parametrize(
+    ("text", "cure"),
+    [
+        ("<!DOCTYPE html>\n<html><body>(define (domain garden))</body></html>\n", "download"),
+        ("<html>\n", "download"),
+        ("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 120\n", "git lfs pull"),
+        ("404: Not Found", "address"),
+    ],
+)
+def test_a_file_of_another_kind_is_named(tmp_path: Path, text: str, cure: str) -> None:
+    paths = _written(tmp_path, "domain", DOMAIN, text)
+    (told,) = check_paths(paths).diagnostics
+    assert told.code == "empty-file" and cure in (told.hint or "")
+
+
 def test_an_object_of_the_domain_moves_from_the_problem(tmp_path: Path) -> None:
     paths = _written(tmp_path, "domain", "(full ?c))", "(full ?c) (path roses ?b) (path ?b herbs))")
     check_paths(paths, fix=True)
     assert "(:constants roses - bed herbs - bed)" in paths[0].read_text()
-    assert "(:objects tin jug - can )" in paths[1].read_text()
+    assert "(:objects tin jug - can)" in paths[1].read_text()
+
+
+def test_a_list_of_types_is_ended_before_those_of_its_type(tmp_path: Path) -> None:
+    paths = _written(tmp_path, "domain", "(:types can bed)", "(:types\n  can\n  mulch\n  bed\n  herb_bed - bed)")
+    paths[1].write_text(PROBLEM.replace("roses herbs - bed", "roses - mulch herbs - herb_bed"))
+    assert _wrong(check_paths(paths, fix=True).diagnostics) == []
+    assert "(:types\n  can\n  bed - object mulch\n  herb_bed - bed)" in paths[0].read_text()
+
+
+def test_numbers_are_compared_as_in_html(tmp_path: Path) -> None:
+    paths = _written(tmp_path, "domain", "(full ?c))", "(full ?c) (&gt;= (weight ?c) 2)) ; 3 &gt; 2")
+    told = {d.code: d for d in _wrong(check_paths(paths).diagnostics)}
+    assert told.keys() == {"foreign-text", "not-supported"} and '">="' in told["not-supported"].message
+    check_paths(paths, fix=True)
+    assert "(>= (weight ?c) 2)) ; 3 &gt; 2" in paths[0].read_text()
 
 
 def test_a_new_file_never_replaces_one(tmp_path: Path) -> None:

@@ -341,7 +341,7 @@ def test_a_domain_without_requirements_is_strips() -> None:
         (b"(define \xff", 1, 9, "is not UTF-8: byte 0xff"),
         (b"(define\r\n  (dom\xe4in", 2, 7, "is not UTF-8: byte 0xe4"),
         (b"\x7fELF\x00\x01", 1, 1, "is not a text file"),
-        (DOMAIN.encode("utf-16"), 1, 1, "is not a text file"),
+        (DOMAIN.encode("utf-16"), 1, 1, "is UTF-16, not UTF-8"),
         (b"(define \x1b[31m", 1, 9, "control character 0x1b"),
         (b"", 1, 1, "there is no domain here"),
         (b"; only a comment\n", 1, 1, "there is no domain here"),

@@ -167,6 +167,30 @@ root 9
     "one line": "(board red north)(sail north south)(rest)(board blue south)",
     "Lisp list": "((board red north)\n (sail north south)\n (rest) (board blue south))",
     "tuples": "[('board', 'red', 'north'), ('sail', 'north', 'south'), ('rest',), ('board', 'blue', 'south')]",
+    "graphplan": "Time step 1: board red north\nTime step 2: sail north south\n"
+    "Time step 3: rest\nTime step 4: board blue south\n",
+    "dashes": "Step 1 - board red north\nStep 2 - sail north south\nStep 3 - rest\nStep 4 - board blue south\n",
+    "letters": "a) board red north\nb) sail north south\nc) rest\nd) board blue south\n",
+    "numbers in parentheses": "(1) board red north\n(2) sail north south\n(3) rest\n(4) board blue south\n",
+    "numbers in brackets": "[0] board red north\n[1] sail north south\n[2] rest\n[3] board blue south\n",
+    "columns": "step,action,first,second\n1,board,red,north\n2,sail,north,south\n3,rest,,\n4,board,blue,south\n",
+    "square brackets": "[board red north]\n[sail north south]\n[rest]\n[board blue south]\n",
+    "named": "board(c=red, q=north)\nsail(b=south, a=north)\nrest()\nboard(q=south, c=blue)\n",
+    "named with colons": "(board c: red q: north)\n(sail a: north b: south)\n(rest)\n(board c: blue q: south)\n",
+    "joined": "board_red_north\nsail_north_south\nrest\nboard_blue_south\n",
+    "joined by hyphens": "(board-red-north)\n(sail-north-south)\n(rest)\n(board-blue-south)\n",
+    "thoughts": "<think>Not (board blue south) first.\n(rest)?</think>\n"
+    "(board red north)\n(sail north south)\n(rest)\n(board blue south)",
+    "YAML": "plan:\n" + "".join(f"- action: {s.name}\n  args: [{', '.join(s.args)}]\n" for s in PLAN),
+    "YAML in a fence": "So:\n```yaml\n"
+    + "".join(f"- {s.name}: [{', '.join(s.args)}]\n" for s in PLAN)
+    + "```\nDone.\n",
+    "Python": "plan = [\n" + "".join(f"  {{'name': '{s.name}', 'args': {list(s.args)}}},\n" for s in PLAN) + "]\n",
+    "JSON lines": "".join(json.dumps({"action": s.name, "args": s.args}) + "\n" for s in PLAN),
+    "JSON in a fence": f"Here:\n```json\n{json.dumps({'plan': [' '.join((s.name, *s.args)) for s in PLAN]})}\n```\n",
+    "JSON in prose": "The plan is "
+    + json.dumps({"steps": [{"action": s.name, "arguments": s.args} for s in PLAN]}, indent=1)
+    + " as asked.\n",
     "planning.domains": json.dumps(
         {
             "status": "ok",
@@ -253,6 +277,24 @@ def test_plans_without_steps(text: str, ferry: Problem) -> None:
     assert parse_plan(text, "log", ferry).instructions == ()
 
 
+@pytest.mark.parametrize("word", ["sail_north_west", "sail_north", "board_red_north_south", "board_red_"])
+def test_joined_names_are_steps_only_where_all_are_known(word: str, ferry: Problem) -> None:
+    assert Instruction("board", ("red", "north")) not in _steps(f"(rest)\n({word})\n", ferry)
+    assert Instruction(word) in _steps(f"(rest)\n({word})\n", ferry)
+
+
+def test_joined_names_of_two_readings_stay_together() -> None:
+    domain = parse_domain(
+        DOMAIN.replace("(:action rest", "(:action sail_north").replace(":parameters () ", ":parameters (?q - quay) ")
+    )
+    problem = parse_problem(PROBLEM, domain)
+    assert _steps("(sail_north_south)\n", problem) == (Instruction("sail_north_south"),)
+
+
+def _steps(text: str, problem: Problem) -> tuple[Instruction, ...]:
+    return parse_plan(text, "log", problem).instructions
+
+
 @given(
     st.lists(st.sampled_from(PLAN), min_size=1), st.sampled_from(["{}\n", "{} ", "1. {}\n", "- `{}`\n", "{}, then "])
 )
@@ -262,7 +304,7 @@ def test_steps_are_found_in_any_dress(ferry: Problem, plan: list[Instruction], d
         assert parse_plan(text, "log", ferry).instructions == tuple(plan)
 
 
-@given(st.text(alphabet='()[]{}":;,. \nrest0<->') | st.lists(st.sampled_from(LAMA.split(" "))).map(" ".join))
+@given(st.text(alphabet='()[]{}":;,. \nrest0<->=_&*') | st.lists(st.sampled_from(LAMA.split(" "))).map(" ".join))
 def test_any_text_is_a_plan_or_one_clear_line(ferry: Problem, text: str) -> None:
     try:
         parse_plan(text, "log", ferry)

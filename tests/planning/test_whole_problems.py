@@ -218,6 +218,15 @@ def test_a_planner_that_hangs_or_runs_out_of_memory_gave_up(
     assert answer == GaveUp(f"{limit} of Fast Downward")
 
 
+def test_a_deadline_that_may_end_earlier_keeps_its_name() -> None:
+    done: list[None] = []
+    deadline = processes.Deadline(60.0)
+    earlier = deadline.until(lambda: bool(done))
+    assert earlier.seconds == 60.0 and earlier.left() > 0
+    done.append(None)
+    assert earlier.left() == 0 and deadline.left() > 0
+
+
 @pytest.mark.parametrize(
     ("search", "translator", "found"),
     [

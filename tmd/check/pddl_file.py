@@ -115,6 +115,7 @@ _ECHOES = {
     "missing-section": ("missing-requirement", ":typing"),
     "other-notation": ("missing-requirement", ":equality"),
     "unknown-section": ("missing-section", ""),
+    "not-supported": ("missing-requirement", ":action-costs"),
     "bad-name": ("domain-mismatch", ""),
 }
 
@@ -126,8 +127,22 @@ _ONCE = frozenset({"odd-name", "wrong-arity", "unknown-type", "unknown-predicate
 def _without_echoes(faults: list[TmdError], others: Sequence[TmdError] = ()) -> list[TmdError]:
     """Return ``faults`` without those that only follow from them, or from ``others``."""
     found = [_ECHOES[fault.code] for fault in (*faults, *others) if fault.code in _ECHOES]
+    if any(fault.code == "unclosed-parenthesis" and fault.edits for fault in faults):
+        found.append(("not-supported", "nested terms"))  # they are the groups behind the one that is not closed
     found += [(fault.code, f'"{_quoted(fault)}"') for fault in others if fault.code in _ONCE]
-    return [f for f in faults if not any(f.code == code and part in f.message for code, part in found)]
+    kept = [f for f in faults if not any(f.code == code and part in f.message for code, part in found)]
+    return list(_each_letter_once(kept))
+
+
+def _each_letter_once(faults: Iterable[TmdError]) -> Iterator[TmdError]:
+    """Yield the faults; of characters that only look like others the first of each, with the edits of all places."""
+    first: dict[str, TmdError] = {}
+    for fault in faults:
+        letter = fault.message.rpartition(": ")[2]
+        if fault.code != "look-alike" or first.setdefault(letter, fault) is fault:
+            yield fault
+        else:
+            first[letter].edits += fault.edits
 
 
 def _without_excused(faults: Iterable[TmdError], excused: Words) -> list[TmdError]:

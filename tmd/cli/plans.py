@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from tmd.cli.grounding import Answer
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.domain_kit import orders_of
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.plan_file import Plan, format_plan, read_plan
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import validate
 from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
-from tmd.robot.monitor.listeners import Order
-from tmd.view.answer_text import remarks
+
+if TYPE_CHECKING:  # whole problems are planned without requests and robots
+    from tmd.cli.grounding import Answer
+    from tmd.robot.monitor.listeners import Order
 
 
 def plan_text(answer: Solved, domain: Domain) -> str:
@@ -74,6 +74,9 @@ class Orders:
 
 def orders_of_text(answer: Answer) -> Orders:
     """Return the best plan of a text. Where two readings of the text differ there is none: the robot does not guess."""
+    from tmd.domain_kit import orders_of
+    from tmd.view.answer_text import remarks
+
     told = tuple(remarks(answer.grounded))
     given = {"grounding": answer.record}
     if answer.code:
@@ -87,6 +90,8 @@ def orders_of_goal(goal: str, problem: Problem, planner: str | None) -> Orders:
     Raises:
         TmdError: The goal is wrong, or the planner is unknown, not installed or refuses the problem.
     """
+    from tmd.robot.monitor.listeners import Order
+
     given = {"grounding": None, "goal": goal}
     answer = solve(with_goal(problem, goal, "--goal"), planner or AUTO)
     if isinstance(answer, Solved):
@@ -100,6 +105,8 @@ def orders_of_file(path: Path, problem: Problem) -> Orders:
     Raises:
         TmdError: The file cannot be read, or has no instructions.
     """
+    from tmd.robot.monitor.listeners import Order
+
     plan = read_plan(path, problem)
     if not plan.instructions:
         raise TmdError(f"{path}: the plan has no instructions", hint="write one (name argument ...) a line")

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
-from itertools import pairwise
+from itertools import islice, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -24,17 +24,30 @@ _CALL = re.compile(r"([^(]*)\((.*)\)\s*", re.DOTALL)
 _TIME = r"([0-9]+(?:\.[0-9]+)?|\.[0-9]+)"
 # Marks of Markdown, quotes and the lines of tables, which stand around steps; each is read as a blank.
 _MARKS = {ord(mark): " " for mark in "`*\"'|•"}
-# The number or time of a step, as in ``Step 3:``, ``3.`` and ``3 ``; a time has a colon behind it.
+# The number, letter or time of a step, as in ``Step 3:``, ``(3)``, ``c)`` and ``3 ``; a time has a colon behind it.
 _HEAD = re.compile(
-    rf"\s*(?:[-+>]\s+)?(?:[A-Za-z]+\s*{_TIME}\s*([:.)])|{_TIME}(?:\s*([:.)])|(?=\s)))?\s*(?:[-–—>]+\s+)?"
+    rf"\s*(?:[-+>]\s+)?"
+    rf"(?:(?:[A-Za-z]+\s+){{0,2}}[A-Za-z]+\s*{_TIME}\s*([:.)]|[-–—](?=\s))"
+    rf"|[(\[#]?{_TIME}(?:\s*([:.),\]])|(?=\s))|[A-Za-z]\)(?=\s))?\s*(?:[-–—>:]+\s+)?"
 )
 # ``(name argument ...)`` or ``name(argument, ...)``, neither of them around another group.
 _GROUP = re.compile(r"([A-Za-z0-9_][\w-]*)?(\s*)\(([^()]*)\)")
 _BARE = re.compile(r"[A-Za-z0-9_][\w-]*(?:[\s,]+[A-Za-z0-9_][\w-]*)*")
 # A remark behind the words of a step does not begin with a word.
-_REMARK = re.compile(r"\s*(?:[^\w\s,].*)?", re.DOTALL)
+_REMARK = re.compile(r"[\s,]*(?:[^\w\s,].*)?", re.DOTALL)
 _DURATION = re.compile(rf"\s*\[\s*(?:D:)?\s*{_TIME}(?:[;\s][^\]]*)?\]", re.IGNORECASE)
 _BRACKETS = re.compile(r"\[[^\]]*\]")
+# A step in other brackets, and the name of a parameter before its object.
+_OTHER_BRACKETS = re.compile(r"[\[{<]([\s,\w-]+)[\]}>]")
+_NAMED = re.compile(r"\??([A-Za-z_][\w-]*)\s*[=:]\s*\??(?=\w)")
+# What language models think before they answer, and the blocks of their answers.
+_THOUGHTS = re.compile(r"<think(?:ing)?>.*?</think(?:ing)?>", re.DOTALL | re.IGNORECASE)
+_FENCED = re.compile(r"^[ \t]*```[^\n]*\n(.*?)```", re.DOTALL | re.MULTILINE)
+_DATA = re.compile(r"[\[{].*[\]}]", re.DOTALL)
+# What of data is in a text that has steps as well; the brackets of durations have numbers in them.
+_MAY_BE_DATA = re.compile(r"[{`]|\[\s*[^\s\d]")
+# Longer texts are logs, which have no data in them.
+_MOST_DATA = 100_000
 _OPEN = re.compile(r"\(\s*([A-Za-z0-9_][\w-]*)(?:[\s,]+[\w-]+)*\s*$")
 # Partially ordered plans list the order of their steps in pairs.
 _ORDER = re.compile(r"\)\s*<\s*\w")
@@ -96,15 +109,20 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
         TmdError: There is no plan, it is cut off, something in the place of a step is none, or only some steps have a
             time.
     """
+    text = _THOUGHTS.sub(lambda thought: re.sub(r"[^\n]", " ", thought[0]), text)
     reader = _Reader(file, _Vocabulary.of(problem))
     value = _json(text)
-    plans = reader.plans_of_text(text) if value is None else list(_JsonReader(text, reader).plans(value))
+    plans = [] if value is not None else reader.plans_of_text(text)
+    likely = value is not None or not plans or _MAY_BE_DATA.search(text)
+    data = list(_JsonReader(text, reader).plans(_data(text) if value is None else value)) if likely else []
+    if max(map(reader.known, data), default=0) > max(map(reader.known, plans), default=-1):
+        plans, value = data, text
     whole = [plan for plan in plans if not plan.cut]
     if not plans:
         raise reader.no_plan(text)
     if not whole:
         raise plans[-1].cut_off()
-    chosen = whole[0 if value is not None else -1]
+    chosen = whole[-1 if value is None else 0]
     steps = _in_time([step for step in chosen.steps if not reader.vocabulary.added(step.instruction)])
     return Plan(
         tuple(step.instruction for step in steps),
@@ -123,11 +141,38 @@ def _json(text: str) -> Any | None:  # noqa: ANN401 - any JSON
         return None
 
 
+def _data(text: str) -> list[Any]:
+    """Return the values of JSON or YAML in a text: its blocks, itself, what has brackets, or single lines."""
+    found: list[Any] = []
+    for part in _FENCED.findall(text) or [text] if len(text) <= _MOST_DATA else ():
+        lines = [line for line in split_lines(part) if line.lstrip().startswith(("{", "["))]
+        for candidates in ([part], _DATA.findall(part), lines):
+            values = [value for value in map(_yaml, candidates) if isinstance(value, dict | list)]
+            if values:
+                found.append(values[0] if len(values) == 1 else values)
+                break
+    return found
+
+
+def _yaml(text: str) -> Any | None:  # noqa: ANN401 - any YAML
+    """Return the value of a text in YAML, all words and numbers as text; ``None`` where it is none."""
+    import yaml  # most plans are read without it
+
+    from tmd.yaml_nodes import look_over
+
+    try:
+        look_over(text, "", aliases=False)
+        return yaml.load(text, Loader=yaml.BaseLoader)
+    except (TmdError, yaml.YAMLError):
+        return None
+
+
 @dataclass(frozen=True, slots=True)
 class _Vocabulary:
     """The names that steps are made of; without actions, any name is one."""
 
-    arities: Mapping[str, int] = field(default_factory=dict)
+    parameters: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """Those of each action, without question marks."""
     predicates: frozenset[str] = frozenset()
     objects: frozenset[str] = frozenset()
 
@@ -136,29 +181,67 @@ class _Vocabulary:
         if problem is None:
             return cls()
         return cls(
-            {action.name: len(action.parameters) for action in problem.domain.actions},
+            {a.name: tuple(p.name.removeprefix("?") for p in a.parameters) for a in problem.domain.actions},
             frozenset(predicate.name for predicate in problem.domain.predicates),
             frozenset(thing.name for thing in problem.all_objects()),
         )
 
     def has(self, words: Sequence[str]) -> bool:
         """Return whether ``words`` are an action before as many objects as it has parameters."""
-        return self.arities.get(words[0]) == len(words) - 1 and self.objects.issuperset(words[1:])
+        arguments = self.parameters.get(words[0])
+        return arguments is not None and len(arguments) == len(words) - 1 and self.objects.issuperset(words[1:])
+
+    def step_of(self, words: Sequence[str]) -> str:
+        """Return the step that has these words, in any order and perhaps with others; the empty text for none."""
+        arguments = [word for word in words if word in self.objects]
+        known = [word for word in words if word in self.parameters]
+        action = known or [word for word in words if arguments and word not in self.objects][:1]
+        return f"({' '.join([*action, *arguments])})" if len(action) == 1 else ""
 
     def resembles(self, words: Sequence[str]) -> bool:
         """Return whether ``words`` begin with an action, or are objects behind a name of nothing else."""
-        if words[0] in self.arities:
+        if words[0] in self.parameters:
             return True
         known = self.predicates | self.objects
         return len(words) > 1 and words[0] not in known and self.objects.issuperset(words[1:])
 
+    def words(self, text: str) -> list[str]:
+        """Return the words of what may be a step.
+
+        Objects may have the names of their parameters before them, in any order, and ``push-k1-b2`` is three words
+        where it can only be these.
+        """
+        named = [name.lower() for name in _NAMED.findall(text)]
+        words = [word for word in re.split(r"[\s,]+", _NAMED.sub("", text).lower()) if word]
+        if len(words) == 1 and self.objects and words[0] not in self.parameters:
+            found = list(islice(self._apart(words[0]), 2))
+            return found[0] if len(found) == 1 else words
+        parameters = self.parameters.get(words[0], ()) if words else ()
+        if named and sorted(named) == sorted(parameters) and len(words) == len(named) + 1:
+            words[1:] = (words[1 + named.index(parameter)] for parameter in parameters)
+        return words
+
+    def _apart(self, word: str) -> Iterator[list[str]]:
+        """Yield the steps that ``word`` may be, joined by ``-`` or ``_``."""
+        for name, parameters in self.parameters.items():
+            if word.startswith(name):
+                yield from ([name, *names] for names in self._arguments(word[len(name) :], len(parameters)))
+
+    def _arguments(self, text: str, count: int) -> Iterator[list[str]]:
+        if not count and not text:
+            yield []
+        for joint in re.finditer(r"[-_]|$", text[1:]) if count and text[:1] in ("-", "_") else ():
+            end = joint.start() + 1
+            if text[1:end] in self.objects:
+                yield from ([text[1:end], *names] for names in self._arguments(text[end:], count - 1))
+
     def may_begin(self, name: str) -> bool:
         """Return whether ``name`` may be that of an action."""
-        return not self.arities or name in self.arities
+        return not self.parameters or name in self.parameters
 
     def added(self, instruction: Instruction) -> bool:
         """Return whether a planner added the instruction, which is of no action of the domain."""
-        return instruction.name in _ADDED and bool(self.arities) and instruction.name not in self.arities
+        return instruction.name in _ADDED and bool(self.parameters) and instruction.name not in self.parameters
 
 
 @dataclass(frozen=True, slots=True)
@@ -236,6 +319,10 @@ class _Reader:
         plans[-1].cut |= plans[-1].length is None and any(plan.length for plan in plans)
         return plans
 
+    def known(self, plan: _Found) -> int:
+        """Return how many steps of a plan have the names of the problem."""
+        return sum(self.vocabulary.has((s.instruction.name, *s.instruction.args)) for s in plan.steps)
+
     @staticmethod
     def _is_empty_plan(lines: Sequence[_Line], plans: Sequence[_Found]) -> bool:
         """Return whether lines without steps are a plan without steps: they say so, or there are comments only."""
@@ -257,7 +344,7 @@ class _Reader:
 
     def _line(self, source: str, number: int) -> _Line:
         """Read a line by itself."""
-        code = _code(source).translate(_MARKS)
+        code = _OTHER_BRACKETS.sub(self._round, _code(source).translate(_MARKS))
         head = _HEAD.match(code)
         assert head is not None  # it matches the empty text
         line = _Line(source)
@@ -279,7 +366,12 @@ class _Reader:
         found = _BARE.match(code, position)
         if found is None or not _REMARK.fullmatch(code, found.end()):
             return []
-        return re.split(r"[\s,]+", found[0].lower())
+        return self.vocabulary.words(found[0])
+
+    def _round(self, brackets: re.Match[str]) -> str:
+        """Return a step in round brackets; anything else as it is."""
+        words = self.vocabulary.words(brackets[1])
+        return f"({brackets[1]})" if words and self.vocabulary.has(words) else brackets[0]
 
     def _groups(
         self, source: str, code: str, place: Location, head: re.Match[str], start: Decimal | None
@@ -317,9 +409,9 @@ class _Reader:
 
         There are no words if it cannot be a step.
         """
-        inside = [word for word in re.split(r"[\s,]+", group[3].lower()) if word]
+        inside = self.vocabulary.words(group[3])
         if group[1]:
-            call = [group[1].lower(), *inside]
+            call = self.vocabulary.words(f"{group[1]} {group[3]}")
             known = bool(inside) and self.vocabulary.has(inside)
             if self.vocabulary.has(call) or (not group[2] and not known):
                 return call, group.start(), group.end()
@@ -415,6 +507,9 @@ class _JsonReader:
 
     def _of_list(self, value: Sequence[Any]) -> list[_Found]:
         """Return the plan that a list is, if each of its items is a text or a step."""
+        named = self._reader.vocabulary.parameters.keys()
+        keyed = (isinstance(item, dict) and len(item) == 1 and named & item.keys() for item in value)
+        value = [list(*item.items()) if key else item for item, key in zip(value, keyed, strict=True)]
         places = [self._place(item) for item in value]
         lines = [self._as_line(item) for item in value]
         if not all(line or isinstance(item, str) for line, item in zip(lines, value, strict=True)):
@@ -434,17 +529,18 @@ class _JsonReader:
     def _as_line(self, value: Any) -> str:  # noqa: ANN401 - any JSON
         """Return a step as a line of text; the empty line for anything else."""
         if isinstance(value, str):
-            return " ".join(value.split())
-        texts = [" ".join(text.split()) for text in _texts(value, 1)]
-        steps = [text for text in texts if any(plan.steps for plan in self._reader.plans_of_text(text))]
+            return _on_a_line(value)
+        steps = [text for text in map(_on_a_line, _texts(value, 1)) if self._reader.plans_of_text(text)]
         if isinstance(value, dict) and len(steps) == 1:
             return steps[0]
-        names = self._reader.vocabulary
-        words = [text.lower() for text in _texts(value, 2) if NAME.fullmatch(text.lower())]
-        arguments = [word for word in words if word in names.objects]
-        known = [word for word in words if word in names.arities]
-        action = known or [word for word in words if arguments and word not in names.objects][:1]
-        return f"({' '.join([*action, *arguments])})" if len(action) == 1 else ""
+        words = [text.lower() for text in _texts(value, 2)]
+        if any(self._reader.plans_of_text(text) for text in words if not NAME.fullmatch(text)):
+            return ""  # a list of steps
+        return self._reader.vocabulary.step_of([word for word in words if NAME.fullmatch(word)])
+
+
+def _on_a_line(text: str) -> str:
+    return " ".join(text.split())
 
 
 def _texts(value: Any, depth: int = 99) -> list[str]:  # noqa: ANN401 - any JSON

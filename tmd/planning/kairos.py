@@ -22,7 +22,7 @@ _PROVEN = "solved (proven optimal)"
 # Seconds after its time limit in which kairos, which knows the limit, prints a plan.
 _LATER = 1.0
 # Seconds of the processor that kairos has to itself: most of what it solves, it solves sooner.
-_ALONE = 1.0
+_ALONE = 0.15
 # Seconds by the clock, and share of the time limit, after which the other planner begins in any case.
 _ALONE_BY_CLOCK = 5.0
 _SHARE = 0.25
@@ -58,9 +58,9 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
 
 
 def kairos_beside(problem: Problem, other: Callable[[Deadline], Solution], deadline: Deadline) -> Solution:
-    """Solve a whole problem with kairos, and from a second on with another planner beside it; the first plan is taken.
+    """Solve a whole problem with kairos, and soon with another planner beside it; the first plan is taken.
 
-    Only a plan of kairos counts: all else is for the other planner to find. The second is one of processor time, so
+    Only a plan of kairos counts: all else is for the other planner to find. It begins after some processor time, so
     that the load of the machine does not decide which of them solves a small problem.
 
     Args:

@@ -18,6 +18,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
+from copy import copy
 from functools import cache
 from pathlib import Path
 from pkgutil import resolve_name
@@ -75,7 +76,9 @@ class Deadline:
 
     def until(self, over: Callable[[], bool]) -> Deadline:
         """Return this deadline, which ends as soon as ``over`` holds."""
-        return Deadline(self.left(), self.memory, self.processor, lambda: self._over() or over())
+        earlier = copy(self)  # which is of so many seconds as well, for messages
+        earlier._over = lambda: self._over() or over()
+        return earlier
 
     def memory_limit(self) -> str:
         """Describe the memory limit."""
@@ -97,6 +100,7 @@ class PlannerProcess:
         passed: Files that it inherits under their descriptors.
         environment: Variables that are set in addition to those of this program.
         directory: Working directory.
+        behind: Whether it gives way to other processes.
 
     Raises:
         PlannerError: It cannot be started.
@@ -112,6 +116,7 @@ class PlannerProcess:
         passed: Sequence[IO[bytes]] = (),
         environment: Mapping[str, str] | None = None,
         directory: str | None = None,
+        behind: bool = False,
     ) -> None:
         self.name = name
         self._files = (unnamed_file(), unnamed_file())
@@ -125,7 +130,7 @@ class PlannerProcess:
                 pass_fds=[file.fileno() for file in passed],
                 cwd=directory,
                 env={**os.environ, **(environment or {})},
-                preexec_fn=_limits(deadline, os.getpid()),
+                preexec_fn=_limits(deadline, os.getpid(), _NICE if behind else 0),
                 process_group=0,
             )
         except OSError as error:
@@ -269,7 +274,11 @@ def _limit(kind: int, most: int) -> None:
     resource.setrlimit(kind, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
 
 
-def _limits(deadline: Deadline, parent: int) -> Callable[[], None]:
+# What a process that gives way adds to its priority: beside two searches on two processors, it gets a tenth of one.
+_NICE = 10
+
+
+def _limits(deadline: Deadline, parent: int, nice: int) -> Callable[[], None]:
     """Return the function that a new process calls first, which sets its limits and lets it die with ``parent``."""
     import ctypes
 
@@ -284,6 +293,7 @@ def _limits(deadline: Deadline, parent: int) -> Callable[[], None]:
             library.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
             if os.getppid() != parent:
                 os._exit(1)
+        os.nice(nice)
         for kind, most in limits:
             _limit(kind, most)
 
@@ -363,6 +373,7 @@ def call_in_process(
     deadline: Deadline,
     *,
     directory: str | None = None,
+    behind: bool = False,
 ) -> PlannerProcess:
     """Start a Python process that calls a function and prints the result as JSON.
 
@@ -372,10 +383,13 @@ def call_in_process(
         arguments: Its arguments, which are pickled.
         deadline: As for :class:`PlannerProcess`.
         directory: Its directory, for temporary files as well; by default that of this program.
+        behind: Whether it gives way to other processes.
     """
     with unnamed_file(pickle.dumps((function, arguments))) as question:
         variables = {**python_environment(), **({"TMPDIR": directory} if directory else {})}
-        return PlannerProcess(name, _CALL, deadline, stdin=question, environment=variables, directory=directory)
+        return PlannerProcess(
+            name, _CALL, deadline, stdin=question, environment=variables, directory=directory, behind=behind
+        )
 
 
 def answer_call() -> None:
@@ -392,7 +406,7 @@ class Prover(ExitStack):
 
     No search finds out that a mug cannot be in two places; it runs to its limit. The proofs that do
     (:mod:`tmd.planning.unsolvable`) need the instantiated problem, which takes long where the problem is large. So they
-    run beside a search that has not ended soon. Leaving the ``with`` block ends them.
+    run beside a search that has not ended soon, and give way to it. Leaving the ``with`` block ends them.
 
     Args:
         problem: The problem.
@@ -434,6 +448,7 @@ class Prover(ExitStack):
     def _started(self) -> PlannerProcess:
         if self._process is None:
             function, arguments = "tmd.planning.unsolvable:proof", [self._problem]
-            started = call_in_process("the search for a proof", function, arguments, self._deadline)
+            name = "the search for a proof"
+            started = call_in_process(name, function, arguments, self._deadline, behind=True)
             self._process = self.enter_context(started)
         return self._process

@@ -25,7 +25,7 @@ from tmd.pddl.model import (
     conjuncts,
     universe,
 )
-from tmd.pddl.reading.syntax import Group, Node, Source, Word, after, read_text, replaced, split_lines
+from tmd.pddl.reading.syntax import Node, Source, Word, after, read_text, split_lines
 from tmd.pddl.semantics import instantiate, solutions
 from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
@@ -164,29 +164,29 @@ def _constants_again(problem: Problem, source: Source) -> Iterator[TmdError]:
     if again:
         names = ", ".join(f'"{o.name}"' for o in again)
         message = f"constants of the domain stand here again, which other planners refuse: {names}"
-        edits = list(_removals(source.sections[":objects"], {o.name for o in again}))
+        edits = list(_removals(source, {o.name for o in again}))
         yield source.error(message, again[0].location, "remove them here", "constant-again", edits)
 
 
-def _removals(section: Group, names: set[str]) -> Iterator[Edit]:
+def _removals(source: Source, names: set[str]) -> Iterator[Edit]:
     """Yield the edits that remove names from a typed list, and the types that are left without names."""
     listed: list[Word] = []
-    parts = iter(section.parts[1:])
+    parts = iter(source.sections[":objects"].parts[1:])
     for part in parts:
         if isinstance(part, Word) and part.text != "-":
             listed.append(part)
         else:
-            yield from _removed(listed, names, next(parts, None))
+            yield from _removed(source, listed, names, next(parts, None))
             listed = []
-    yield from _removed(listed, names, None)
+    yield from _removed(source, listed, names, None)
 
 
-def _removed(listed: Sequence[Word], names: set[str], kind: Node | None) -> Iterator[Edit]:
+def _removed(source: Source, listed: Sequence[Word], names: set[str], kind: Node | None) -> Iterator[Edit]:
     gone = [word for word in listed if word.text in names]
     if gone and kind and len(gone) == len(listed):
-        yield Edit(gone[0].location, after(kind))
+        yield source.removal(gone[0].location, after(kind))
     else:
-        yield from (replaced(word, "") for word in gone)
+        yield from (source.removal(word.location, after(word)) for word in gone)
 
 
 def _costs_missing(problem: Problem, source: Source) -> Iterator[TmdError]:

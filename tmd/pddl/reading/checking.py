@@ -7,6 +7,7 @@ features that are used without their requirement. :mod:`tmd.pddl.reading.reader`
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice, takewhile
 
 from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.derived import strata
@@ -36,7 +37,11 @@ from tmd.pddl.model import (
     parts_of,
     walk,
 )
+from tmd.pddl.reading.missing_types import apart, narrowest, typed, types_needed
 from tmd.pddl.reading.syntax import Source, Word, nearest, shifted
+
+# Of a declaration that a hint proposes.
+_LONGEST_HINT = 150
 
 MOST_FAULTS = 250
 """Number of faults after which the rest of a problem is not checked: their places and hints take time."""
@@ -53,6 +58,7 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
     for action in domain.actions:
         check.action(action)
     check.types_missing()
+    check.predicates_missing()
     check.faults.extend(missing_requirements(domain, None, check.source))
     return _in_order(check.faults, source)
 
@@ -119,6 +125,10 @@ class _Check:
         self.action_checked: ActionSchema | None = None
         self.first: dict[object, tuple[TmdError, str, int]] = {}
         """The first fault of each name, its message, and the number of times that it stands elsewhere."""
+        self.used: dict[str, tuple[str, Location | None]] = {}
+        """Predicates where the domain declares none at all, as they should be declared, and their places."""
+        self.unbound: dict[str, tuple[tuple[str, ...], Location | None]] = {}
+        """The variables of the action without parameters that is checked, with the types that they should have."""
         self.undeclared: dict[str, Location | None] = {}
         """Types where the domain declares none at all."""
         self.deepest_type: str | None = None
@@ -200,6 +210,15 @@ class _Check:
             hint, edits = f"add (:types {names})", [self.source.declaration(":types", names)]
             self.fault(f"the domain has no (:types ...) for {names}", place, hint, "missing-section", edits)
 
+    def predicates_missing(self) -> None:
+        """Report that the domain uses predicates and declares none."""
+        if self.used:
+            declared, place = " ".join(shown for shown, _ in self.used.values()), next(iter(self.used.values()))[1]
+            shown = declared if len(declared) < _LONGEST_HINT else f"{declared[:_LONGEST_HINT]}..."
+            edits = [self.source.declaration(":predicates", declared)]
+            message = f"the domain has no (:predicates ...) for {', '.join(self.used)}"
+            self.fault(message, place, f"add (:predicates {shown})", "missing-section", edits)
+
     def types_of_objects_missing(self) -> None:
         """Report that the problem uses types, and neither its domain nor the predicates in it do."""
         typed = _Check(self.domain, self.domain.constants)
@@ -216,23 +235,32 @@ class _Check:
         if cycle and self.hierarchy.parents.get(cycle[-1]) == name:
             if name not in self.cyclic:
                 self.cyclic.update(cycle)
-                self.fault(*self.cycle(name, cycle, location), "type-cycle")
+                self.cycle(name, cycle, location)
         elif len(chain) >= MOST_LEVELS and self.deepest_type is None:
             self.deepest_type = name
             message = f'the type "{name}" has {MOST_LEVELS} ancestors or more'
             self.fault(message, location, "declare fewer levels of types", "nested-too-deeply")
 
-    def cycle(self, name: str, cycle: Sequence[str], location: Location | None) -> tuple[str, Location | None, str]:
-        """Return message, place and hint of a type that is its own ancestor.
+    def cycle(self, name: str, cycle: Sequence[str], location: Location | None) -> None:
+        """Report a type that is its own ancestor.
 
         Where it is its own parent, it stands in the list that "- type" ends, perhaps lines below.
         """
         dash = self.dash(location)
-        listed = [t.name for t in self.domain.types if t.parent == name and self.dash(t.location) == dash]
-        if len(cycle) > 1 or len(listed) < 2 or dash is None:
-            return f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name))
-        message = f'"- {name}" in line {dash.line} is the parent of {", ".join(listed)}, so of "{name}" itself'
-        return message, location, f'end the types that are not of "{name}" with "- object", and "{name}" too'
+        listed = [t for t in self.domain.types if t.parent == name and self.dash(t.location) == dash]
+        if len(cycle) > 1 or location is None or dash is None:
+            self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name)), "type-cycle")
+        elif len(listed) == 1:
+            message, hint = f'type "{name}" is its own parent', f"write {name} - {OBJECT}"
+            parent = self.source.type_of(location, name) or location
+            self.fault(message, location, hint, "type-cycle", [Edit(parent, shifted(parent, len(name)), OBJECT)])
+        else:
+            names = ", ".join(t.name for t in listed)
+            message = f'"- {name}" in line {dash.line} is the parent of {names}, so of "{name}" itself'
+            hint = f'end the types that are not of "{name}" with "- {OBJECT}", and "{name}" too'
+            self.fault(
+                message, location, hint, "type-cycle", list(apart(self.domain, name, location, listed, self.source))
+            )
 
     def dash(self, location: Location | None) -> Location | None:
         """Return the place of the next dash in the list in which a typed name stands."""
@@ -265,6 +293,7 @@ class _Check:
 
     def action(self, action: ActionSchema) -> None:
         scope = self.parameters(action.parameters, {})
+        self.unbound.clear()
         self.two_of_one_name = len(scope) < len(action.parameters)
         self.action_checked = action
         self.formula(action.precondition, scope)
@@ -278,6 +307,25 @@ class _Check:
             if not self.again(TOTAL_COST, place):
                 edits = [self.source.declaration(":functions", f"({TOTAL_COST}) - number")]
                 self.fault(f'unknown function "{TOTAL_COST}"', place, hint, "unknown-function", edits, TOTAL_COST)
+
+        self.parameters_missing(action)
+
+    def parameters_missing(self, action: ActionSchema) -> None:
+        """Report the variables of an action without any parameters."""
+        if not self.unbound:
+            return
+        typed = " ".join(TypedName(name, kinds).typed() for name, (kinds, _) in self.unbound.items())
+        place = min(filter(None, (place for _, place in self.unbound.values())), default=action.location)
+        edits: list[Edit] = []
+        if action.location is not None:
+            end = shifted(action.location, len(action.name))
+            behind = list(islice(self.source.tokens(end), 3))
+            if [token.lower() for token, _ in behind] == [":parameters", "(", ")"]:
+                edits = [Edit(behind[2][1], behind[2][1], typed)]
+            elif behind and behind[0][0].lower() != ":parameters":
+                edits = [Edit(end, end, f" :parameters ({typed})")]
+        message = f'action "{action.name}" has no parameters for {", ".join(self.unbound)}'
+        self.fault(message, place, f"write :parameters ({typed})", "free-variable", edits)
 
     def effect(self, effect: Effect, scope: Mapping[str, tuple[str, ...]]) -> None:
         inner = self.parameters(effect.parameters, scope)
@@ -356,12 +404,7 @@ class _Check:
 
     def unknown(self, atom: Atom, scope: Mapping[str, tuple[str, ...]], known: Sequence[str], what: str) -> None:
         """Report an undeclared predicate or function, and check its arguments."""
-        joined = f"{atom.predicate}-{atom.terms[0]}" if atom.terms else ""
-        if joined in known:
-            start, end = self.word(atom, 0), self.word(atom, 1)
-            edits = [Edit(shifted(start, len(atom.predicate)), end, "-")] if start and end else []
-            if not self.again((what, joined), start, edits):
-                self.fault("a name has no blanks", start, f"write {joined}", "bad-name", edits, (what, joined))
+        if self.with_blank(atom, known, what):
             return
         types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
         place, slip = self.word(atom, 0), (what, atom.predicate)
@@ -371,10 +414,33 @@ class _Check:
             self.fault(f'"({atom.predicate})" is not PDDL', place, "write (and)", "other-notation", slip=slip)
             return
         names = (term if term.startswith("?") else f"?x{number}" for number, term in enumerate(atom.terms, start=1))
-        typed = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
-        cure = f"declare ({' '.join((atom.predicate, *typed))}) under (:{what}s ...)"
-        hint = _or_cure(nearest(atom.predicate, known, what=f"{what}s"), cure)
+        typed_names = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
+        declared = f"({' '.join((atom.predicate, *typed_names))})"
+        if what == "predicate" and not self.domain.predicates and ":predicates" not in self.source.sections:
+            self.used.setdefault(atom.predicate, (declared, place))
+            return
+        hint = _or_cure(nearest(atom.predicate, known, what=f"{what}s"), f"declare {declared} under (:{what}s ...)")
+        hint = self.of_action(atom.predicate) or hint
         self.fault(f'unknown {what} "{atom.predicate}"', place, hint, f"unknown-{what}", slip=slip)
+
+    def with_blank(self, atom: Atom, known: Sequence[str], what: str) -> bool:
+        """Return whether the name of an atom has a blank, which is reported."""
+        joined = f"{atom.predicate}-{atom.terms[0]}" if atom.terms else ""
+        if joined not in known:
+            return False
+        start, end = self.word(atom, 0), self.word(atom, 1)
+        edits = [Edit(shifted(start, len(atom.predicate)), end, "-")] if start and end else []
+        if not self.again((what, joined), start, edits):
+            self.fault("a name has no blanks", start, f"write {joined}", "bad-name", edits, (what, joined))
+        return True
+
+    def of_action(self, name: str) -> str | None:
+        """Return the hint for an action that stands where a predicate should."""
+        action = next((a for a in self.domain.actions if a.name == name), None)
+        if action is None:
+            return None
+        made = next((f", such as ({e.atom.predicate} ...)" for e in action.effects if e.positive), "")
+        return f"this is an action: write what holds after it{made}"
 
     def typed_far_below(self, name: str) -> str | None:
         """Return a hint where the type of an object stands in a line below it: that of a list which it ends."""
@@ -457,6 +523,10 @@ class _Check:
         bound = _bound_in(self.action_checked, term)
         if bound is not None:
             hint = f"it is bound only in {bound}: make it a parameter"
+        elif self.action_checked and not self.action_checked.parameters and not scope:
+            if not self.unbound.get(term, ((), None))[0]:
+                self.unbound[term] = tuple(wanted), place
+            return
         elif self.of_problem:
             hint = f"bind it: (exists ({TypedName(term, tuple(wanted)).typed()}) ...), or name an object"
         elif self.action_checked:
@@ -469,6 +539,7 @@ class _Check:
         self.unique(problem.objects, "object")
         if self.types_first(problem):
             return
+        self.untyped(problem)
         constants = {c.name: c.types for c in problem.domain.constants}
         for declared in problem.objects:
             self.one_type(declared, "object")
@@ -486,6 +557,22 @@ class _Check:
         message = "the type stands behind the names of its objects"
         self.fault(message, turned[0].location, f"write {turned[0].types[0]} - {turned[0].name}", "unknown-type")
         return True
+
+    def untyped(self, problem: Problem) -> None:
+        """Report several objects that have no type and need one, with the types that their uses tell."""
+        plain = [o for o in problem.objects if o.types == (OBJECT,) and o.location is not None]
+        needed = types_needed(problem) if plain else {}
+        wrong = [o for o in plain if needed.get(o.name)]
+        if len(wrong) < 2:
+            return
+        kinds = {o.name: narrowest(needed[o.name], self.hierarchy) for o in wrong}
+        names = ", ".join(o.name for o in wrong[:8]) + (f" and {len(wrong) - 8} more" if len(wrong) > 8 else "")
+        run = list(takewhile(lambda o: kinds[o.name] == kinds[wrong[0].name], wrong[:8]))
+        hint = f"write {' '.join(o.name for o in run)} - {kinds[wrong[0].name] or 'type'}"
+        message = f"these objects have no type, and need one: {names}"
+        edits = list(typed(plain, kinds)) if all(kinds.values()) else []
+        self.fault(message, wrong[0].location, hint, "wrong-type", edits)
+        self.known_objects.update(dict.fromkeys((o.name for o in wrong), None))
 
     def values(self, problem: Problem) -> None:
         """Check the values of cost functions, and that there is a cost to minimise."""

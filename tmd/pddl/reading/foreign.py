@@ -8,26 +8,52 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import accumulate
 from pathlib import Path
 
 from tmd.diagnostics import Edit, Location, TmdError
 
 _MARKS = re.compile(
-    r"(?P<comment>;[^\n]*)"
+    r"(?=[&;<`~#/\\:\"'$%\s-]|[\u2018-\u201f])(?:"  # how they begin
+    r"(?P<entity>&(?:amp;)*(?:\#\d+|\#x[\da-f]+|[a-z]+);=?)"  # before comments: its end would begin one
+    r"|(?P<comment>;[^\n]*)"
+    r"|(?P<thought><think(?:ing)?>.*?</think(?:ing)?>)"
+    r"|(?P<tag></?(?:br|code|div|p|pre|span)(?:\s+[a-z-]+=\"[^\"\n]*\")*\s*/?>)"
     r"|(?P<fence>(?:```|~~~)[a-zA-Z]*)"
     r"|(?P<block>\#\|.*?(?:\|\#|\Z)|/\*.*?(?:\*/|\Z)|<!--.*?(?:-->|\Z))"
     r"|(?P<escape>\\[nrt\"])"
-    r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*)",
-    re.DOTALL,
+    r"|(?P<slash>\\(?=[()]))"
+    r"|(?P<text>(?<!\():[a-z-]+\s+\"[^\"\n]*\s[^\"\n]*\")"
+    r"|(?P<quoted>(?<![\w?-])[\"'`\u2018-\u201f]\??[\w-]+[\"'`\u2018-\u201f](?![\w-]))"
+    r"|(?P<dollar>(?<![^\s()])\$(?=[a-z]))"
+    r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*))",
+    re.DOTALL | re.IGNORECASE,
 )
 _TOLD = {
+    "entity": ("signs are written as in HTML here", "write the signs themselves, such as > for &gt;"),
+    "thought": ("what a language model thinks is not PDDL", "remove it"),
+    "tag": ("the marks of HTML are not PDDL", "remove them"),
     "fence": ("the marks of a Markdown block are not PDDL", "remove them"),
     "block": ("this is not a comment of PDDL", 'write ";" before each of its lines'),
     "escape": ("the ends of lines are written as letters here", "write them as ends of lines"),
+    "slash": ("a backslash before a parenthesis is not PDDL", "remove it"),
+    "text": ("a text in quotes is no part of PDDL", 'write it behind ";"'),
+    "quoted": ("names have no quotes in PDDL", "remove them"),
+    "dollar": ("a variable begins with a question mark", 'write "?" for "$"'),
     "remark": ("this is not a comment of PDDL", 'begin it with ";"'),
 }
+# What the lines of numbered, quoted and compared texts begin with.
+_MARGINS = tuple(map(re.compile, (r"\s*\d+(?:[:.|)]|(?=\s|$))", r"\s*>(?=\s|$|\()", r"\+", r"[-*](?=\s|$)", r"\|")))
+_CONFLICT = re.compile(r"^(<{7}[^\n]*)$.*?^(={7}$.*?^>{7}[^\n]*)$", re.MULTILINE | re.DOTALL)
+# Files that are something else altogether, and their cure.
+_OTHER_FILES = {
+    "a page of the web": (re.compile(r"\s*<(?:!doctype html|html)\b", re.IGNORECASE), "download the file itself"),
+    "a pointer of Git LFS": (re.compile(r"version https://git-lfs"), "get the file with: git lfs pull"),
+    "the answer that there is no such file": (re.compile(r"\s*404\b"), "look at its address"),
+}
+# The kinds that mean nothing before the definition.
+_WITHIN = frozenset({"text", "quoted", "dollar", "slash"})
 _DEFINE = re.compile(r"\(\s*define\b", re.IGNORECASE)
 _DEFINITION = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\b\s*([^\s()]*)", re.IGNORECASE)
 # Text behind a definition that belongs into it: the definition was closed too early.
@@ -37,9 +63,16 @@ _LINE = re.compile(r"[^\n]+")
 _PARENTHESIS = re.compile(r"[()]")
 
 
+def other_file(text: str) -> tuple[str, str] | None:
+    """Return what a text is that is no PDDL at all, and the cure."""
+    return next(((what, cure) for what, (begin, cure) in _OTHER_FILES.items() if begin.match(text)), None)
+
+
 def pddl_lines(lines: Sequence[str], file: str) -> tuple[tuple[str, ...], list[TmdError]]:
     """Return ``lines`` with everything blanked out that is not PDDL, and a fault for each kind of that."""
     text = _Text(lines, file)
+    text.margin()
+    text.conflict()
     text.marks()
     text.around()
     text.brackets()
@@ -84,24 +117,81 @@ class _Text:
             kept[start:end], bare[start:end] = how(self.kept[start:end]), how(self.bare[start:end])
         self.kept, self.bare = "".join(kept), "".join(bare)
 
+    def margin(self) -> None:
+        """Blank what all lines begin with: their numbers, or the marks of quoted and compared texts."""
+        full = [number for number, line in enumerate(self.lines) if line.strip()]
+        for margin in _MARGINS if len(full) > 2 and _DEFINE.search(self.kept) else ():
+            found = [margin.match(self.lines[number]) for number in full]
+            spans = [(self.starts[n], self.starts[n] + m.end()) for n, m in zip(full, found, strict=True) if m]
+            if len(spans) == len(full):
+                edits = [self.edit(*span) for span in spans]
+                message = (
+                    f'each line begins with something like "{self.kept[slice(*spans[0])].strip()}", which is not PDDL'
+                )
+                self.fault(message, 0, "remove it", "foreign-text", edits)
+                self.change(spans, _blanks)
+                return
+
+    def conflict(self) -> None:
+        """Blank the marks of a merge that is not done, and the second of its two versions."""
+        found = list(_CONFLICT.finditer(self.kept))
+        if found:
+            message, hint = "a merge was left undone here", "keep one of the two versions, and remove the marks"
+            self.fault(message, found[0].start(), hint, "foreign-text", ())
+            self.change((span for match in found for span in (match.span(1), match.span(2))), _blanks)
+
     def marks(self) -> None:
         """Blank the marks of Markdown and comments of other languages; comments of PDDL are no part of ``bare``."""
         found: dict[str, list[re.Match[str]]] = {}
+        first = _DEFINE.search(self.bare)
+        begin = first.start() if first else len(self.bare)
         for match in _MARKS.finditer(self.bare):
+            if match.lastgroup in _WITHIN and match.start() < begin:
+                continue  # all of this is not PDDL, which is reported
             if match.lastgroup and match.lastgroup != "comment":
                 found.setdefault(match.lastgroup, []).append(match)
-        self.change((match.span() for matches in found.values() for match in matches), _blanks)
+        for kind, matches in found.items():
+            self.change((match.span() for match in matches), _KEPT.get(kind, _blanks))
         self.bare = re.sub(r";[^\n]*", lambda comment: _blanks(comment[0]), self.bare)
+        self.hidden()
         for kind, matches in found.items():
             message, hint = _TOLD[kind]
             edits = [edit for match in matches for edit in self._mended(kind, match)]
             self.fault(message, matches[0].start() + _indent(matches[0][0]), hint, "foreign-text", edits)
 
+    def hidden(self) -> None:
+        """Read on behind the one ";" that hides the parentheses that are missing."""
+        missing = self.bare.count("(") - self.bare.count(")")
+        found = [
+            match
+            for match in re.finditer(r"(?<=\S);(?=\s*[()])([^;\n]*)", self.kept)
+            if missing > 0 and not self.bare[match.start() : match.end()].strip()
+            if match[1].count(")") - match[1].count("(") == missing
+        ]
+        if len(found) == 1:
+            start, end = found[0].span()
+            message = f'";" begins a comment, and hides "{found[0][1].strip()}" here'
+            edits = [self.edit(start, start + 1, " ")]
+            self.fault(message, start, "remove it", "other-notation", edits)
+            text = self.kept[start + 1 : end]
+            self.kept = f"{self.kept[:start]} {text}{self.kept[end:]}"
+            self.bare = f"{self.bare[:start]} {text}{self.bare[end:]}"
+
     def _mended(self, kind: str, match: re.Match[str]) -> Iterator[Edit]:
-        if kind == "fence":
+        if kind in ("fence", "tag", "slash", "thought"):
             yield self.removal(*match.span())
+        elif kind == "entity":
+            yield self.edit(*match.span(), _plain(match[0]).rstrip(" ") or " ")
         elif kind == "escape":
             yield self.edit(*match.span(), {"n": "\n", '"': '"'}.get(match[0][1], " "))
+        elif kind == "text":
+            end = "" if self.kept[match.end() :].lstrip(" \t").startswith("\n") else "\n"
+            yield self.edit(*match.span(), f"; {match[0].split(chr(34))[1]}{end}")
+        elif kind == "quoted":
+            yield self.edit(match.start(), match.start() + 1)
+            yield self.edit(match.end() - 1, match.end())
+        elif kind == "dollar":
+            yield self.edit(*match.span(), "?")
         elif kind == "remark":
             mark = match[0].split()[0]
             start = match.start() + _indent(match[0])
@@ -185,6 +275,17 @@ class _Text:
         self.change([(place, place + 1) for place in places], _blanks)
 
 
+def _plain(text: str) -> str:
+    """Return an entity of HTML as the sign that it means, filled up with blanks."""
+    from html import unescape  # which most texts do not need
+
+    return unescape(unescape(text)).replace("\xa0", " ").ljust(len(text))
+
+
+def _unquoted(text: str) -> str:
+    return f" {text[1:-1]} "
+
+
 def _blanks(text: str) -> str:
     return re.sub(r"[^\n]", " ", text)
 
@@ -201,3 +302,11 @@ def _end_of_group(text: str, begin: int, end: int) -> int:
         if not depth:
             return match.end()
     return end
+
+
+# What stays of marks that are not blanked out.
+_KEPT: Mapping[str, Callable[[str], str]] = {
+    "entity": _plain,
+    "quoted": _unquoted,
+    "dollar": lambda _: "?",
+}

@@ -10,6 +10,7 @@ import re
 import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import takewhile
 
 from tmd.diagnostics import Edit, Location, TmdError
 from tmd.pddl.model import (
@@ -29,7 +30,19 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
-from tmd.pddl.reading.syntax import CONNECTIVES, Document, Group, Node, Source, Word, after, replaced, shifted
+from tmd.pddl.reading.syntax import (
+    CONNECTIVES,
+    NAME,
+    Document,
+    Group,
+    Node,
+    Source,
+    Word,
+    after,
+    enclosed,
+    replaced,
+    shifted,
+)
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 # What planners take for a name although PDDL does not.
@@ -56,7 +69,7 @@ UNSUPPORTED = {
         "processes and events": ":time :process :event :class",
         "numeric fluents": ":fluents :numeric-fluents decrease scale-up scale-down",
         "numeric and object fluents": "assign change",
-        "numeric conditions": "< > <= >=",
+        "numeric conditions": "< > <= >= \u2264 \u2265",
         "object fluents": ":object-fluents",
         "preferences": ":preferences preference",
         "trajectory constraints": ":constraints always sometime within at-most-once sometime-after sometime-before "
@@ -87,6 +100,11 @@ def read_name(node: Node, source: Source, what: str) -> Word:
     """Return a name such as ``mug1``."""
     if isinstance(node, Group):
         raise source.error(f"expected {what}, found a parenthesis", node.location)
+    if "\\" in node.text.rstrip("\\"):
+        plain = node.text.replace("\\", "")
+        message, edits = "names have no backslashes in PDDL", [replaced(node, plain)]
+        source.fault_once(message, node.location, f"write {plain}", "other-notation", edits)
+        node = Word(plain, node.location)
     if not _NAME.fullmatch(node.text):
         _odd_name(node, source, what, _ODD_NAME, "names begin with a letter and hold letters, digits, - and _")
     if node.text in RESERVED:
@@ -166,27 +184,83 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
     """Read ``a b - t c - (either t u)``: names (or variables) with their types."""
     found: list[TypedName] = []
     waiting: list[Word] = []
-    rest = list(reversed(nodes))
+    rest = list(reversed(_type_first(nodes, source) if variables else nodes))
     while rest:
         node = rest.pop()
-        if isinstance(node, Word) and ":" in node.text and node.text[0] != ":":
-            node = _before_colon(node, rest, source)
-        if isinstance(node, Word) and len(node.text) > 1 and node.text[0] == "-":
-            rest.append(_after_dash(node, source))
-            node = Word("-", node.location)
-        if isinstance(node, Word) and _LOOK_ALIKES.get(node.text) == "-":
-            source.recover(None, read_name, node, source, "a dash")
-            node = Word("-", node.location)
+        if isinstance(node, Group) and node.parts and node.head != "either":
+            _without_parentheses(node, source)
+            rest += reversed(node.parts)
+            continue
+        if isinstance(node, Word):
+            node = _apart(node, rest, variables, source)
         if isinstance(node, Word) and node.text == "-":
+            behind = rest[-1] if rest else node
             types = source.recover((OBJECT,), _read_types, rest, node.location, source)
             if not waiting:
-                source.fault_at(f"this type belongs to no {what}", node.location)
+                edits = [source.removal(node.location, after(behind))]
+                hint = "write names before it, or remove it"
+                source.fault_at("no name stands before this type", node.location, hint, "syntax", edits)
             found.extend(TypedName(w.text, types, w.location) for w in waiting)
             waiting.clear()
         else:
             waiting.extend(_read_listed(node, source, variables, what))
     found.extend(TypedName(w.text, (OBJECT,), w.location) for w in waiting)
     return tuple(found)
+
+
+def _apart(node: Word, rest: list[Node], variables: bool, source: Source) -> Word:
+    """Return the first of the words that are written as one; the rest begins with the others then."""
+    if variables:
+        node = _before_glued_type(node, rest, source)
+    if ":" in node.text and node.text[0] != ":":
+        node = _before_colon(node, rest, source)
+    if len(node.text) > 1 and node.text[0] == "-":
+        rest.append(_after_dash(node, source))
+        return Word("-", node.location)
+    if _LOOK_ALIKES.get(node.text) == "-":
+        source.recover(None, read_name, node, source, "a dash")
+        return Word("-", node.location)
+    return node
+
+
+def types_of(source: Source) -> frozenset[str]:
+    """Return the types that a domain declares, as far as they can be read."""
+    section = source.sections.get(":types")
+    return frozenset(part.text for part in section.parts[1:] if isinstance(part, Word)) if section else frozenset()
+
+
+def _type_first(nodes: Sequence[Node], source: Source) -> Sequence[Node]:
+    """Return ``can ?c bed ?b``, which is reported, as ``?c - can ?b - bed``; other lists as they are."""
+    words = [node for node in nodes if isinstance(node, Word)]
+    pairs = list(zip(words[::2], words[1::2], strict=False))
+    types = types_of(source)
+    if not pairs or 2 * len(pairs) < len(nodes) or any(t.text not in types or v.text[0] != "?" for t, v in pairs):
+        return nodes
+    for kind, variable in pairs:
+        edits = [replaced(kind, variable.text), replaced(variable, f"- {kind.text}")]
+        hint = f"write {variable.text} - {kind.text}"
+        source.fault_once("a type stands behind its variable", kind.location, hint, "other-notation", edits)
+    return [node for kind, variable in pairs for node in (variable, Word("-", kind.location), kind)]
+
+
+def _without_parentheses(node: Group, source: Source) -> None:
+    """Report a group where names with their types should be."""
+    edits = [Edit(node.location, shifted(node.location, 1)), Edit(node.end, shifted(node.end, 1))]
+    hint = "write a b - type c - (either type other)"
+    source.fault_once("names with their type have no parentheses", node.location, hint, "other-notation", edits)
+
+
+def _before_glued_type(node: Word, rest: list[Node], source: Source) -> Word:
+    """Return the variable in ``?c-can``, where the part behind a dash is a type; the rest begins with the type then."""
+    types = types_of(source) if "-" in node.text[1:] else frozenset()
+    for dash in (match.start() for match in re.finditer("-", node.text) if node.text[match.end() :] in types):
+        name, kind = node.text[:dash], node.text[dash + 1 :]
+        place = shifted(node.location, dash)
+        message, hint = "the dash before a type has blanks around it", f"write {name} - {kind}"
+        source.fault_once(message, place, hint, "other-notation", [Edit(place, shifted(place, 1), " - ")])
+        rest += [Word(kind, shifted(place, 1)), Word("-", place)]
+        return Word(name, node.location)
+    return node
 
 
 def _before_colon(node: Word, rest: list[Node], source: Source) -> Word:
@@ -238,7 +312,11 @@ def _read_types(rest: list[Node], dash: Location, source: Source) -> tuple[str, 
     if isinstance(node, Word):
         return (read_name(node, source, "the name of a type").text,)
     if node.head != "either" or len(node.parts) < 2:
-        raise source.error("expected a type or (either type ...)", node.location)
+        plain = [part.text for part in node.parts if isinstance(part, Word)]
+        start = shifted(node.location, 1)
+        edits = [Edit(start, start, "either ")] if plain and len(plain) == len(node.parts) else []
+        hint = f"write (either {' '.join(plain)})" if edits else None
+        raise source.error("expected a type or (either type ...)", node.location, hint, "syntax", edits)
     return tuple(read_name(n, source, "the name of a type").text for n in node.parts[1:])
 
 
@@ -254,9 +332,11 @@ _EMPTY = frozenset({"nil", "none", "null", "true", "empty", "n/a", "[]", "{}", "
 _CONNECTIVES = {
     "&&": "and", "&": "and", "||": "or", "|": "or", "!": "not", "~": "not", "implies": "imply", "=>": "imply",
     "->": "imply", "if": "when", "for-all": "forall", "foreach": "forall", "exist": "exists",
-    "there-exists": "exists", "thereexists": "exists",
+    "there-exists": "exists", "thereexists": "exists", "\u2227": "and", "\u2228": "or", "\u00ac": "not",
+    "\u2192": "imply", "\u21d2": "imply", "\u2200": "forall", "\u2203": "exists",
 }  # fmt: skip
-_UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~=", "neq", "not-equal", "not="})
+_UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~=", "neq", "not-equal", "not=", "\u2260"})
+_SIGNS = _UNEQUAL | {"=", "=="}
 
 
 def _not_in_parentheses(node: Word, source: Source, what: str) -> TmdError:
@@ -275,17 +355,89 @@ def _in_pddl(node: Group, source: Source) -> Group:
     head, *rest = node.parts
     if isinstance(head, Group):
         return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
-    signs = {*_UNEQUAL, "=", "=="}
+    if head.text == "not" or head.text[0] in "!~\u00ac":
+        return _negation(node, head, rest, source)
+    if len(rest) == 2 and node.head in _TIMES:
+        return _timeless(node, rest[0], rest[1], source)
+    if len(rest) == 2 and node.head in _ASSIGNED and isinstance(rest[0], Group):
+        return _truth_value(node, rest[0], rest[1], source)
+    return _connective(node, head, rest, source)
+
+
+def _negation(node: Group, head: Word, rest: Sequence[Node], source: Source) -> Group:
+    """Return ``(!p ?x)`` and ``(not p ?x)``, which are reported, as ``(not (p ?x))``."""
+    if NAME.fullmatch(head.text[1:]) and head.text != "not":
+        atom = _group(node, Word(head.text[1:], shifted(head.location, 1)), *rest)
+        shown = source.text(node.location, after(node)).replace(head.text[0], "", 1)
+        _of_pddl(node, f"(not {shown})", head.text[0], source)
+        return _group(node, Word("not", node.location), atom)
+    if head.text == "not" and len(rest) > 1 and all(isinstance(part, Word) for part in rest):
+        edits = enclosed(rest[0], rest[-1])
+        hint = f"write (not ({source.text(rest[0].location, after(rest[-1]))}))"
+        source.fault_at('what is behind "not" stands in parentheses', rest[0].location, hint, "syntax", edits)
+        return _group(node, head, Group(tuple(rest), rest[0].location, node.end, node.depth + 1))
+    return _connective(node, head, rest, source)
+
+
+def _connective(node: Group, head: Word, rest: Sequence[Node], source: Source) -> Group:
+    """Return a group whose head or sign is that of another notation, which is reported, with that of PDDL."""
     between = rest[0].text if len(rest) == 2 and isinstance(rest[0], Word) else ""
-    if between in signs:
+    if between in _SIGNS:
         return _equation(node, between, (head, rest[1]), source)
+    if node.head not in _SIGNS and node.head not in _CONNECTIVES:
+        return node
     groups = any(isinstance(part, Group) for part in rest)
-    if node.head in signs - {"="} and not groups:
+    if node.head != "=" and node.head in _SIGNS and not groups:
         return _equation(node, node.head, rest, source)
     plain = _CONNECTIVES.get(node.head) if groups else None
     if plain:
         _of_pddl(head, plain, node.head, source)
         return _group(node, Word(plain, node.location), *rest)
+    return node
+
+
+# How the times of durative actions begin, and the words behind that.
+_TIMES = {"at": ("start", "end"), "over": ("all",)}
+# What some write to make an atom true or false.
+_ASSIGNED = ("=", "==", "assign", "set")
+
+
+def _timeless(node: Group, time: Node, inner: Node, source: Source) -> Group:
+    """Return the condition or effect in ``(at start (...))``, which is reported."""
+    if isinstance(time, Group) or isinstance(inner, Word) or time.text not in _TIMES[node.head]:
+        return node
+    edits = [Edit(node.location, inner.location), Edit(node.end, shifted(node.end, 1))]
+    message = f'"{node.head} {time.text}" belongs in durative actions'
+    source.fault_once(message, node.location, "write what is in it alone", "other-notation", edits)
+    return _in_pddl(inner, source)
+
+
+def _truth_value(node: Group, atom: Group, value: Node, source: Source) -> Group:
+    """Return ``(= (p) true)``, which is reported, as ``(p)``, and ``(= (p) false)`` as ``(not (p))``."""
+    if isinstance(value, Group) or value.text not in ("true", "false"):
+        return node
+    shown = source.text(atom.location, after(atom))
+    plain = shown if value.text == "true" else f"(not {shown})"
+    _of_pddl(node, plain, f"({node.head} (...) {value.text})", source)
+    return atom if value.text == "true" else _group(node, Word("not", node.location), atom)
+
+
+def _quantifier(node: Group, source: Source, what: str) -> Group:
+    """Return a quantifier with parameters in parentheses and one part behind them; anything else is reported."""
+    head, *parts = node.parts
+    words = [part for part in takewhile(lambda part: isinstance(part, Word), parts)]
+    if words:
+        edits = enclosed(words[0], words[-1])
+        source.fault_at("parameters stand in parentheses", words[0].location, "write (?x - type)", "syntax", edits)
+        parameters = Group(tuple(words), words[0].location, after(words[-1]), node.depth + 1)
+        parts = [parameters, *parts[len(words) :]]
+    if len(parts) > 2 and all(isinstance(part, Group) for part in parts):
+        edits = enclosed(parts[1], parts[-1], "(and ")
+        message, hint = f'"{node.head}" takes one part behind its parameters', "use (and (...) (...)) for several"
+        source.fault_at(message, parts[1].location, hint, "syntax", edits)
+        parts = [parts[0], _group(node, Word("and", parts[1].location), *parts[1:])]
+    node = _group(node, head, *parts)
+    _expect(node, 2, f"({node.head} (parameters) {what})", source)
     return node
 
 
@@ -318,11 +470,11 @@ def _group(node: Group, *parts: Node) -> Group:
 def _of_pddl(node: Node, plain: str, found: str, source: Source) -> None:
     """Report the notation ``found`` at ``node``, for which PDDL has ``plain``."""
     edits = [replaced(node, plain)]
-    source.fault_at(f'"{found}" is not PDDL', node.location, f"write {plain}", "other-notation", edits)
+    source.fault_once(f'"{found}" is not PDDL', node.location, f"write {plain}", "other-notation", edits)
 
 
 # The other words that are not supported may be names of predicates, and then have no conditions in them.
-_NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
+_NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">=", "\u2264", "\u2265"})
 _EFFECT_WORDS = frozenset({"assign", "change", "decrease", "scale-up", "scale-down", "oneof", "probabilistic"})
 _ONLY_COSTS = "of numeric fluents only total-cost is supported"
 
@@ -351,9 +503,9 @@ def read_condition(node: Node, source: Source) -> Formula:
         _expect(node, 2, "(imply condition condition)", source)
         return Imply(read_condition(parts[0], source), read_condition(parts[1], source), place)
     if head in ("forall", "exists"):
-        _expect(node, 2, f"({head} (parameters) condition)", source)
-        parameters, part = read_parameters(parts[0], source), read_condition(parts[1], source)
-        return Forall(parameters, part, place) if head == "forall" else Exists(parameters, part, place)
+        _, parameters, part = _quantifier(node, source, "condition").parts
+        quantified = Forall if head == "forall" else Exists
+        return quantified(read_parameters(parameters, source), read_condition(part, source), place)
     if head == "=":
         _expect(node, 2, "(= term term)", source)
         if any(isinstance(p, Group) or p.text[0].isdigit() for p in parts):
@@ -390,7 +542,20 @@ def read_atom(node: Group, source: Source) -> Atom:
     if not node.parts:
         raise source.error("expected (predicate term ...), found ()", node.location)
     name = read_name(node.parts[0], source, "the name of a predicate")
-    return Atom(name.text, tuple(read_term(p, source) for p in node.parts[1:]), node.location)
+    terms = _without_types(list(node.parts[1:]), source)
+    return Atom(name.text, tuple(read_term(p, source) for p in terms), node.location)
+
+
+def _without_types(terms: list[Node], source: Source) -> list[Node]:
+    """Return the terms of an atom without types, which are reported: they stand where the names are declared."""
+    dashes = [n for n, term in enumerate(terms) if isinstance(term, Word) and term.text == "-" and n and terms[n + 1 :]]
+    for number in reversed(dashes):
+        dash, kind = terms[number], terms[number + 1]
+        edits = [source.removal(dash.location, after(kind))]
+        message, hint = "a type does not stand in a condition, an effect or :init", "remove it"
+        source.fault_once(message, dash.location, hint, "other-notation", edits)
+        del terms[number : number + 2]
+    return terms
 
 
 def _expect(node: Group, count: int, form: str, source: Source) -> None:
@@ -439,8 +604,8 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
         for part in parts:
             source.recover(None, _read_effect, part, source, around, found)
     elif head == "forall":
-        _expect(node, 2, "(forall (parameters) effect)", source)
-        _read_effect(parts[1], source, _quantified(node, source, around), found)
+        node = _quantifier(node, source, "effect")
+        _read_effect(node.parts[2], source, _quantified(node, source, around), found)
     elif head == "when":
         _expect(node, 2, "(when condition effect)", source)
         if around.conditions:

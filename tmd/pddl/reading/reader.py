@@ -6,11 +6,11 @@ Supported: typed ADL with action costs. Everything else is refused by its name. 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
-from itertools import pairwise, takewhile
+from itertools import groupby, pairwise, takewhile
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -43,6 +43,7 @@ from tmd.pddl.reading.formulas import (
     read_only_condition,
     read_parameters,
     read_typed_list,
+    types_of,
     unsupported,
 )
 from tmd.pddl.reading.syntax import (
@@ -59,6 +60,7 @@ from tmd.pddl.reading.syntax import (
     parse,
     read_text,
     replaced,
+    shifted,
 )
 from tmd.pddl.semantics import close
 
@@ -98,7 +100,13 @@ def read_title(nodes: Sequence[Node], place: Location, source: Source, what: str
 def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
     """Read ``(:requirements ...)``, each once."""
     names: list[str] = []
-    for node in group.parts[1:]:
+    nodes = list(group.parts[1:])
+    for node in nodes:
+        if isinstance(node, Group) and node.head.startswith(":"):
+            edits = [Edit(node.location, shifted(node.location, 1)), Edit(node.end, shifted(node.end, 1))]
+            source.fault_once("a requirement has no parentheses", node.location, "remove them", "syntax", edits)
+            nodes += node.parts
+            continue
         if isinstance(node, Group) or not node.text.startswith(":"):
             plain = isinstance(node, Word) and f":{node.text}" in REQUIREMENTS
             edits = [Edit(node.location, node.location, ":")] if plain else []
@@ -211,7 +219,12 @@ def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> Non
 
 def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
     """Read ``(:predicates ...)``, each with the comment that stands beside it."""
-    declared = group.parts[1:]
+    declared: Sequence[Node] = group.parts[1:]
+    words = [node for node in declared if isinstance(node, Word)]
+    if len(words) > 1:
+        names, hint = ", ".join(word.text for word in words[:8]), f"write ({words[0].text} ?x - type)"
+        document.source.fault_at(f"expected (predicate ...), found {names}", words[0].location, hint)
+        declared = [node for node in declared if isinstance(node, Group)]
     following = [*(n.location.line for n in declared[1:]), group.end.line + 1][: len(declared)]
     found: list[Predicate | None] = []
     for node, next_line in zip(declared, following, strict=True):
@@ -225,17 +238,31 @@ def _read_signature(node: Node, document: Document, comment: str = "") -> Predic
     source = document.source
     if isinstance(node, Word):
         raise source.error(f'expected (predicate ...), found "{node.text}"', node.location)
+    if len(node.parts) == 1 and isinstance(node.parts[0], Group):
+        edits = [Edit(node.location, shifted(node.location, 1)), Edit(node.end, shifted(node.end, 1))]
+        message, hint = "these are two pairs of parentheses", "remove one of them"
+        source.fault_once(message, node.location, hint, "syntax", edits)
+        return _read_signature(node.parts[0], document, comment)
     if node.head == ":private":
         raise unsupported(source, UNSUPPORTED[node.head], node.head, node.location)
     if not node.parts:
         raise source.error("expected (name ?parameter ...), found ()", node.location)
-    named = list(takewhile(lambda part: isinstance(part, Word) and part.text[0] not in "?-", node.parts))
+    named = _name_of_signature(node, source)
     rest = node.parts[len(named) :]
-    if len(named) < 2 or not rest or not isinstance(rest[0], Word) or rest[0].text[0] != "?":
-        named, rest = [node.parts[0]], node.parts[1:]  # those are variables without a mark
     name = read_title(named, node.location, source, "the name of a predicate")
     parameters = read_typed_list(rest, source, variables=True, what="a parameter")
     return Predicate(name.text, _each_named(parameters, source), comment, node.location)
+
+
+def _name_of_signature(node: Group, source: Source) -> Sequence[Node]:
+    """Return the words before the parameters: a name with blanks, or the name alone where others are no part of it."""
+    named = [*takewhile(lambda part: isinstance(part, Word) and part.text[0] not in "?-", node.parts)]
+    words = [part.text for part in node.parts if isinstance(part, Word)]
+    variables = words[len(named) : len(named) + 1]
+    if len(named) < 2 or not variables or variables[0][0] != "?":
+        return node.parts[:1]  # those are variables without a mark
+    typed_before = words[1] in types_of(source) and "-" not in words
+    return node.parts[:1] if typed_before else named
 
 
 def _each_named(parameters: tuple[TypedName, ...], source: Source) -> tuple[TypedName, ...]:
@@ -276,7 +303,7 @@ def read_action(group: Group, source: Source) -> ActionSchema:
     """Read ``(:action name ...)``; what is left out is empty."""
     if len(group.parts) < 2:
         raise source.error("this action has no name", group.location)
-    named = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), group.parts[1:]))
+    named = _words_before_keyword(group.parts[1:])
     name = read_title(named or group.parts[1:2], group.location, source, "the name of an action")
     parts = _parts_of_action(group, len(named) + 1, name.text, source)
     effects = Effects()
@@ -346,18 +373,37 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
         if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
             value = nodes[0] = _in_parentheses(nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
-        # the value of a misspelt keyword is not reported as missing as well
-        meant = [] if keyword.text in PARTS else get_close_matches(keyword.text, PARTS, n=1)
-        parts.setdefault(keyword.text if keyword.text in UNSUPPORTED or not meant else meant[0], nodes.pop(0))
+        parts.setdefault(_part_meant(keyword.text), nodes.pop(0))
+        if keyword.text not in PARTS:  # what else belongs to it is not reported as well
+            del nodes[: len(_words_before_keyword(nodes))]
         if keyword.text in PARTS:
             found.append((PARTS.index(keyword.text), keyword.text, keyword.location, after(value)))
     warn_of_order(found, source)
     return parts
 
 
+# The effects of STRIPS before PDDL.
+_LISTS = frozenset({
+    ":add", ":adds", ":add-list", ":add-effect", ":add-effects", ":del", ":dels", ":delete", ":deletes", ":del-list",
+    ":delete-list", ":del-effect", ":del-effects", ":delete-effect", ":delete-effects",
+})  # fmt: skip
+_EFFECT = "write :effect (and (added ...) (not (deleted ...)))"
+
+
+def _part_meant(keyword: str) -> str:
+    """Return the part of an action that a keyword means, so that its value is not reported as missing as well."""
+    if keyword in PARTS or keyword in UNSUPPORTED or keyword.replace("_", "-") in _LISTS:
+        return keyword
+    return next(iter(get_close_matches(keyword, PARTS, n=1)), keyword)
+
+
+def _words_before_keyword(nodes: Sequence[Node]) -> list[Node]:
+    return list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
+
+
 def _in_parentheses(nodes: list[Node], source: Source) -> Group:
     """Return the parameters that ``nodes`` begin with, which lack their parentheses, and keep one of them."""
-    words = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
+    words = _words_before_keyword(nodes)
     del nodes[1 : len(words)]
     start, edits = words[0].location, enclosed(words[0], words[-1])
     source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
@@ -404,6 +450,10 @@ def _meant(word: Word, names: Sequence[str]) -> list[Edit]:
 def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Source) -> None:
     if keyword.text in UNSUPPORTED:
         raise unsupported(source, UNSUPPORTED[keyword.text], keyword.text, keyword.location)
+    if keyword.text.replace("_", "-") in _LISTS:
+        message = "an action of PDDL has no lists of what is added and deleted"
+        source.fault_once(message, keyword.location, _EFFECT, "unknown-keyword", ())
+        return
     if keyword.text not in PARTS:
         hint = nearest(keyword.text, PARTS, what="parts of an action")
         message = f'"{keyword.text}" is not a part of an action'
@@ -605,14 +655,48 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
         found = f", found ({title.head} ...)" if isinstance(title, Group) else ""
         raise source.error(f"expected ({kind} name){found}", title.location)
     name = read_title(title.parts[1:], title.location, source, f"the name of a {kind}")
-    for section in sections:
-        if isinstance(section, Word):
-            source.fault_at(
-                f'"{section.text}" stands outside its section',
-                section.location,
-                "a parenthesis before it is too many",
-            )
-    return name, [s for s in sections if isinstance(s, Group)]
+    groups = _sections(sections, source)
+    _of_kind(kind, title.parts[0], name.text, groups, source)
+    return name, groups
+
+
+def _sections(nodes: Sequence[Node], source: Source) -> list[Group]:
+    """Return the sections of a definition; the words between them are reported."""
+    for words, run in groupby(nodes, lambda node: isinstance(node, Word)):
+        if words:
+            _outside([node for node in run if isinstance(node, Word)], source)
+    return [node for node in nodes if isinstance(node, Group)]
+
+
+def _outside(words: Sequence[Word], source: Source) -> None:
+    """Report words between the sections of a definition: a sentence, or what a parenthesis too many left over."""
+    first, last = words[0], words[-1]
+    if len(words) > 1 and all(word.text[0] not in ":?" for word in words):
+        ends = source.lines[last.location.line - 1][after(last).column - 1 :].strip()
+        starts = sorted({word.location.line: word.location for word in reversed(words)}.values())
+        edits = [Edit(start, start, "; ") for start in starts]
+        edits += [Edit(after(last), after(last), "\n")] if ends else []
+        source.fault_at("this text is not PDDL", first.location, 'write ";" before it', "foreign-text", edits)
+        return
+    for word in words:
+        message, hint = f'"{word.text}" stands outside its section', "a parenthesis before it is too many"
+        source.fault_at(message, word.location, hint)
+
+
+def _of_kind(kind: str, named: Node, name: str, sections: Sequence[Group], source: Source) -> None:
+    """Make sure that a definition has not the sections of the other kind only.
+
+    Raises:
+        TmdError: It has.
+    """
+    heads = {section.head for section in sections} - {":requirements"}
+    own, other = _RANKS_OF_DOMAIN, _RANKS_OF_PROBLEM
+    needed, meant = {":init", ":goal"}, "problem"
+    if kind == "problem":
+        own, other, needed, meant = other, own, {":predicates", ":action"}, "domain"
+    if needed <= heads and heads <= other.keys() and not heads & own.keys():
+        hint, edits = f"write (define ({meant} {name}) ...)", [replaced(named, meant)]
+        raise source.error(f"this is a {meant}, and is called a {kind}", named.location, hint, "syntax", edits)
 
 
 def _title_in_parentheses(kind: Word, name: Node, source: Source) -> Group:
@@ -643,8 +727,22 @@ def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source:
         edits = _meant(word, known) if isinstance(word, Word) and (head[0] == ":" or f":{head}" in known) else []
         raise source.error(f"{shown} is not a section", group.location, nearby, "unknown-section", edits)
     if head in seen:
-        raise source.error(f'the section "{head}" appears twice', group.location, "join the two", "duplicate-section")
+        edits = list(_moved(group, source.sections[head], source)) if head in _LISTED else []
+        message = f'the section "{head}" appears twice'
+        raise source.error(message, group.location, "join the two", "duplicate-section", edits)
     return head
+
+
+# The sections that are lists, of which two are one.
+_LISTED = frozenset({":requirements", ":types", ":constants", ":predicates", ":functions", ":objects", ":init"})
+
+
+def _moved(group: Group, first: Group, source: Source) -> Iterator[Edit]:
+    """Yield the edits that move what is in a section to the end of the first one of its name."""
+    content = source.text(after(group.parts[0]), group.end).strip()
+    end = "\n" if ";" in content.rpartition("\n")[2] else ""
+    yield Edit(first.end, first.end, f"\n    {content}{end}")
+    yield source.removal(group.location, after(group))
 
 
 class InitReader:

@@ -13,13 +13,13 @@ import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
-from itertools import islice
+from itertools import islice, takewhile
 from pathlib import Path
 from typing import ParamSpec, TypeAlias, TypeVar
 
 from tmd.diagnostics import Edit, Location, TmdError
 from tmd.files import read_bytes
-from tmd.pddl.reading.foreign import pddl_lines
+from tmd.pddl.reading.foreign import other_file, pddl_lines
 
 TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+")
 """Parentheses and words; a variable always begins a new word."""
@@ -151,6 +151,16 @@ class Source(Reporting):
         lines[0] = lines[0][start.column - 1 :]
         return "\n".join(lines)
 
+    def removal(self, start: Location, end: Location) -> Edit:
+        """Return the edit that removes words with the blanks before them, or lines where nothing else is in them."""
+        before, behind = self.lines[start.line - 1][: start.column - 1], self.lines[end.line - 1][end.column - 1 :]
+        if before.strip():
+            kept = before if before.endswith("(") else before.rstrip()
+            return Edit(Location(start.file, start.line, len(kept) + 1), end)
+        if behind.strip() or end.line == len(self.lines):
+            return Edit(start, shifted(end, len(behind) - len(behind.lstrip())))
+        return Edit(Location(start.file, start.line, 1), Location(end.file, end.line + 1, 1))
+
     def declaration(self, section: str, words: str) -> Edit:
         """Return the edit that adds ``words`` to a section, which is made where there is none."""
         if section in self.sections:
@@ -273,6 +283,8 @@ def read_text(path: str | Path, report: Report | None = None) -> str:
         raise TmdError(
             f"cannot be read: {error.strerror or error}", location=place, hint=hint, code="unreadable"
         ) from error
+    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        raise TmdError("is UTF-16, not UTF-8", location=place, hint="save it as UTF-8", code="not-utf8")
     if b"\0" in data:
         raise TmdError("is not a text file", location=place, hint="save it as UTF-8 text", code="not-text")
     try:
@@ -364,6 +376,19 @@ def _may_be_name(word: str) -> bool:
     return bool(NAME.fullmatch(word)) and word not in _OPERATORS - {"not"} and word not in ("minimize", "maximize")
 
 
+def _around_an_atom(parts: Sequence[Node]) -> Group | None:
+    """Return the first atom that has another one in it, which should have been closed before that."""
+    waiting = list(reversed(parts))
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Group):
+            inner = next((part for part in node.parts if isinstance(part, Group)), None)
+            if inner and all(NAME.fullmatch(group.head) and group.head not in _OPERATORS for group in (node, inner)):
+                return node
+            waiting.extend(reversed(node.parts))
+    return None
+
+
 def _keyword_before(around: _Open) -> bool:
     """Return whether the last word is a condition or effect itself, as in ``:effect done()``."""
     before = around.parts[-2] if len(around.parts) > 1 else None
@@ -382,6 +407,9 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
     """
     lines = split_lines(text)
+    if other := other_file(text):
+        source = Source(file, lines)
+        raise source.error(f"this is {other[0]}, not PDDL", Location(file, 1, 1), other[1], "empty-file")
     code, foreign = pddl_lines(lines, file)
     source = Source(file, lines, report, code)
     commas = [fault for fault in foreign if "commas" in fault.message]
@@ -545,6 +573,12 @@ class _Parser:
             self.closed_too_early(self.groups[-1])
             self.stack.append(_reopened(self.groups.pop()))
             return True
+        if word.text == "define" and not self.outside:
+            edits = [Edit(word.location, word.location, "(")]
+            message = 'a parenthesis is missing before "define"'
+            self.fault(message, word.location, 'write "(define"', "syntax", edits)
+            self.stack.append(_Open(word.location, [word], True))
+            return False
         if not self.outside:
             self.fault(f'"{word.text}" stands outside all parentheses', word.location, None, "syntax")
         self.outside = True
@@ -615,6 +649,13 @@ class _Parser:
             self.pop(end)
 
     def never_closed(self, opened: _Open, count: int = 1) -> None:
+        atom = _around_an_atom(opened.parts) if count <= 2 else None
+        if atom is not None:
+            words = [*takewhile(lambda part: isinstance(part, Word), atom.parts)]
+            place, self.suspect = after(words[-1]), None
+            message, edits = f'this parenthesis "({atom.head}" is never closed', [Edit(place, place, ")")]
+            self.fault(message, atom.location, 'add the missing ")" behind it', "unclosed-parenthesis", edits)
+            return
         name = f' "({opened.head}"' if opened.head else ""
         hint = 'add the missing ")"' if count == 1 else f'add the {count} missing ")"'
         if self.suspect is not None and self.suspect.location != opened.location:
