@@ -8,10 +8,10 @@ prior being one factor. A finished plan is improved as a whole (:mod:`tmd.infere
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from itertools import islice
+from itertools import islice, pairwise
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.inference.commitments import (
@@ -34,7 +34,7 @@ from tmd.pddl.ground_formula import TRUE, goal_cubes
 from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube
-from tmd.planning.gap_filler import eliminate
+from tmd.planning.gap_filler import GapFiller, eliminate
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 from tmd.world.verb_clause import VerbClause
@@ -43,6 +43,8 @@ from tmd.world.verb_clause import VerbClause
 _MOST_FURTHER_STEPS = 8
 # Plans that are improved beyond those that are wanted, since some may become equal.
 _SPARE = 2
+# Attempts at a plan that spares what earlier steps did and is not longer than one that does it again.
+_MOST_SPARED = 3
 # Maximum number of different readings of a request that are followed at a time, each with its own beam.
 _MOST_READINGS = 4
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
@@ -325,11 +327,16 @@ class GoalPass(ForwardPass):
         begun, state = passed
         proposals = list(self._executables(target.step, way)) if target.step.main else []
         reason = ""
-        for aim, quick in self._attempts(state, target.aims):
+        for wanted, first in self._attempts(state, target.aims):
+            aim, quick = self._once(state, wanted, first, target)
             tried = () if isinstance(quick, Unreachable) else proposals
-            found = [c for p in tried if (c := self._completed(way, p, target, aim)) is not None]
-            mixed = all(self._unmixed(state, end, aim) for _, end in found)
+            completed = [c for p in tried if (c := self._completed(way, p, target, aim)) is not None]
+            found = [c for c in completed if not self._redone(way.state, _instructions(c[0]), aim, target)]
+            pure = [c for c in found if not self._unmixed(state, c[1], aim)]
+            found, mixed = pure or found, not pure
             answer = self._far_if_needed(quick, state, aim, target) if mixed else quick
+            if answer is not quick:
+                aim, answer = self._once(state, aim, answer, target)
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
             elif isinstance(answer, Filled):
@@ -411,19 +418,79 @@ class GoalPass(ForwardPass):
                 yield aim, answer
         yield last, least
 
+    def _once(
+        self, state: Bits, aim: tuple[Cube, ...], answer: Answer, target: Target
+    ) -> tuple[tuple[Cube, ...], Answer]:
+        """Return an aim and a plan for it that does nothing over again that earlier steps did.
+
+        The kettle stays hot no longer when its water is poured over the noodles. Where the plan can do without undoing
+        it, the aim stays as it is.
+        """
+        while isinstance(answer, Filled) and (redone := self._redone(state, answer.plan, aim, target)):
+            spare = self._sparing(state, aim, answer, target)
+            if spare is not None:
+                return aim, spare
+            fewer = tuple(dict.fromkeys(Cube(c.positive & ~redone, c.negative) for c in aim))
+            other = self.planner.fill(state, fewer)
+            if isinstance(other, GaveUp):
+                other = self._far(state, fewer, brief=True)
+            if not isinstance(other, Filled):
+                break
+            aim, answer = fewer, other
+        return aim, answer
+
+    def _redone(self, state: Bits, instructions: Instructions, aim: Sequence[Cube], target: Target) -> Bits:
+        """Return what earlier steps did, and instructions undo and do again: contents, what is hot or runs."""
+        trace = self.world.task.trace(state, instructions)
+        cube = next((c for c in aim if c.holds(trace[-1])), Cube())
+        own = next((c for c in target.aims[-1] if c.holds(trace[-1])), Cube())
+        kept = cube.positive & ~own.positive & state & self._made
+        always = kept
+        for each in trace:
+            always &= each
+        return kept & ~always
+
+    def _sparing(self, state: Bits, aim: tuple[Cube, ...], answer: Filled, target: Target) -> Filled | None:
+        """Return a plan that undoes nothing of what ``answer`` undoes and does again, where it is not longer."""
+        usable, plan = self.task.by_instruction, answer.plan
+        for _ in range(_MOST_SPARED):
+            redone, trace = self._redone(state, plan, aim, target), self.world.task.trace(state, plan)
+            undoing = {i for i, (a, b) in zip(plan, pairwise(trace), strict=True) if redone & a & ~b}
+            usable = {i: operator for i, operator in usable.items() if i not in undoing}
+            task = replace(self.task, operators=tuple(usable.values()), by_instruction=usable)
+            found = GapFiller(task, cap=self.config.cap).fill(state, aim)
+            if not isinstance(found, Filled) or len(found.plan) > len(answer.plan):
+                return None
+            plan = found.plan
+            if not self._redone(state, plan, aim, target):
+                return found
+        return None
+
+    @cached_property
+    def _made(self) -> Bits:
+        """The atoms that say what is in what, or tell of one thing alone."""
+        single = sum(1 << bit for bit, atom in enumerate(self.task.atoms) if len(atom.args) == 1)
+        return self._contents | single
+
     def _unmixed(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> tuple[Cube, ...]:
         """Return an aim without what else came into its vessels from ``state`` to ``end``: hot milk without any coffee.
 
         Empty where nothing else did.
         """
-        found = []
+        others: set[str] = set()
         for cube in aim:
             vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
             gained = self.task.names(end & ~state & ~cube.positive & self._contents)
-            others = sum(1 << self.task.index[atom] for atom in gained if atom.args[0] in vessels)
-            if others:
-                found.append(Cube(cube.positive, cube.negative | others))
-        return tuple(found)
+            if cube.holds(end):
+                others |= {atom.args[1] for atom in gained if atom.args[0] in vessels}
+        return tuple(self._without(cube, others, state) for cube in aim) if others else ()
+
+    def _without(self, cube: Cube, contents: Collection[str], state: Bits) -> Cube:
+        """Return a cube without some contents in its vessels, unless they are there in ``state`` or asked for."""
+        vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
+        atoms = self.task.names(self._contents & ~cube.positive & ~state)
+        unwanted = (a for a in atoms if a.args[0] in vessels and a.args[1] in contents)
+        return Cube(cube.positive, cube.negative | sum(1 << self.task.index[atom] for atom in unwanted))
 
     def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
@@ -450,7 +517,8 @@ class GoalPass(ForwardPass):
             answer = next((a for a in answers if not isinstance(a, GaveUp)), GaveUp("the planner"))
         if isinstance(answer, Filled):
             shorter = eliminate(answer.plan, self.task, state, aim)
-            answer = Filled(shorter, self.world.task.trace(state, shorter)[-1], len(shorter))
+            cost = sum(self.task.by_instruction[i].cost for i in shorter)
+            answer = Filled(shorter, self.world.task.trace(state, shorter)[-1], cost)
             unmixed = self._unmixed(state, answer.state, aim)
             other = self._resort(True).fill(state, unmixed) if unmixed else None
             if isinstance(other, Filled) and _little_longer(other, answer):
@@ -600,6 +668,11 @@ def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) 
     handled = {arg for taken in choice.steps for arg in taken.instruction.args}
     handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}
     return names <= handled if every else bool(names & handled)
+
+
+def _instructions(choice: Choice) -> Instructions:
+    """Return the instructions of a choice."""
+    return tuple(step.instruction for step in choice.steps)
 
 
 def _impossible(target: Target, reason: str) -> Refusal:

@@ -9,25 +9,31 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TypeAlias
 
-from tmd.pddl.model import Instruction
+from tmd.pddl.domain_traits import single_valued
+from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.semantics import opposite
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled, GaveUp, Planner
+from tmd.world.compile import PART_OF
 
-# Cost of letting something fall rather than putting it down, in instructions.
+# Cost of letting something fall rather than putting it down, and of leaving a thing elsewhere unasked, in instructions.
 _CARE = 3
+_ELSEWHERE = 2
 # Generated states after which the search for a part gives up, and that for what is restored at the end.
 _CAP = 200
 _END_CAP = 3_000
 # Maximum length of a part that is planned again: a search for so few instructions takes milliseconds.
 _WINDOW = 5
+# Maximum number of instructions that are moved together: to go to a thing, open and take it.
+_BLOCK = 4
 Condition: TypeAlias = tuple[Cube, ...]
 """A disjunction of conjunctions."""
-Key: TypeAlias = tuple[int, int, int]
-"""Conditions that are not restored, cost, and atoms that are changed in the end: less is better."""
+Key: TypeAlias = tuple[int, int, int, int]
+"""Conditions that are not restored, cost, atoms that are changed in the end, and disorder: less is better."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,6 +121,7 @@ class _Improvement:
         states = self._states(plan)
         end = states[-1][-1] if states else start
         self.moved = self._moved(end)
+        self._keys: dict[Plan, Key | None] = {}
         self.absent = ~end & setup.contents  # what was poured away was in the way
         asked_true = asked_false = 0
         for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
@@ -128,6 +135,18 @@ class _Improvement:
             if not any(c.holds(start) for c in condition)
             and not any(c.positive & asked_true or c.negative & asked_false for c in condition)
         ]
+        named = {argument for atom in self.task.names(self.asked) for argument in atom.args}
+        values = single_valued(self.task.problem.domain)
+        self.home = sum(
+            1 << self.task.index[atom]
+            for atom in self.task.names(start & setup.lasting & ~setup.contents)
+            if len(atom.args) > 1 and atom.predicate not in values and atom.args[0] not in named
+        )
+        begun = [c for c in setup.restored if not _any_holds(c, start)]
+        simple = {c for c in begun if len(c) == 1 and not c[0].negative and c[0].positive.bit_count() == 1}
+        self.begun = sum({c[0].positive for c in simple})
+        self.begun_otherwise = [c for c in begun if c not in simple]
+        self.wholes = {fact.args[0]: fact.args[1] for fact in self.task.static if fact.predicate == PART_OF}
 
     def improved(self, plan: Plan) -> Plan:
         """Return the plan with what it leaves restored, and without what it does not need."""
@@ -137,7 +156,8 @@ class _Improvement:
         before = None
         while plan != before:
             before = plan
-            plan = self._with_others(self._with_windows(self.pruned(plan)))
+            plan = self._returned(self._with_care(self._ordered(self.pruned(plan))))
+            plan = self._with_others(self._with_windows(plan))
         return plan
 
     def pruned(self, plan: Plan) -> Plan:
@@ -157,6 +177,11 @@ class _Improvement:
 
     def _key(self, plan: Plan) -> Key | None:
         """Return how good a plan is; ``None`` where it cannot be executed or misses what it is for."""
+        if plan not in self._keys:
+            self._keys[plan] = self._measured(plan)
+        return self._keys[plan]
+
+    def _measured(self, plan: Plan) -> Key | None:
         states = [self.start]
         cost = 0
         for segment in plan:
@@ -175,7 +200,23 @@ class _Improvement:
         other = end & self.absent or not self._moved(end) <= self.moved
         if other or not _any_holds(self.kept, end) or not self.setup.allowed(states):
             return None
-        return len(self._untidy(end)), cost, ((end ^ self.start) & self.setup.lasting).bit_count()
+        cost += _ELSEWHERE * len({atom.args[0] for atom in self.task.names(self.home & ~end)})
+        changed = ((end ^ self.start) & self.setup.lasting).bit_count()
+        return len(self._untidy(end)), cost, changed, self._disorder(plan, states)
+
+    def _disorder(self, plan: Plan, states: Sequence[Bits]) -> int:
+        """Return for how long things are open, running, held or on the floor, and how often a plan turns elsewhere."""
+        long = sum(self._begun(state) for state in states)
+        instructions = [i for segment in plan for i in segment.instructions]
+        return long + 2 * sum(not self._units(a) & self._units(b) for a, b in pairwise(instructions))
+
+    def _units(self, instruction: Instruction) -> set[str]:
+        """Return the objects that an instruction handles; a part counts as its whole."""
+        return {self.wholes.get(argument, argument) for argument in instruction.args}
+
+    def _begun(self, state: Bits) -> int:
+        """Return how many conditions that are to be restored hold, and did not hold at the start."""
+        return (state & self.begun).bit_count() + sum(_any_holds(c, state) for c in self.begun_otherwise)
 
     def _untidy(self, state: Bits) -> list[int]:
         """Return the watched conditions that hold."""
@@ -300,6 +341,97 @@ class _Improvement:
             found.append(replace(segment, instructions=tuple(own)))
         return tuple(found)
 
+    def _with_care(self, plan: Plan) -> Plan:
+        """Return the plan with other instructions instead of those that let something fall or restore something."""
+        for place in range(len(plan)):
+            at = 0
+            while not plan[place].need.fixed and at < len(plan[place].instructions):
+                instruction, trace = plan[place].instructions[at], self._states(plan)[place]
+                restores = self._begun(trace[at + 1]) < self._begun(trace[at])
+                careless = self.setup.is_careless(instruction)
+                if restores or careless:
+                    other = self._executable(plan, but=(place, at))
+                    if self._key(other) is not None:
+                        plan = self._better(plan, [self._restored(other)])
+                if careless:
+                    for length in range(1, _WINDOW):
+                        plan = self._with_window(plan, place, at, length, _END_CAP)
+                at += 1
+        return plan
+
+    def _ordered(self, plan: Plan) -> Plan:
+        """Return the plan with instructions where they belong.
+
+        Things are opened, switched on and taken late and restored early, and what concerns one thing stands together.
+        """
+        at = 0
+        while at < sum(len(segment.instructions) for segment in plan):
+            better = plan
+            for length in range(_BLOCK, 0, -1):
+                better = self._better(better, self._moves(better, at, length))
+            at += better == plan  # another instruction may stand there now
+            plan = better
+        return plan
+
+    def _returned(self, plan: Plan) -> Plan:
+        """Return the plan with things taken back to where they were, where that costs little more."""
+        for atom in self.task.names(self.home & ~self._states(plan)[-1][-1]) if plan else ():
+            handled = [(p, a) for p, a in _numbered(plan) if atom.args[0] in plan[p].instructions[a].args]
+            if not handled:
+                continue
+            without = self._executable(plan, but=handled[-1])
+            states = self._states(without)
+            restoring = [
+                (p, a) for p, a in _numbered(without) if self._begun(states[p][a + 1]) < self._begun(states[p][a])
+            ]
+            for base in (without, *(self._executable(without, but=each) for each in restoring)):
+                plan = self._better(plan, self._with_return(base, atom))
+        return plan
+
+    def _with_return(self, plan: Plan, atom: GroundAtom) -> Iterator[Plan]:
+        """Yield a plan that takes a thing to where it was as soon as it has served."""
+        served = [(p, a + 1) for p, a in _numbered(plan) if atom.args[0] in plan[p].instructions[a].args]
+        place, at = served[-1] if served else (0, 0)
+        if plan[place].need.fixed:
+            return
+        state, home = self._states(plan)[place][at], 1 << self.task.index[atom]
+        following = next((plan[p].instructions[a] for p, a in _numbered(plan) if (p, a) >= (place, at)), None)
+        needed = self.task.by_instruction[following].precondition.positive if following else 0
+        for goal in dict.fromkeys((Cube(home), Cube(home | needed & state))):
+            for own in self._planned(state, (goal,)):
+                other = self._with(plan, place, at, at, own)
+                if self._key(other) is not None:
+                    yield self._without_instructions(self._restored(other))
+
+    def _moves(self, plan: Plan, at: int, length: int) -> Iterator[Plan]:
+        """Yield the plans in which some instructions of one segment stand elsewhere, and that can be executed."""
+        placed = [(place, i) for place, segment in enumerate(plan) for i in segment.instructions]
+        block, rest = placed[at : at + length], placed[:at] + placed[at + length :]
+        if len(block) < length or block[0][0] != block[-1][0] or plan[block[0][0]].need.fixed:
+            return
+        states = self.task.trace(self.start, (i for _, i in placed))
+        matters = self._begun(states[at]) != self._begun(states[at + length])
+        for to in range(len(rest) + 1):
+            place = rest[to - 1][0] if to and to <= at else rest[to][0] if to < len(rest) else block[0][0]
+            beside = [i for _, i in rest[max(to - 1, 0) : to + 1]]
+            related = matters or any(self._units(a) & self._units(i) for _, i in block for a in beside)
+            if to == at or not related or plan[place].need.fixed:
+                continue
+            new = [*rest[:to], *((place, i) for _, i in block), *rest[to:]]
+            first = min(at, to)
+            if self._applicable(states[first], [i for _, i in new[first:]]):
+                parts = (tuple(i for own, i in new if own == number) for number in range(len(plan)))
+                yield tuple(replace(s, instructions=own) for s, own in zip(plan, parts, strict=True))
+
+    def _applicable(self, state: Bits, instructions: Sequence[Instruction]) -> bool:
+        """Return whether instructions can be executed in a state."""
+        for instruction in instructions:
+            operator = self.task.by_instruction[instruction]
+            if not operator.applicable(state):
+                return False
+            state = operator.apply(state)
+        return True
+
     def _without_objects(self, plan: Plan) -> Plan:
         """Return the plan without the objects that it handles for nothing."""
         for name in dict.fromkeys(a for s in plan for i in s.instructions for a in i.args):
@@ -337,13 +469,14 @@ class _Improvement:
                 at += 1
         return plan
 
-    def _with_window(self, plan: Plan, place: int, at: int) -> Plan:
-        last = min(at + _WINDOW, len(plan[place].instructions))
-        if last - at < 2:
+    def _with_window(self, plan: Plan, place: int, at: int, length: int = _WINDOW, cap: int = _CAP) -> Plan:
+        last = min(at + length, len(plan[place].instructions))
+        if last - at < min(2, length):
             return plan
         trace = self._states(plan)[place]
         goal = (self._relied_on(plan, place, last),)
-        return self._better(plan, (self._with(plan, place, at, last, own) for own in self._planned(trace[at], goal)))
+        found = self._planned(trace[at], goal, cap)
+        return self._better(plan, (self._with(plan, place, at, last, own) for own in found))
 
     def _relied_on(self, plan: Plan, place: int, at: int) -> Cube:
         """Return the literals of a state in a plan that the instructions and needs after it read."""
@@ -362,6 +495,11 @@ class _Improvement:
                 read |= _read_by(self.task.by_instruction[instruction], state)
         state = states[place][at]
         return Cube(read & state, read & ~state)
+
+
+def _numbered(plan: Plan) -> list[tuple[int, int]]:
+    """Return the number of the part of each instruction, and its number there."""
+    return [(place, at) for place, segment in enumerate(plan) for at in range(len(segment.instructions))]
 
 
 def _ends(plan: Plan, states: Sequence[Sequence[Bits]]) -> Iterator[tuple[Condition, Bits]]:
