@@ -168,7 +168,12 @@ class GoalPass(ForwardPass):
         found = []
         for own, ways in reached.items():
             others = tuple(
-                LostGoal(other.formula, other.explanation, _why_lost(refusals.get(place), least.get(place), least[own]))
+                LostGoal(
+                    other.formula,
+                    other.explanation,
+                    _why_lost(refusals.get(place), least.get(place), least[own]),
+                    planned=place in reached,
+                )
                 for place, other in enumerate(candidates)
                 if place != own
             )
