@@ -517,8 +517,8 @@ class GoalPass(ForwardPass):
         if isinstance(answer, Filled) and not any(cube.holds(answer.state) for cube in aim):
             # where no way is short, first the alternative that is near without them: far ways to several take long
             near = tuple(c for c in aim if Cube(c.positive & ~state, c.negative & state).holds(answer.state))
-            asked = ((self._resort(True), aim), (resort, near), (resort, aim))
-            answers = (planner.fill(state, cubes) for planner, cubes in asked[brief and 2 :])
+            asked = ((resort, aim),) if brief else ((self._resort(True), aim), (resort, near))
+            answers = (planner.fill(state, cubes) for planner, cubes in asked)
             answer = next((a for a in answers if not isinstance(a, GaveUp)), GaveUp("the planner"))
         if isinstance(answer, Filled):
             shorter = eliminate(answer.plan, self.task, state, aim)

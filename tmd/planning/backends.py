@@ -12,7 +12,7 @@ from threading import Thread
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
+from tmd.pddl.model import And, Atom, Formula, Instruction, Not, Or, Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.planning.fast_downward import binaries, fast_downward, first_plan_of_gap
 from tmd.planning.kairos import kairos, kairos_beside
@@ -46,6 +46,9 @@ PLANNERS = (AUTO, FAST_DOWNWARD, KAIROS, IN_PROCESS, f"{UP_PREFIX}ENGINE")
 
 # Generated states up to which the greedy search's plans are about as cheap as Fast Downward's first ones.
 SOON = 2_000
+
+# More than the cost of any part of a goal.
+_FAR = 10**9
 
 # Seconds between two looks at whether the search in this process is still wanted.
 _LOOK = 0.05
@@ -118,7 +121,7 @@ def last_resort(task: Task) -> Planner:
 
 def soon(task: Task) -> Planner:
     """Return the planner of this process that is content with any plan, and gives up after some seconds."""
-    return EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON))
+    return InTurn((EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON)), PartByPart(task)))
 
 
 class TaskPlanners:
@@ -229,6 +232,77 @@ class EachAlone:
         answer = _best([self._planner.fill(state, (cube,)) for cube in goal])
         # the reason of all together
         return self._planner.fill(state, goal) if isinstance(answer, Unreachable) else answer
+
+
+class PartByPart:
+    """Reaches the parts of a goal one after another, the nearest first, and keeps those that it has reached.
+
+    Where many things are to be put away, or one part is for the next, each part is near, and all together are far.
+
+    Args:
+        task: The instantiated problem.
+    """
+
+    # Generated states after which the optimal search for one part gives up, then the greedy one, and all together.
+    SHORT, LONG, ALL = 500, 4_000, 20_000
+
+    def __init__(self, task: Task) -> None:
+        from tmd.planning.search.in_process import FirstSearch, OptimalSearch
+
+        self._searches = OptimalSearch(task, cap=self.SHORT), FirstSearch(task, cap=self.LONG)
+
+    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
+        """Return the cheapest plan to one of the alternatives; those with the fewest open parts are tried first."""
+        left = self.ALL
+        best: Answer = GaveUp("the parts of the goal")
+        for cube in sorted(goal, key=lambda c: (c.positive & ~state).bit_count() + (c.negative & state).bit_count()):
+            answer, left = self._parts(state, cube, left)
+            if isinstance(answer, Filled) and (not isinstance(best, Filled) or answer.cost < best.cost):
+                best = answer
+            if left <= 0:
+                break
+        return best
+
+    def _parts(self, state: Bits, cube: Cube, left: int) -> tuple[Answer, int]:
+        """Return a plan for one alternative, and how many states may still be generated."""
+        plan: tuple[Instruction, ...] = ()
+        cost, known = 0, dict.fromkeys(_literals(cube), 0)
+        while not cube.holds(state):
+            kept = cube._replace(positive=cube.positive & state, negative=cube.negative & ~state)
+            best: Filled | None = None
+            for part in sorted((p for p in known if not p.holds(state)), key=lambda p: known[p]):
+                if (best is not None and best.cost <= known[part]) or left <= 0:
+                    break
+                answer, generated = self._near(state, kept.joined(part) or part)
+                left -= generated
+                known[part] = answer.cost if isinstance(answer, Filled) else _FAR
+                if isinstance(answer, Filled) and (best is None or answer.cost < best.cost):
+                    best = answer
+            if best is None:
+                return GaveUp("a part of the goal"), left
+            plan, state, cost = (*plan, *best.plan), best.state, cost + best.cost
+        return Filled(plan, state, cost), left
+
+    def _near(self, state: Bits, cube: Cube) -> tuple[Answer, int]:
+        """Return a plan for a part of a goal, and the number of generated states."""
+        answer: Answer = GaveUp("no plan")
+        generated = 0
+        for search in self._searches:
+            answer = search.fill(state, (cube,))
+            generated += search.generated
+            if not isinstance(answer, GaveUp):
+                break
+        return answer, generated
+
+
+def _literals(cube: Cube) -> list[Cube]:
+    """Return the literals of a cube, each as a cube."""
+    from tmd.pddl.task import Cube
+
+    def bits(whole: Bits) -> list[Bits]:
+        return [1 << n for n in range(whole.bit_length()) if whole >> n & 1]
+
+    return [*(Cube(bit, 0) for bit in bits(cube.positive)), *(Cube(0, bit) for bit in bits(cube.negative))]
 
 
 class InTurn:
