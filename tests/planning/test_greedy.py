@@ -128,7 +128,8 @@ def test_the_last_resort_answers_what_the_optimal_search_gives_up_on(any_kitchen
 def test_many_parts_are_reached_one_after_another() -> None:
     domain = parse_domain(
         "(define (domain house) (:requirements :strips :typing) (:types lamp)"
-        " (:predicates (by ?x - lamp) (lit ?x - lamp) (dark ?x - lamp)) (:action go :parameters (?x ?y - lamp) :precondition (by ?x)"
+        " (:predicates (by ?x - lamp) (lit ?x - lamp) (dark ?x - lamp))"
+        " (:action go :parameters (?x ?y - lamp) :precondition (by ?x)"
         " :effect (and (by ?y) (not (by ?x)))) (:action light :parameters (?x - lamp)"
         " :precondition (and (by ?x) (dark ?x)) :effect (and (lit ?x) (not (dark ?x)))))"
     )
