@@ -337,8 +337,9 @@ class GoalPass(ForwardPass):
             tried = () if isinstance(quick, Unreachable) else proposals
             completed = [c for p in tried if (c := self._completed(way, p, target, aim)) is not None]
             found = [c for c in completed if not self._redone(way.state, _instructions(c[0]), aim, target)]
-            pure = [c for c in found if not self._unmixed(state, c[1], aim)]
-            found, mixed = pure or found, not pure
+            foreign = [len(self._foreign(state, end, aim)) for _, end in found]
+            mixed = min(foreign, default=1)
+            found = [c for c, count in zip(found, foreign, strict=True) if count == mixed]
             answer = self._far_if_needed(quick, state, aim, target) if mixed else quick
             if answer is not quick:
                 aim, answer = self._once(state, aim, answer, target)
@@ -409,11 +410,11 @@ class GoalPass(ForwardPass):
         """
         *stronger, last = own
         least = self.planner.fill(state, last)
-        unmixed = self._unmixed(state, least.state, own[0]) if isinstance(least, Filled) else ()
-        if unmixed:
+        for unmixed in self._unmixed(state, least.state, own[0]) if isinstance(least, Filled) else ():
             answer = self.planner.fill(state, unmixed)
             if isinstance(answer, Filled) and isinstance(least, Filled) and _little_longer(answer, least):
                 yield unmixed, answer
+                break
         for aim in stronger if not isinstance(least, Unreachable) else ():
             if isinstance(least, Filled) and any(cube.holds(least.state) for cube in aim):
                 yield aim, least
@@ -477,18 +478,21 @@ class GoalPass(ForwardPass):
         single = sum(1 << bit for bit, atom in enumerate(self.task.atoms) if len(atom.args) == 1)
         return self._contents | single
 
-    def _unmixed(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> tuple[Cube, ...]:
-        """Return an aim without what else came into its vessels from ``state`` to ``end``: hot milk without any coffee.
+    def _foreign(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> frozenset[str]:
+        """Return what else came into the vessels of an aim from ``state`` to ``end``: coffee, to heat milk."""
+        cube = next((c for c in aim if c.holds(end)), Cube())
+        vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
+        gained = self.task.names(end & ~state & ~cube.positive & self._contents)
+        return frozenset(atom.args[1] for atom in gained if atom.args[0] in vessels)
 
-        Empty where nothing else did.
+    def _unmixed(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> Iterator[tuple[Cube, ...]]:
+        """Yield an aim without what else came into its vessels from ``state`` to ``end``, then without parts of that.
+
+        Nobody wants coffee in the hot milk, but noodles are cooked in water.
         """
-        others: set[str] = set()
-        for cube in aim:
-            vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
-            gained = self.task.names(end & ~state & ~cube.positive & self._contents)
-            if cube.holds(end):
-                others |= {atom.args[1] for atom in gained if atom.args[0] in vessels}
-        return tuple(self._without(cube, others, state) for cube in aim) if others else ()
+        others = sorted(self._foreign(state, end, aim))
+        for contents in (others, *([other] for other in others if len(others) > 1)) if others else ():
+            yield tuple(self._without(cube, contents, state) for cube in aim)
 
     def _without(self, cube: Cube, contents: Collection[str], state: Bits) -> Cube:
         """Return a cube without some contents in its vessels, unless they are there in ``state`` or asked for."""
@@ -524,10 +528,10 @@ class GoalPass(ForwardPass):
             shorter = eliminate(answer.plan, self.task, state, aim)
             cost = sum(self.task.by_instruction[i].cost for i in shorter)
             answer = Filled(shorter, self.world.task.trace(state, shorter)[-1], cost)
-            unmixed = self._unmixed(state, answer.state, aim)
-            other = self._resort(True).fill(state, unmixed) if unmixed else None
-            if isinstance(other, Filled) and _little_longer(other, answer):
-                return other
+            for unmixed in self._unmixed(state, answer.state, aim):
+                other = self._resort(True).fill(state, unmixed)
+                if isinstance(other, Filled) and _little_longer(other, answer):
+                    return other
         return answer
 
     # ------------------------------------------------------------------ proposals
