@@ -202,3 +202,14 @@ def test_milk_is_not_heated_by_hot_coffee() -> None:
     grounded = kit("kitchen").ground("I would like some hot milk.", "kitchen2")
     plan = grounded.plans[0]
     assert not any("coffee" in str(a) for a in grounded.world.task.names(plan.state & ~grounded.world.task.init))
+
+
+def test_nothing_goes_through_another_vessel(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    detour = (
+        "find spoon1;moveto spoon1;grasp spoon1;find sugar_bowl1;moveto sugar_bowl1;scoopfrom spoon1 sugar_bowl1;"
+        "find cup1;moveto cup1;scoopto spoon1 cup1;grasp cup1;find mug1;moveto mug1;pour cup1 mug1"
+    )
+    plan = improved(world, kitchen, (detour, condition(world, "contains mug1 sugar")))
+    assert "scoopto(spoon1, mug1)" in plan
+    assert not any("cup1" in step for step in plan)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from itertools import pairwise, permutations
 from typing import TypeAlias
 
 from tmd.pddl.domain_traits import single_valued
@@ -26,6 +26,8 @@ _ELSEWHERE = 2
 # Generated states after which the search for a part gives up, and that for what is restored at the end.
 _CAP = 200
 _END_CAP = 3_000
+# Weight of a place where nothing stood at the start, against the other disorder of a plan.
+_STRANGE = 3
 # Maximum length of a part that is planned again: a search for so few instructions takes milliseconds.
 _WINDOW = 5
 # Maximum number of instructions that are moved together: to go to a thing, open and take it.
@@ -142,6 +144,8 @@ class _Improvement:
             for atom in self.task.names(start & setup.lasting & ~setup.contents)
             if len(atom.args) > 1 and atom.predicate not in values and atom.args[0] not in named
         )
+        stood = self.task.names(start & setup.lasting & ~setup.contents)
+        self.usual = {a.args[1] for a in stood if len(a.args) > 1 and a.predicate not in values}
         begun = [c for c in setup.restored if not _any_holds(c, start)]
         simple = {c for c in begun if len(c) == 1 and not c[0].negative and c[0].positive.bit_count() == 1}
         self.begun = sum({c[0].positive for c in simple})
@@ -157,12 +161,15 @@ class _Improvement:
         while plan != before:
             before = plan
             plan = self._returned(self._with_care(self._ordered(self.pruned(plan))))
+            plan = self._with_usual_places(plan)
             plan = self._with_others(self._with_windows(plan))
         return plan
 
     def pruned(self, plan: Plan) -> Plan:
         """Return the plan without objects and instructions that are there for nothing."""
-        return plan if self._key(plan) is None else self._without_instructions(self._without_objects(plan))
+        if self._key(plan) is None:
+            return plan
+        return self._without_instructions(self._without_detours(self._without_objects(plan)))
 
     # ------------------------------------------------------------------ the measure
 
@@ -208,7 +215,15 @@ class _Improvement:
         """Return for how long things are open, running, held or on the floor, and how often a plan turns elsewhere."""
         long = sum(self._begun(state) for state in states)
         instructions = [i for segment in plan for i in segment.instructions]
+        long += _STRANGE * len([p for p in self._new_places(states[-1]) if p.args[1] not in self.usual])
         return long + 2 * sum(not self._units(a) & self._units(b) for a, b in pairwise(instructions))
+
+    def _new_places(self, end: Bits) -> list[GroundAtom]:
+        """Return where things are in the end that were elsewhere, unless the request says that they go there."""
+        places = self.setup.lasting & ~self.setup.contents & ~self.asked
+        lost = {(atom.predicate, atom.args[:1]) for atom in self.task.names(self.start & ~end & places)}
+        gained = self.task.names(end & ~self.start & places)
+        return [atom for atom in gained if len(atom.args) > 1 and (atom.predicate, atom.args[:1]) in lost]
 
     def _units(self, instruction: Instruction) -> set[str]:
         """Return the objects that an instruction handles; a part counts as its whole."""
@@ -289,7 +304,7 @@ class _Improvement:
             return
         answer = self._soon(state, goal, cap) if goal else GaveUp("")
         if isinstance(answer, Filled):
-            home = self._home(state)
+            home = self._home(state, goal)
             back = self._soon(state, [Cube(c.positive | home, c.negative) for c in goal], cap) if home else answer
             near = isinstance(back, Filled) and len(back.plan) <= len(answer.plan) + 1
             yield back.plan if isinstance(back, Filled) and near else answer.plan
@@ -302,9 +317,18 @@ class _Improvement:
         answer = planner.careful.soon(state, goal, cap)
         return answer if isinstance(answer, Filled) or cap == _CAP else planner.soon(state, goal, cap)
 
-    def _home(self, state: Bits) -> Bits:
-        """Return where things were at the start that are in a hand now, and that the request does not name."""
-        held = {a for n in self._untidy(state) for c in self.setup.restored[n] for a in self._arguments(c)}
+    def _home(self, state: Bits, goal: Condition) -> Bits:
+        """Return where things were at the start that are in a hand now and need not be, unless they are named."""
+        wanted = 0
+        for cube in goal:
+            wanted |= cube.positive
+        held = {
+            argument
+            for number in self._untidy(state)
+            for cube in self.setup.restored[number]
+            if not cube.positive & wanted
+            for argument in self._arguments(cube)
+        }
         held -= {argument for atom in self.task.names(self.asked) for argument in atom.args}
         lost = self.task.names(self.start & ~state & self.setup.lasting & ~self.asked)
         return sum(1 << self.task.index[atom] for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
@@ -388,6 +412,21 @@ class _Improvement:
                 plan = self._better(plan, self._with_return(base, atom))
         return plan
 
+    def _with_usual_places(self, plan: Plan) -> Plan:
+        """Return the plan with things put down where things stand at the start, rather than where nothing does."""
+        for atom in self._new_places(self._states(plan)[-1][-1]) if plan else ():
+            thing, there = atom.args[:2]
+            put_down = [(p, a) for p, a in _numbered(plan) if {thing, there} <= set(plan[p].instructions[a].args)]
+            if not put_down or there in self.usual or plan[put_down[-1][0]].need.fixed:
+                continue
+            place, at = put_down[-1]
+            first, last = max(at - _WINDOW, 0), at + _WINDOW
+            part = plan[place].instructions[first:last]
+            others = (tuple(_with_name(i, there, other) for i in part) for other in sorted(self.usual))
+            known = (own for own in others if all(i in self.task.by_instruction for i in own))
+            plan = self._better(plan, (self._with(plan, place, first, last, own) for own in known))
+        return plan
+
     def _with_return(self, plan: Plan, atom: GroundAtom) -> Iterator[Plan]:
         """Yield a plan that takes a thing to where it was as soon as it has served."""
         served = [(p, a + 1) for p, a in _numbered(plan) if atom.args[0] in plan[p].instructions[a].args]
@@ -437,6 +476,34 @@ class _Improvement:
         for name in dict.fromkeys(a for s in plan for i in s.instructions for a in i.args):
             plan = self._better(plan, [self._executable(plan, without=name)])
         return plan
+
+    def _without_detours(self, plan: Plan) -> Plan:
+        """Return the plan without objects that only stand for others: sugar goes into the mug that it is for."""
+        pairs = (pair for s in plan for i in s.instructions for pair in permutations(i.args, 2) if pair[0] != pair[1])
+        for name, other in dict.fromkeys(pairs):
+            direct = (self._renamed(plan, name, other, taking=taking) for taking in (True, False))
+            plan = self._better(plan, direct)
+        return plan
+
+    def _renamed(self, plan: Plan, name: str, other: str, *, taking: bool) -> Plan:
+        """Return the plan with one object instead of another, without what cannot be executed then.
+
+        Without ``taking``, that object is not taken in a hand, nor anything else begun with it.
+        """
+        found, state = [], self.start
+        for segment in plan:
+            own = []
+            for instruction in segment.instructions:
+                new = instruction if segment.need.fixed else _with_name(instruction, name, other)
+                operator = self.task.by_instruction.get(new)
+                if operator is None or not operator.applicable(state):
+                    continue
+                after = operator.apply(state)
+                if taking or segment.need.fixed or other not in new.args or self._begun(after) <= self._begun(state):
+                    own.append(new)
+                    state = after
+            found.append(replace(segment, instructions=tuple(own)))
+        return tuple(found)
 
     def _without_instructions(self, plan: Plan) -> Plan:
         """Return the plan without single instructions, and those that need them, that are there for nothing."""
@@ -495,6 +562,13 @@ class _Improvement:
                 read |= _read_by(self.task.by_instruction[instruction], state)
         state = states[place][at]
         return Cube(read & state, read & ~state)
+
+
+def _with_name(instruction: Instruction, name: str, other: str) -> Instruction:
+    """Return an instruction with another object in the place of one."""
+    return Instruction(
+        instruction.name, tuple(other if argument == name else argument for argument in instruction.args)
+    )
 
 
 def _numbered(plan: Plan) -> list[tuple[int, int]]:
