@@ -123,7 +123,7 @@ class _Improvement:
         states = self._states(plan)
         end = states[-1][-1] if states else start
         self.moved = self._moved(end)
-        self._keys: dict[Plan, Key | None] = {}
+        self._keys: dict[tuple[tuple[Instruction, ...], ...], Key | None] = {}
         self.absent = ~end & setup.contents  # what was poured away was in the way
         asked_true = asked_false = 0
         for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
@@ -184,9 +184,10 @@ class _Improvement:
 
     def _key(self, plan: Plan) -> Key | None:
         """Return how good a plan is; ``None`` where it cannot be executed or misses what it is for."""
-        if plan not in self._keys:
-            self._keys[plan] = self._measured(plan)
-        return self._keys[plan]
+        own = tuple(segment.instructions for segment in plan)
+        if own not in self._keys:
+            self._keys[own] = self._measured(plan)
+        return self._keys[own]
 
     def _measured(self, plan: Plan) -> Key | None:
         states = [self.start]
