@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from itertools import pairwise, permutations
 from typing import TypeAlias
 
@@ -123,6 +124,7 @@ class _Improvement:
         states = self._states(plan)
         end = states[-1][-1] if states else start
         self.moved = self._moved(end)
+        self._soon = cache(self._searched)
         self._keys: dict[tuple[tuple[Instruction, ...], ...], Key | None] = {}
         self.absent = ~end & setup.contents  # what was poured away was in the way
         asked_true = asked_false = 0
@@ -306,11 +308,11 @@ class _Improvement:
         answer = self._soon(state, goal, cap) if goal else GaveUp("")
         if isinstance(answer, Filled):
             home = self._home(state, goal)
-            back = self._soon(state, [Cube(c.positive | home, c.negative) for c in goal], cap) if home else answer
+            back = self._soon(state, tuple(Cube(c.positive | home, c.negative) for c in goal), cap) if home else answer
             near = isinstance(back, Filled) and len(back.plan) <= len(answer.plan) + 1
             yield back.plan if isinstance(back, Filled) and near else answer.plan
 
-    def _soon(self, state: Bits, goal: Sequence[Cube], cap: int) -> Answer:
+    def _searched(self, state: Bits, goal: Condition, cap: int) -> Answer:
         """Return what a short search finds, without careless instructions if there is a way without."""
         planner = self.setup.planner
         if not isinstance(planner, GapFiller):
