@@ -133,6 +133,7 @@ class _Improvement:
             asked_true |= cube.positive
             asked_false |= cube.negative
         self.asked = asked_true | asked_false
+        self.settled = {argument for atom in self.task.names(asked_true & end) for argument in atom.args}
         self.watched = [
             number
             for number, condition in enumerate(setup.restored)
@@ -321,7 +322,7 @@ class _Improvement:
         return answer if isinstance(answer, Filled) or cap == _CAP else planner.soon(state, goal, cap)
 
     def _home(self, state: Bits, goal: Condition) -> Bits:
-        """Return where things were at the start that are in a hand now and need not be, unless they are named."""
+        """Return where things were that are in a hand now and need not be, unless the request settles that."""
         wanted = 0
         for cube in goal:
             wanted |= cube.positive
@@ -332,7 +333,7 @@ class _Improvement:
             if not cube.positive & wanted
             for argument in self._arguments(cube)
         }
-        held -= {argument for atom in self.task.names(self.asked) for argument in atom.args}
+        held -= self.settled
         lost = self.task.names(self.start & ~state & self.setup.lasting & ~self.asked)
         return sum(1 << self.task.index[atom] for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
 
