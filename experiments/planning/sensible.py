@@ -121,13 +121,17 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def report(measurements: Sequence[dict[str, Any]]) -> None:
-    """Print the shares of right plans, and the slowest requests."""
+    """Print the slowest requests, and the shares of right plans."""
     slowest = sorted(measurements, key=lambda row: -row["seconds"])
     print(f"above 3 s: {sum(row['seconds'] > 3 for row in slowest)} of {len(slowest)}")
     print(f"without a plan, above 2 s: {sum(row['seconds'] > 2 for row in slowest if not row['planned'])}")
     for row in slowest[:5]:
         print(f"{row['seconds']:.2f} s {row['id']} {row['text']}")
-    rows = [row for row in measurements if "steps" in row]
+    report_right([row for row in measurements if "steps" in row])
+
+
+def report_right(rows: Sequence[dict[str, Any]]) -> None:
+    """Print the shares of right plans, and those that are longest in proportion."""
     count = len(rows)
     for kind in KINDS:
         own = [row for row in rows if kind in row["left"]]

@@ -108,7 +108,7 @@ class GoalPass(ForwardPass):
         refusal = self._without_effect(ways)
         if refusal is None:
             ways = sorted((w for w in ways if self._respects_constraints(w, state)), key=lambda way: way.order)
-            ways = [self._finished(way, state) for way in ways[: self.top + _SPARE]]
+            ways = self._all_finished(ways, state)
             refusal = None if ways else _FORBIDDEN
         if refusal is not None:
             return Inferred((), tuple(self.rejected), (0, refusal))
@@ -334,13 +334,9 @@ class GoalPass(ForwardPass):
         reason = ""
         for wanted, first in self._attempts(state, target.aims):
             aim, quick = self._once(state, wanted, first, target)
-            tried = () if isinstance(quick, Unreachable) else proposals
-            completed = [c for p in tried if (c := self._completed(way, p, target, aim)) is not None]
-            found = [c for c in completed if not self._redone(way.state, _instructions(c[0]), aim, target)]
-            foreign = [len(self._foreign(state, end, aim)) for _, end in found]
-            mixed = min(foreign, default=1)
-            found = [c for c, count in zip(found, foreign, strict=True) if count == mixed]
-            answer = self._far_if_needed(quick, state, aim, target) if mixed else quick
+            found = self._fit(way, () if isinstance(quick, Unreachable) else proposals, target, aim)
+            pure = any(not self._foreign(way.state, end, aim) for _, end in found)
+            answer = quick if pure else self._far_if_needed(quick, state, aim, target)
             if answer is not quick:
                 aim, answer = self._once(state, aim, answer, target)
             if isinstance(answer, Unreachable):
@@ -356,6 +352,15 @@ class GoalPass(ForwardPass):
             return _impossible(target, reason)
         message = f"no plan was found for '{target.step.text}'; nothing is proven"
         return Refusal(RefusalKind.GAVE_UP, message, "ask another planner with --planner")
+
+    def _fit(
+        self, way: Way, proposals: Sequence[_Executable], target: Target, aim: tuple[Cube, ...]
+    ) -> list[tuple[Choice, Bits]]:
+        """Return the proposals completed to an aim, of which those are left that mix in the least unasked."""
+        completed = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
+        found = [c for c in completed if not self._redone(way.state, _instructions(c[0]), aim, target)]
+        foreign = [len(self._foreign(way.state, end, aim)) for _, end in found]
+        return [c for c, count in zip(found, foreign, strict=True) if count == min(foreign)]
 
     def _undisturbing(self, found: Sequence[tuple[Choice, Bits]], state: Bits) -> list[tuple[Choice, Bits]]:
         """Return the choices but for those that move more than another one: all that it moves, and something else."""
@@ -524,14 +529,17 @@ class GoalPass(ForwardPass):
             asked = ((resort, aim),) if brief else ((self._resort(True), aim), (resort, near))
             answers = (planner.fill(state, cubes) for planner, cubes in asked)
             answer = next((a for a in answers if not isinstance(a, GaveUp)), GaveUp("the planner"))
-        if isinstance(answer, Filled):
-            shorter = eliminate(answer.plan, self.task, state, aim)
-            cost = sum(self.task.by_instruction[i].cost for i in shorter)
-            answer = Filled(shorter, self.world.task.trace(state, shorter)[-1], cost)
-            for unmixed in self._unmixed(state, answer.state, aim):
-                other = self._resort(True).fill(state, unmixed)
-                if isinstance(other, Filled) and _little_longer(other, answer):
-                    return other
+        return self._shortened(state, answer, aim) if isinstance(answer, Filled) else answer
+
+    def _shortened(self, state: Bits, answer: Filled, aim: Sequence[Cube]) -> Filled:
+        """Return a far plan without what it does not need, or one that mixes nothing in and is little longer."""
+        shorter = eliminate(answer.plan, self.task, state, aim)
+        cost = sum(self.task.by_instruction[i].cost for i in shorter)
+        answer = Filled(shorter, self.world.task.trace(state, shorter)[-1], cost)
+        for unmixed in self._unmixed(state, answer.state, aim):
+            other = self._resort(True).fill(state, unmixed)
+            if isinstance(other, Filled) and _little_longer(other, answer):
+                return other
         return answer
 
     # ------------------------------------------------------------------ proposals
@@ -603,6 +611,14 @@ class GoalPass(ForwardPass):
             return not constraints.never or violated(self.task, constraints, states) is None
 
         return Tidying(self.task, self.planner, self.setup.restored, self.lasting, self._contents, allowed)
+
+    def _all_finished(self, ways: Sequence[Way], first: Bits) -> list[Way]:
+        """Return the best ways, improved; where too many become equal, others follow as they are."""
+        finished = {
+            way.instructions: way for way in reversed([self._finished(w, first) for w in ways[: self.top + _SPARE]])
+        }
+        others = [way for way in ways[1:] if way.instructions not in finished]
+        return [*reversed(finished.values()), *others[: max(self.top - len(finished), 0)]]
 
     def _finished(self, way: Way, first: Bits) -> Way:
         """Return a way through all steps, improved as a whole: with an end that people leave, and nothing needless."""

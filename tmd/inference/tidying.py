@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from itertools import pairwise, permutations
 from typing import TypeAlias
 
@@ -63,6 +63,8 @@ class PlanPart:
 
 
 Plan: TypeAlias = tuple[PlanPart, ...]
+Placed: TypeAlias = Sequence[tuple[int, Instruction]]
+"""Instructions, each with the number of its part."""
 
 
 class Tidying:
@@ -124,36 +126,58 @@ class _Improvement:
         states = self._states(plan)
         end = states[-1][-1] if states else start
         self.moved = self._moved(end)
+        self.absent = ~end & setup.contents  # what was poured away was in the way
+        self.asked_true, self.asked_false = _asked(kept, end, plan, states)
+        self.asked = self.asked_true | self.asked_false
+        self.settled = self._names(self.asked_true & end)
         self._soon = cache(self._searched)
         self._keys: dict[tuple[tuple[Instruction, ...], ...], Key | None] = {}
-        self.absent = ~end & setup.contents  # what was poured away was in the way
-        asked_true = asked_false = 0
-        for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
-            cube = next((c for c in cubes if c.holds(state)), Cube())
-            asked_true |= cube.positive
-            asked_false |= cube.negative
-        self.asked = asked_true | asked_false
-        self.settled = {argument for atom in self.task.names(asked_true & end) for argument in atom.args}
-        self.watched = [
+
+    @cached_property
+    def watched(self) -> list[int]:
+        """The conditions that are restored: they did not hold at the start, and nobody asks for them."""
+        true, false = self.asked_true, self.asked_false
+        conditions = enumerate(self.setup.restored)
+        return [
             number
-            for number, condition in enumerate(setup.restored)
-            if not any(c.holds(start) for c in condition)
-            and not any(c.positive & asked_true or c.negative & asked_false for c in condition)
+            for number, condition in conditions
+            if not _any_holds(condition, self.start)
+            and not any(c.positive & true or c.negative & false for c in condition)
         ]
-        named = {argument for atom in self.task.names(self.asked) for argument in atom.args}
+
+    @cached_property
+    def places(self) -> list[GroundAtom]:
+        """The atoms that say where things are at the start."""
         values = single_valued(self.task.problem.domain)
-        self.home = sum(
-            1 << self.task.index[atom]
-            for atom in self.task.names(start & setup.lasting & ~setup.contents)
-            if len(atom.args) > 1 and atom.predicate not in values and atom.args[0] not in named
-        )
-        stood = self.task.names(start & setup.lasting & ~setup.contents)
-        self.usual = {a.args[1] for a in stood if len(a.args) > 1 and a.predicate not in values}
-        begun = [c for c in setup.restored if not _any_holds(c, start)]
+        stood = self.task.names(self.start & self.setup.lasting & ~self.setup.contents)
+        return [atom for atom in stood if len(atom.args) > 1 and atom.predicate not in values]
+
+    @cached_property
+    def home(self) -> Bits:
+        """The atoms of ``places`` about things that the request does not name."""
+        named = self._names(self.asked)
+        return sum(1 << self.task.index[atom] for atom in self.places if atom.args[0] not in named)
+
+    @cached_property
+    def usual(self) -> set[str]:
+        """The places where something is at the start."""
+        return {atom.args[1] for atom in self.places}
+
+    @cached_property
+    def begun(self) -> tuple[Bits, list[Condition]]:
+        """The conditions that are to be restored and did not hold at the start: single atoms, and others."""
+        begun = [c for c in self.setup.restored if not _any_holds(c, self.start)]
         simple = {c for c in begun if len(c) == 1 and not c[0].negative and c[0].positive.bit_count() == 1}
-        self.begun = sum({c[0].positive for c in simple})
-        self.begun_otherwise = [c for c in begun if c not in simple]
-        self.wholes = {fact.args[0]: fact.args[1] for fact in self.task.static if fact.predicate == PART_OF}
+        return sum({c[0].positive for c in simple}), [c for c in begun if c not in simple]
+
+    @cached_property
+    def wholes(self) -> dict[str, str]:
+        """The whole of each part."""
+        return {fact.args[0]: fact.args[1] for fact in self.task.static if fact.predicate == PART_OF}
+
+    def _names(self, bits: Bits) -> set[str]:
+        """Return the objects that atoms are about."""
+        return {argument for atom in self.task.names(bits) for argument in atom.args}
 
     def improved(self, plan: Plan) -> Plan:
         """Return the plan with what it leaves restored, and without what it does not need."""
@@ -235,7 +259,8 @@ class _Improvement:
 
     def _begun(self, state: Bits) -> int:
         """Return how many conditions that are to be restored hold, and did not hold at the start."""
-        return (state & self.begun).bit_count() + sum(_any_holds(c, state) for c in self.begun_otherwise)
+        single, others = self.begun
+        return (state & single).bit_count() + sum(_any_holds(c, state) for c in others)
 
     def _untidy(self, state: Bits) -> list[int]:
         """Return the watched conditions that hold."""
@@ -455,16 +480,21 @@ class _Improvement:
         states = self.task.trace(self.start, (i for _, i in placed))
         matters = self._begun(states[at]) != self._begun(states[at + length])
         for to in range(len(rest) + 1):
-            place = rest[to - 1][0] if to and to <= at else rest[to][0] if to < len(rest) else block[0][0]
-            beside = [i for _, i in rest[max(to - 1, 0) : to + 1]]
-            related = matters or any(self._units(a) & self._units(i) for _, i in block for a in beside)
-            if to == at or not related or plan[place].need.fixed:
+            place = _part_at(rest, to, at, block[0][0])
+            if (
+                to == at
+                or plan[place].need.fixed
+                or not (matters or self._related(block, rest[max(to - 1, 0) : to + 1]))
+            ):
                 continue
             new = [*rest[:to], *((place, i) for _, i in block), *rest[to:]]
             first = min(at, to)
             if self._applicable(states[first], [i for _, i in new[first:]]):
-                parts = (tuple(i for own, i in new if own == number) for number in range(len(plan)))
-                yield tuple(replace(s, instructions=own) for s, own in zip(plan, parts, strict=True))
+                yield _arranged(plan, new)
+
+    def _related(self, some: Placed, others: Placed) -> bool:
+        """Return whether some instructions concern what others do."""
+        return any(self._units(a) & self._units(b) for _, a in some for _, b in others)
 
     def _applicable(self, state: Bits, instructions: Sequence[Instruction]) -> bool:
         """Return whether instructions can be executed in a state."""
@@ -573,6 +603,29 @@ def _with_name(instruction: Instruction, name: str, other: str) -> Instruction:
     return Instruction(
         instruction.name, tuple(other if argument == name else argument for argument in instruction.args)
     )
+
+
+def _asked(kept: Condition, end: Bits, plan: Plan, states: Sequence[Sequence[Bits]]) -> tuple[Bits, Bits]:
+    """Return what must hold and what must not hold at the ends of the parts of a plan, as they were reached."""
+    true = false = 0
+    for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
+        cube = next((c for c in cubes if c.holds(state)), Cube())
+        true |= cube.positive
+        false |= cube.negative
+    return true, false
+
+
+def _part_at(rest: Placed, to: int, at: int, own: int) -> int:
+    """Return the number of the part to which instructions belong that are moved from ``at`` to ``to``."""
+    if to and to <= at:
+        return rest[to - 1][0]
+    return rest[to][0] if to < len(rest) else own
+
+
+def _arranged(plan: Plan, placed: Placed) -> Plan:
+    """Return the plan with other instructions, each with the number of its part."""
+    parts = (tuple(i for own, i in placed if own == number) for number in range(len(plan)))
+    return tuple(replace(s, instructions=own) for s, own in zip(plan, parts, strict=True))
 
 
 def _numbered(plan: Plan) -> list[tuple[int, int]]:

@@ -270,21 +270,27 @@ class PartByPart:
         cost, known = 0, dict.fromkeys(_literals(cube), 0)
         while not cube.holds(state):
             kept = cube._replace(positive=cube.positive & state, negative=cube.negative & ~state)
-            best: Filled | None = None
             parts = sorted((p for p in known if not p.holds(state)), key=lambda p: known[p])
-            for part in parts:
-                if best is not None and best.cost <= known[part]:
-                    break
-                answer = self._near(state, kept.joined(part) or part)
-                known[part] = answer.cost if answer is not None else _FAR
-                if answer is not None and (best is None or answer.cost < best.cost):
-                    best = answer
-            ready = (self._made_ready(state, kept, part, depth) for part in parts if best is None)
-            best = best or next((answer for answer in ready if answer is not None), None)
+            best = self._nearest(state, kept, parts, known)
+            if best is None:
+                ready = (self._made_ready(state, kept, part, depth) for part in parts)
+                best = next((answer for answer in ready if answer is not None), None)
             if best is None:
                 return None
             plan, state, cost = (*plan, *best.plan), best.state, cost + best.cost
         return Filled(plan, state, cost)
+
+    def _nearest(self, state: Bits, kept: Cube, parts: Sequence[Cube], known: dict[Cube, int]) -> Filled | None:
+        """Return the cheapest plan to one of several parts; ``known`` has what each cost last."""
+        best: Filled | None = None
+        for part in parts:
+            if best is not None and best.cost <= known[part]:
+                break
+            answer = self._near(state, kept.joined(part) or part)
+            known[part] = answer.cost if answer is not None else _FAR
+            if answer is not None and (best is None or answer.cost < best.cost):
+                best = answer
+        return best
 
     def _near(self, state: Bits, cube: Cube) -> Filled | None:
         """Return a plan for a part of a goal that is near."""

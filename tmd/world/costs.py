@@ -25,7 +25,7 @@ class _Skill(BaseModel):
 
 
 class _File(BaseModel):
-    """What ``skills.yaml`` says of costs; all else in it is the robot's."""
+    """The costs in ``skills.yaml``; all else in it is the robot's."""
 
     model_config = ConfigDict(defer_build=True, extra="ignore")
     skills: dict[str, _Skill] = {}
