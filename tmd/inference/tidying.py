@@ -429,17 +429,44 @@ class _Improvement:
     def _returned(self, plan: Plan) -> Plan:
         """Return the plan with things taken back to where they were, where that costs little more."""
         for atom in self.task.names(self.home & ~self._states(plan)[-1][-1]) if plan else ():
-            handled = [(p, a) for p, a in _numbered(plan) if atom.args[0] in plan[p].instructions[a].args]
-            if not handled:
-                continue
-            without = self._executable(plan, but=handled[-1])
-            states = self._states(without)
-            restoring = [
-                (p, a) for p, a in _numbered(without) if self._begun(states[p][a + 1]) < self._begun(states[p][a])
-            ]
-            for base in (without, *(self._executable(without, but=each) for each in restoring)):
-                plan = self._better(plan, self._with_return(base, atom))
+            placed = _placed(plan)
+            states = self.task.trace(self.start, (i for _, i in placed))
+            handled = [n for n, (_, i) in enumerate(placed) if atom.args[0] in i.args]
+            if handled and not plan[placed[handled[-1]][0]].need.fixed:
+                before = range(handled[-1])
+                restoring = [n for n in before if self._begun(states[n + 1]) < self._begun(states[n])]
+                for other in (handled[-1], *restoring):
+                    without = {handled[-1], other}
+                    plan = self._better(plan, self._with_return(plan, placed, handled[:-1], without, atom))
         return plan
+
+    def _with_return(
+        self, plan: Plan, placed: Placed, used: Sequence[int], without: set[int], atom: GroundAtom
+    ) -> Iterator[Plan]:
+        """Yield plans without some instructions that take a thing to where it was as soon as it has served.
+
+        Args:
+            plan: The plan.
+            placed: Its instructions.
+            used: The numbers of those for which the thing is needed.
+            without: The numbers of those that are left out.
+            atom: The place of the thing.
+        """
+        at = used[-1] + 1 if used else 0
+        kept = [pair for n, pair in enumerate(placed[:at]) if n not in without]
+        rest = [pair for n, pair in enumerate(placed[at:], at) if n not in without]
+        part = placed[at - 1][0] if at else placed[0][0]
+        if plan[part].need.fixed:
+            return
+        state = self._states(self._executable(_arranged(plan, kept)))[-1][-1]
+        home, needed = 1 << self.task.index[atom], 0
+        if rest:
+            needed = self.task.by_instruction[rest[0][1]].precondition.positive & state
+        for goal in dict.fromkeys((Cube(home), Cube(home | needed))):
+            for own in self._planned(state, (goal,)):
+                other = self._executable(_arranged(plan, [*kept, *((part, i) for i in own), *rest]))
+                if self._key(other) is not None:
+                    yield self._without_instructions(self._restored(other))
 
     def _with_usual_places(self, plan: Plan) -> Plan:
         """Return the plan with things put down where things stand at the start, rather than where nothing does."""
@@ -456,24 +483,9 @@ class _Improvement:
             plan = self._better(plan, (self._with(plan, place, first, last, own) for own in known))
         return plan
 
-    def _with_return(self, plan: Plan, atom: GroundAtom) -> Iterator[Plan]:
-        """Yield a plan that takes a thing to where it was as soon as it has served."""
-        served = [(p, a + 1) for p, a in _numbered(plan) if atom.args[0] in plan[p].instructions[a].args]
-        place, at = served[-1] if served else (0, 0)
-        if plan[place].need.fixed:
-            return
-        state, home = self._states(plan)[place][at], 1 << self.task.index[atom]
-        following = next((plan[p].instructions[a] for p, a in _numbered(plan) if (p, a) >= (place, at)), None)
-        needed = self.task.by_instruction[following].precondition.positive if following else 0
-        for goal in dict.fromkeys((Cube(home), Cube(home | needed & state))):
-            for own in self._planned(state, (goal,)):
-                other = self._with(plan, place, at, at, own)
-                if self._key(other) is not None:
-                    yield self._without_instructions(self._restored(other))
-
     def _moves(self, plan: Plan, at: int, length: int) -> Iterator[Plan]:
         """Yield the plans in which some instructions of one segment stand elsewhere, and that can be executed."""
-        placed = [(place, i) for place, segment in enumerate(plan) for i in segment.instructions]
+        placed = _placed(plan)
         block, rest = placed[at : at + length], placed[:at] + placed[at + length :]
         if len(block) < length or block[0][0] != block[-1][0] or plan[block[0][0]].need.fixed:
             return
@@ -613,6 +625,11 @@ def _asked(kept: Condition, end: Bits, plan: Plan, states: Sequence[Sequence[Bit
         true |= cube.positive
         false |= cube.negative
     return true, false
+
+
+def _placed(plan: Plan) -> list[tuple[int, Instruction]]:
+    """Return all instructions, each with the number of its part."""
+    return [(place, i) for place, segment in enumerate(plan) for i in segment.instructions]
 
 
 def _part_at(rest: Placed, to: int, at: int, own: int) -> int:
