@@ -359,7 +359,7 @@ class GoalPass(ForwardPass):
         """Return the proposals completed to an aim, of which those are left that mix in the least unasked."""
         completed = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
         found = [c for c in completed if not self._redone(way.state, _instructions(c[0]), aim, target)]
-        foreign = [len(self._foreign(way.state, end, aim)) for _, end in found]
+        foreign = [len(self._foreign(way.state, end, aim)) if self.config.orderly else 0 for _, end in found]
         return [c for c, count in zip(found, foreign, strict=True) if count == min(foreign)]
 
     def _undisturbing(self, found: Sequence[tuple[Choice, Bits]], state: Bits) -> list[tuple[Choice, Bits]]:
@@ -610,7 +610,15 @@ class GoalPass(ForwardPass):
         def allowed(states: Sequence[Bits]) -> bool:
             return not constraints.never or violated(self.task, constraints, states) is None
 
-        return Tidying(self.task, self.planner, self.setup.restored, self.lasting, self._contents, allowed)
+        return Tidying(
+            self.task,
+            self.planner,
+            self.setup.restored,
+            self.lasting,
+            self._contents,
+            allowed,
+            orderly=self.config.orderly,
+        )
 
     def _all_finished(self, ways: Sequence[Way], first: Bits) -> list[Way]:
         """Return the best ways, improved; where too many become equal, others follow as they are."""

@@ -77,6 +77,7 @@ class Tidying:
         lasting: The atoms that do not pass by themselves.
         contents: The atoms that say what is in what.
         allowed: Returns whether the request allows a sequence of states.
+        orderly: Whether instructions are put in order, and things are taken back to where they were.
     """
 
     def __init__(
@@ -87,6 +88,8 @@ class Tidying:
         lasting: Bits,
         contents: Bits,
         allowed: Callable[[Sequence[Bits]], bool],
+        *,
+        orderly: bool = True,
     ) -> None:
         self.task = task
         self.planner = planner
@@ -94,6 +97,7 @@ class Tidying:
         self.lasting = lasting
         self.contents = contents
         self.allowed = allowed
+        self.orderly = orderly
 
     def is_careless(self, instruction: Instruction) -> bool:
         """Return whether an instruction lets something fall."""
@@ -187,8 +191,9 @@ class _Improvement:
         before = None
         while plan != before:
             before = plan
-            plan = self._returned(self._with_care(self._ordered(self.pruned(plan))))
-            plan = self._with_usual_places(plan)
+            plan = self.pruned(plan)
+            if self.setup.orderly:
+                plan = self._with_usual_places(self._returned(self._with_care(self._ordered(plan))))
             plan = self._with_others(self._with_windows(plan))
         return plan
 
@@ -196,7 +201,8 @@ class _Improvement:
         """Return the plan without objects and instructions that are there for nothing."""
         if self._key(plan) is None:
             return plan
-        return self._without_instructions(self._without_detours(self._without_objects(plan)))
+        plan = self._without_objects(plan)
+        return self._without_instructions(self._without_detours(plan) if self.setup.orderly else plan)
 
     # ------------------------------------------------------------------ the measure
 
@@ -235,9 +241,10 @@ class _Improvement:
         other = end & self.absent or not self._moved(end) <= self.moved
         if other or not _any_holds(self.kept, end) or not self.setup.allowed(states):
             return None
-        cost += _ELSEWHERE * len({atom.args[0] for atom in self.task.names(self.home & ~end)})
+        if self.setup.orderly:
+            cost += _ELSEWHERE * len({atom.args[0] for atom in self.task.names(self.home & ~end)})
         changed = ((end ^ self.start) & self.setup.lasting).bit_count()
-        return len(self._untidy(end)), cost, changed, self._disorder(plan, states)
+        return len(self._untidy(end)), cost, changed, self._disorder(plan, states) if self.setup.orderly else 0
 
     def _disorder(self, plan: Plan, states: Sequence[Bits]) -> int:
         """Return for how long things are open, running, held or on the floor, and how often a plan turns elsewhere."""
