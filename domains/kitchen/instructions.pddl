@@ -5,7 +5,7 @@
 ; compiled from it and from objects.yaml (classes become types, substances become constants).
 ;
 ; Physics in one paragraph. A thing must be found before the robot can go to it, and what is behind a closed door
-; cannot be found or taken. Standing somewhere ends standing elsewhere; what is held stays in reach. An effector
+; cannot be found, approached, opened or taken. Standing somewhere ends standing elsewhere; what is held stays in reach. An effector
 ; (burner, tap, microwave, dispenser, coffee maker) is worked through the part that controls it: that is an edge
 ; of the object graph, as is the door that interrupts a microwave or the button that unlatches a door. Heat needs
 ; time: what stands on a lit burner is heating, and becomes hot when the robot waits. Raw food in hot water is
@@ -101,7 +101,7 @@
   ; Go and stand before x. What was in reach is so no longer, unless it is held or one object with x.
   (:action moveto
     :parameters (?x - thing)
-    :precondition (and (found pr2 ?x) (not (holding pr2 ?x)))
+    :precondition (and (found pr2 ?x) (not (hidden ?x)) (not (holding pr2 ?x)))
     :effect (and
       (forall (?y - item)
         (when (and (not (same_unit ?x ?y)) (not (holding pr2 ?y))) (not (near pr2 ?y))))
@@ -169,7 +169,7 @@
   ; seen; what must not run with x open stops.
   (:action open
     :parameters (?x - thing)
-    :precondition (and (near pr2 ?x) (openable ?x) (not (opened ?x)) (not (both_hands_used pr2)))
+    :precondition (and (near pr2 ?x) (not (hidden ?x)) (openable ?x) (not (opened ?x)) (not (both_hands_used pr2)))
     :effect (and
       (opened ?x)
       (forall (?y - thing) (when (guards ?x ?y) (not (shut ?y))))
@@ -181,7 +181,7 @@
   ; Close x, a door, drawer or lid. What is behind it is out of sight.
   (:action close
     :parameters (?x - thing)
-    :precondition (and (near pr2 ?x) (opened ?x) (not (both_hands_used pr2)))
+    :precondition (and (near pr2 ?x) (not (hidden ?x)) (opened ?x) (not (both_hands_used pr2)))
     :effect (and
       (not (opened ?x))
       (forall (?y - thing) (when (guards ?x ?y) (shut ?y)))

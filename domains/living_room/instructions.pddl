@@ -6,7 +6,7 @@
 ; objects.yaml (classes become types, substances become constants).
 ;
 ; Physics in one paragraph. A thing must be found before the robot can go to it, and what is behind a closed door,
-; in a drawer or in a tied-up bag cannot be found or taken. Standing somewhere ends standing elsewhere; what is held
+; in a drawer or in a tied-up bag cannot be found, approached, worked or taken. Standing somewhere ends standing elsewhere; what is held
 ; stays in reach, with its parts. A television, player, lamp or microwave is worked through the part that controls
 ; it, or through a remote control that is in the hand. Buttons shift the channel and the volume step by step, while
 ; the television is on. A player plays when it is on and has a disc. What a running microwave heats gets hot, and
@@ -98,7 +98,7 @@
   ; Go and stand before x. What was in reach is so no longer, unless it is held or one object with x.
   (:action moveto
     :parameters (?x - thing)
-    :precondition (and (found pr2 ?x) (not (holding pr2 ?x)))
+    :precondition (and (found pr2 ?x) (not (hidden ?x)) (not (holding pr2 ?x)))
     :effect (and
       (forall (?y - item)
         (when (and (not (same_unit ?x ?y)) (not (holding pr2 ?y))) (not (near pr2 ?y))))
@@ -170,6 +170,8 @@
       (forall (?y - thing ?z - item) (when (and (guards ?x ?y) (at ?z ?y in)) (not (hidden ?z))))
       (forall (?y - thing ?z - item ?w - part)
         (when (and (guards ?x ?y) (part_of ?w ?z) (at ?z ?y in)) (not (hidden ?w))))
+      (forall (?y - thing ?z - item ?v - item ?w - thing)
+        (when (and (guards ?x ?y) (at ?z ?y in) (at ?v ?z in) (same_unit ?w ?v) (not (shut ?z))) (not (hidden ?w))))
       (forall (?y - fixture) (when (interrupts ?x ?y) (not (active ?y))))
       (forall (?y - fixture ?z - item)
         (when (and (interrupts ?x ?y) (at ?z ?y in)) (not (heating ?z))))))
@@ -177,19 +179,21 @@
   ; Close x. What is behind it is out of sight.
   (:action close
     :parameters (?x - thing)
-    :precondition (and (near pr2 ?x) (opened ?x) (not (both_hands_used pr2)))
+    :precondition (and (near pr2 ?x) (not (hidden ?x)) (opened ?x) (not (both_hands_used pr2)))
     :effect (and
       (not (opened ?x))
       (forall (?y - thing) (when (guards ?x ?y) (shut ?y)))
       (forall (?y - thing ?z - item) (when (and (guards ?x ?y) (at ?z ?y in)) (hidden ?z)))
       (forall (?y - thing ?z - item ?w - part)
-        (when (and (guards ?x ?y) (part_of ?w ?z) (at ?z ?y in)) (hidden ?w)))))
+        (when (and (guards ?x ?y) (part_of ?w ?z) (at ?z ?y in)) (hidden ?w)))
+      (forall (?y - thing ?z - item ?v - item ?w - thing)
+        (when (and (guards ?x ?y) (at ?z ?y in) (at ?v ?z in) (same_unit ?w ?v)) (hidden ?w)))))
 
   ; Press x, a button or switch. What it controls starts, or stops if it was working; channel or volume go one
   ; further, and for these the television or player has to be on. The buttons of a remote control want it in the hand.
   (:action press
     :parameters (?x - part)
-    :precondition (and (near pr2 ?x) (pressable ?x) (not (both_hands_used pr2))
+    :precondition (and (near pr2 ?x) (not (hidden ?x)) (pressable ?x) (not (both_hands_used pr2))
                        (or (not (handheld ?x)) (carried pr2 ?x))
                        (forall (?y - part ?z - appliance)
                          (or (not (starts ?x ?y)) (not (part_of ?y ?z)) (and (active ?z) (loaded ?z))))
@@ -226,7 +230,8 @@
   ; Turn the knob x to s. What it controls works at every setting but the idle one.
   (:action turn
     :parameters (?x - part ?s - setting)
-    :precondition (and (near pr2 ?x) (offers ?x ?s) (not (set_to ?x ?s)) (not (both_hands_used pr2)))
+    :precondition (and (near pr2 ?x) (not (hidden ?x)) (offers ?x ?s) (not (set_to ?x ?s))
+                       (not (both_hands_used pr2)))
     :effect (and
       (set_to ?x ?s)
       (forall (?t - setting) (when (not (= ?s ?t)) (not (set_to ?x ?t))))

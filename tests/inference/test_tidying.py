@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import tmd
+from tests.bundled import kit
 from tests.goals.conftest import end, plain_world, said, steps
 from tmd.diagnostics import TmdError
 from tmd.ground import restored_in
@@ -155,3 +156,60 @@ def test_a_list_of_conditions_is_expected(text: str, tmp_path: Path) -> None:
     with pytest.raises(TmdError) as caught:
         read_lexicon(tmp_path / "lexicon.yaml")
     assert caught.value.location is not None and caught.value.location.line == 1
+
+
+def test_a_tap_runs_only_while_something_is_under_it(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    filling = "find cup1; moveto cup1; grasp cup1; moveto sink1; turn sink1_handle high; keep cup1 sink1 in"
+    plan = improved(world, kitchen, (filling, condition(world, "contains cup1 water")))
+    assert plan[-3:] == ["keep(cup1, sink1, in)", "turn(sink1_handle, high)", "turn(sink1_handle, off)"]
+
+
+def test_what_was_taken_goes_back_to_where_it_was(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    elsewhere = (
+        "moveto fridge1; open fridge1_door; find milk1; moveto milk1; grasp milk1; moveto fridge1; close fridge1_door;"
+        " find cup1; moveto cup1; open milk1; pour milk1 cup1; close milk1; moveto counter1; keep milk1 counter1 on"
+    )
+    plan = improved(world, kitchen, (elsewhere, condition(world, "contains cup1 milk")))
+    assert plan[-2:] == ["keep(milk1, fridge1, in)", "close(fridge1_door)"]
+
+
+def test_things_are_put_down_rather_than_dropped(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    dropping = "find spoon1;moveto spoon1;grasp spoon1;find cup1;moveto cup1;grasp cup1;release spoon1"
+    carrying = "moveto table1;keep cup1 table1 on"
+    goal = condition(world, "at cup1 table1 on")
+    plan = improved(world, kitchen, (dropping, (Cube(),)), (carrying, goal))
+    assert not any(step.startswith("release") for step in plan)
+
+
+@pytest.mark.usefixtures("learned")
+@pytest.mark.parametrize(
+    ("environment", "text", "once"),
+    [
+        ("kitchen2", "Boil the kettle, then pour the hot water in the glass.", "wait()"),
+        ("kitchen3", "Fill the cup with water and do the same with the glass.", "keep(cup1, fridge1_dispenser, in)"),
+    ],
+)
+def test_what_an_earlier_step_did_is_not_done_again(environment: str, text: str, once: str) -> None:
+    grounded = kit("kitchen").ground(text, environment)
+    assert [str(i) for i in grounded.plans[0].instructions].count(once) == 1
+
+
+@pytest.mark.usefixtures("learned")
+def test_milk_is_not_heated_by_hot_coffee() -> None:
+    grounded = kit("kitchen").ground("I would like some hot milk.", "kitchen2")
+    plan = grounded.plans[0]
+    assert not any("coffee" in str(a) for a in grounded.world.task.names(plan.state & ~grounded.world.task.init))
+
+
+def test_nothing_goes_through_another_vessel(kitchen: Corpus) -> None:
+    world = kitchen.world("kitchen1")
+    detour = (
+        "find spoon1;moveto spoon1;grasp spoon1;find sugar_bowl1;moveto sugar_bowl1;scoopfrom spoon1 sugar_bowl1;"
+        "find cup1;moveto cup1;scoopto spoon1 cup1;grasp cup1;find mug1;moveto mug1;pour cup1 mug1"
+    )
+    plan = improved(world, kitchen, (detour, condition(world, "contains mug1 sugar")))
+    assert "scoopto(spoon1, mug1)" in plan
+    assert not any("cup1" in step for step in plan)

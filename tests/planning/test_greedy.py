@@ -9,8 +9,10 @@ import pytest
 from hypothesis import given, settings
 
 from tmd.diagnostics import TmdError
+from tmd.pddl.grounding.ground_task import ground
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, EachAlone, InTurn, last_resort, make
+from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, EachAlone, InTurn, PartByPart, last_resort, make
 from tmd.planning.gap_filler import eliminate
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search.greedy import ENTRY, Line, put, take
@@ -121,3 +123,26 @@ def test_the_last_resort_answers_what_the_optimal_search_gives_up_on(any_kitchen
     assert isinstance(answer, Filled)
     shorter = eliminate(answer.plan, task, task.init, goal)
     assert goal[0].holds(answer.state) and len(shorter) <= len(answer.plan)
+
+
+def test_many_parts_are_reached_one_after_another() -> None:
+    domain = parse_domain(
+        "(define (domain house) (:requirements :strips :typing) (:types lamp)"
+        " (:predicates (by ?x - lamp) (lit ?x - lamp) (dark ?x - lamp))"
+        " (:action go :parameters (?x ?y - lamp) :precondition (by ?x)"
+        " :effect (and (by ?y) (not (by ?x)))) (:action light :parameters (?x - lamp)"
+        " :precondition (and (by ?x) (dark ?x)) :effect (and (lit ?x) (not (dark ?x)))))"
+    )
+    lamps = [f"l{n}" for n in range(12)]
+    init = " ".join(f"(dark {lamp})" for lamp in lamps)
+    goal = " ".join(f"(lit {lamp})" for lamp in lamps)
+    things = f"(:objects {' '.join(lamps)} - lamp) (:init (by l0) {init}) (:goal (and {goal}))"
+    task = ground(parse_problem(f"(define (problem home) (:domain house) {things})", domain))
+    answer = PartByPart(task).fill(task.init, task.goal)
+    assert isinstance(answer, Filled)
+    assert any(cube.holds(answer.state) for cube in task.goal)
+    assert len(answer.plan) == 2 * len(lamps) - 1
+
+
+def test_parts_that_exclude_each_other_are_given_up(pantry: Task) -> None:
+    assert isinstance(PartByPart(pantry).fill(pantry.init, (Cube(1, 1),)), GaveUp)

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.model import GroundAtom, Problem
+from tmd.pddl.model import GroundAtom, Instruction, Problem
 from tmd.pddl.reading.reader import parse_problem
+from tmd.pddl.semantics import first_broken
 from tmd.pddl.writer import format_problem
 from tmd.world.compile import compile_domain, compile_problem
 from tmd.world.environment import load_environment
@@ -154,3 +155,27 @@ def test_an_unknown_domain_names_the_nearest() -> None:
         find_domain("kichen", ROOT / "domains")
     with pytest.raises(TmdError):
         find_domain("../kitchen", ROOT / "domains")
+
+
+@pytest.mark.parametrize(
+    ("domain", "environment", "hidden", "instruction"),
+    [
+        ("kitchen", "kitchen1", "milk1", "open milk1"),
+        ("kitchen", "kitchen1", "milk1", "moveto milk1"),
+        ("kitchen", "kitchen1", "milk1", "grasp milk1"),
+        ("living_room", "room3", "remote1", "moveto remote1"),
+        ("living_room", "room3", "remote1_power_button", "press remote1_power_button"),
+    ],
+)
+def test_nothing_is_done_to_what_is_behind_a_closed_door(
+    domain: str, environment: str, hidden: str, instruction: str
+) -> None:
+    """However near the robot stands, and however well it knows the place."""
+    problem = compiled(ROOT / f"problems/{domain}/environments/{environment}.yaml")
+    name, argument = instruction.split()
+    # the robot has been there before
+    known = problem.init | {atom(f"{fact} pr2 {argument}") for fact in ("found", "near", "carried")}
+    broken = first_broken(Instruction(name, (argument,)), known, problem)
+    assert atom(f"hidden {hidden}") in problem.init
+    assert broken is not None
+    assert "hidden" in broken.text

@@ -51,6 +51,8 @@ class InferenceConfig:
             is asked which one is meant.
         samples: Number of sequences drawn from the policy, against which the expected loss of each plan decides
             (:mod:`tmd.inference.bayes_risk`); 0 decides by energy.
+        orderly: Whether finished plans are put in order, things are taken back, and drinks are kept unmixed. People who
+            demonstrate do so seldom, so the experiments compare plans without it, as without declared restoration.
         drawn_candidates: Whether those sequences are candidates as well, where no declared goal must be reached.
     """
 
@@ -72,6 +74,7 @@ class InferenceConfig:
     last_resort: bool = True
     close: float = 10.0
     samples: int = 0
+    orderly: bool = True
     drawn_candidates: bool = True
 
     @property

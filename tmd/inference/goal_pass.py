@@ -8,10 +8,10 @@ prior being one factor. A finished plan is improved as a whole (:mod:`tmd.infere
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from itertools import islice
+from itertools import islice, pairwise
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.inference.commitments import (
@@ -34,7 +34,7 @@ from tmd.pddl.ground_formula import TRUE, goal_cubes
 from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube
-from tmd.planning.gap_filler import eliminate
+from tmd.planning.gap_filler import GapFiller, eliminate
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 from tmd.world.verb_clause import VerbClause
@@ -43,6 +43,8 @@ from tmd.world.verb_clause import VerbClause
 _MOST_FURTHER_STEPS = 8
 # Plans that are improved beyond those that are wanted, since some may become equal.
 _SPARE = 2
+# Attempts at a plan that spares what earlier steps did and is not longer than one that does it again.
+_MOST_SPARED = 3
 # Maximum number of different readings of a request that are followed at a time, each with its own beam.
 _MOST_READINGS = 4
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
@@ -106,7 +108,7 @@ class GoalPass(ForwardPass):
         refusal = self._without_effect(ways)
         if refusal is None:
             ways = sorted((w for w in ways if self._respects_constraints(w, state)), key=lambda way: way.order)
-            ways = [self._finished(way, state) for way in ways[: self.top + _SPARE]]
+            ways = self._all_finished(ways, state)
             refusal = None if ways else _FORBIDDEN
         if refusal is not None:
             return Inferred((), tuple(self.rejected), (0, refusal))
@@ -166,7 +168,12 @@ class GoalPass(ForwardPass):
         found = []
         for own, ways in reached.items():
             others = tuple(
-                LostGoal(other.formula, other.explanation, _why_lost(refusals.get(place), least.get(place), least[own]))
+                LostGoal(
+                    other.formula,
+                    other.explanation,
+                    _why_lost(refusals.get(place), least.get(place), least[own]),
+                    planned=place in reached,
+                )
                 for place, other in enumerate(candidates)
                 if place != own
             )
@@ -325,11 +332,13 @@ class GoalPass(ForwardPass):
         begun, state = passed
         proposals = list(self._executables(target.step, way)) if target.step.main else []
         reason = ""
-        for aim, quick in self._attempts(state, target.aims):
-            tried = () if isinstance(quick, Unreachable) else proposals
-            found = [c for p in tried if (c := self._completed(way, p, target, aim)) is not None]
-            mixed = all(self._unmixed(state, end, aim) for _, end in found)
-            answer = self._far_if_needed(quick, state, aim, target) if mixed else quick
+        for wanted, first in self._attempts(state, target.aims):
+            aim, quick = self._once(state, wanted, first, target)
+            found = self._fit(way, () if isinstance(quick, Unreachable) else proposals, target, aim)
+            pure = any(not self._foreign(way.state, end, aim) for _, end in found)
+            answer = quick if pure else self._far_if_needed(quick, state, aim, target)
+            if answer is not quick:
+                aim, answer = self._once(state, aim, answer, target)
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
             elif isinstance(answer, Filled):
@@ -343,6 +352,15 @@ class GoalPass(ForwardPass):
             return _impossible(target, reason)
         message = f"no plan was found for '{target.step.text}'; nothing is proven"
         return Refusal(RefusalKind.GAVE_UP, message, "ask another planner with --planner")
+
+    def _fit(
+        self, way: Way, proposals: Sequence[_Executable], target: Target, aim: tuple[Cube, ...]
+    ) -> list[tuple[Choice, Bits]]:
+        """Return the proposals completed to an aim, of which those are left that mix in the least unasked."""
+        completed = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
+        found = [c for c in completed if not self._redone(way.state, _instructions(c[0]), aim, target)]
+        foreign = [len(self._foreign(way.state, end, aim)) if self.config.orderly else 0 for _, end in found]
+        return [c for c, count in zip(found, foreign, strict=True) if count == min(foreign)]
 
     def _undisturbing(self, found: Sequence[tuple[Choice, Bits]], state: Bits) -> list[tuple[Choice, Bits]]:
         """Return the choices but for those that move more than another one: all that it moves, and something else."""
@@ -397,11 +415,11 @@ class GoalPass(ForwardPass):
         """
         *stronger, last = own
         least = self.planner.fill(state, last)
-        unmixed = self._unmixed(state, least.state, own[0]) if isinstance(least, Filled) else ()
-        if unmixed:
+        for unmixed in self._unmixed(state, least.state, own[0]) if isinstance(least, Filled) else ():
             answer = self.planner.fill(state, unmixed)
             if isinstance(answer, Filled) and isinstance(least, Filled) and _little_longer(answer, least):
                 yield unmixed, answer
+                break
         for aim in stronger if not isinstance(least, Unreachable) else ():
             if isinstance(least, Filled) and any(cube.holds(least.state) for cube in aim):
                 yield aim, least
@@ -411,19 +429,82 @@ class GoalPass(ForwardPass):
                 yield aim, answer
         yield last, least
 
-    def _unmixed(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> tuple[Cube, ...]:
-        """Return an aim without what else came into its vessels from ``state`` to ``end``: hot milk without any coffee.
+    def _once(
+        self, state: Bits, aim: tuple[Cube, ...], answer: Answer, target: Target
+    ) -> tuple[tuple[Cube, ...], Answer]:
+        """Return an aim and a plan for it that does nothing over again that earlier steps did.
 
-        Empty where nothing else did.
+        The kettle stays hot no longer when its water is poured over the noodles. Where the plan can do without undoing
+        it, the aim stays as it is.
         """
-        found = []
-        for cube in aim:
-            vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
-            gained = self.task.names(end & ~state & ~cube.positive & self._contents)
-            others = sum(1 << self.task.index[atom] for atom in gained if atom.args[0] in vessels)
-            if others:
-                found.append(Cube(cube.positive, cube.negative | others))
-        return tuple(found)
+        while isinstance(answer, Filled) and (redone := self._redone(state, answer.plan, aim, target)):
+            spare = self._sparing(state, aim, answer, target)
+            if spare is not None:
+                return aim, spare
+            fewer = tuple(dict.fromkeys(Cube(c.positive & ~redone, c.negative) for c in aim))
+            other = self.planner.fill(state, fewer)
+            if isinstance(other, GaveUp):
+                other = self._far(state, fewer, brief=True)
+            if not isinstance(other, Filled):
+                break
+            aim, answer = fewer, other
+        return aim, answer
+
+    def _redone(self, state: Bits, instructions: Instructions, aim: Sequence[Cube], target: Target) -> Bits:
+        """Return what earlier steps did, and instructions undo and do again: contents, what is hot or runs."""
+        trace = self.world.task.trace(state, instructions)
+        cube = next((c for c in aim if c.holds(trace[-1])), Cube())
+        own = next((c for c in target.aims[-1] if c.holds(trace[-1])), Cube())
+        kept = cube.positive & ~own.positive & state & self._made
+        always = kept
+        for each in trace:
+            always &= each
+        return kept & ~always
+
+    def _sparing(self, state: Bits, aim: tuple[Cube, ...], answer: Filled, target: Target) -> Filled | None:
+        """Return a plan that undoes nothing of what ``answer`` undoes and does again, where it is not longer."""
+        usable, plan = self.task.by_instruction, answer.plan
+        for _ in range(_MOST_SPARED):
+            redone, trace = self._redone(state, plan, aim, target), self.world.task.trace(state, plan)
+            undoing = {i for i, (a, b) in zip(plan, pairwise(trace), strict=True) if redone & a & ~b}
+            usable = {i: operator for i, operator in usable.items() if i not in undoing}
+            task = replace(self.task, operators=tuple(usable.values()), by_instruction=usable)
+            found = GapFiller(task, cap=self.config.cap).fill(state, aim)
+            if not isinstance(found, Filled) or len(found.plan) > len(answer.plan):
+                return None
+            plan = found.plan
+            if not self._redone(state, plan, aim, target):
+                return found
+        return None
+
+    @cached_property
+    def _made(self) -> Bits:
+        """The atoms that say what is in what, or tell of one thing alone."""
+        single = sum(1 << bit for bit, atom in enumerate(self.task.atoms) if len(atom.args) == 1)
+        return self._contents | single
+
+    def _foreign(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> frozenset[str]:
+        """Return what else came into the vessels of an aim from ``state`` to ``end``: coffee, to heat milk."""
+        cube = next((c for c in aim if c.holds(end)), Cube())
+        vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
+        gained = self.task.names(end & ~state & ~cube.positive & self._contents)
+        return frozenset(atom.args[1] for atom in gained if atom.args[0] in vessels)
+
+    def _unmixed(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> Iterator[tuple[Cube, ...]]:
+        """Yield an aim without what else came into its vessels from ``state`` to ``end``, then without parts of that.
+
+        Nobody wants coffee in the hot milk, but noodles are cooked in water.
+        """
+        others = sorted(self._foreign(state, end, aim))
+        for contents in (others, *([other] for other in others if len(others) > 1)) if others else ():
+            yield tuple(self._without(cube, contents, state) for cube in aim)
+
+    def _without(self, cube: Cube, contents: Collection[str], state: Bits) -> Cube:
+        """Return a cube without some contents in its vessels, unless they are there in ``state`` or asked for."""
+        vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
+        atoms = self.task.names(self._contents & ~cube.positive & ~state)
+        unwanted = (a for a in atoms if a.args[0] in vessels and a.args[1] in contents)
+        return Cube(cube.positive, cube.negative | sum(1 << self.task.index[atom] for atom in unwanted))
 
     def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
@@ -445,14 +526,18 @@ class GoalPass(ForwardPass):
         if isinstance(answer, Filled) and not any(cube.holds(answer.state) for cube in aim):
             # where no way is short, first the alternative that is near without them: far ways to several take long
             near = tuple(c for c in aim if Cube(c.positive & ~state, c.negative & state).holds(answer.state))
-            asked = ((self._resort(True), aim), (resort, near), (resort, aim))
-            answers = (planner.fill(state, cubes) for planner, cubes in asked[brief and 2 :])
+            asked = ((resort, aim),) if brief else ((self._resort(True), aim), (resort, near))
+            answers = (planner.fill(state, cubes) for planner, cubes in asked)
             answer = next((a for a in answers if not isinstance(a, GaveUp)), GaveUp("the planner"))
-        if isinstance(answer, Filled):
-            shorter = eliminate(answer.plan, self.task, state, aim)
-            answer = Filled(shorter, self.world.task.trace(state, shorter)[-1], len(shorter))
-            unmixed = self._unmixed(state, answer.state, aim)
-            other = self._resort(True).fill(state, unmixed) if unmixed else None
+        return self._shortened(state, answer, aim) if isinstance(answer, Filled) else answer
+
+    def _shortened(self, state: Bits, answer: Filled, aim: Sequence[Cube]) -> Filled:
+        """Return a far plan without what it does not need, or one that mixes nothing in and is little longer."""
+        shorter = eliminate(answer.plan, self.task, state, aim)
+        cost = sum(self.task.by_instruction[i].cost for i in shorter)
+        answer = Filled(shorter, self.world.task.trace(state, shorter)[-1], cost)
+        for unmixed in self._unmixed(state, answer.state, aim):
+            other = self._resort(True).fill(state, unmixed)
             if isinstance(other, Filled) and _little_longer(other, answer):
                 return other
         return answer
@@ -525,7 +610,23 @@ class GoalPass(ForwardPass):
         def allowed(states: Sequence[Bits]) -> bool:
             return not constraints.never or violated(self.task, constraints, states) is None
 
-        return Tidying(self.task, self.planner, self.setup.restored, self.lasting, self._contents, allowed)
+        return Tidying(
+            self.task,
+            self.planner,
+            self.setup.restored,
+            self.lasting,
+            self._contents,
+            allowed,
+            orderly=self.config.orderly,
+        )
+
+    def _all_finished(self, ways: Sequence[Way], first: Bits) -> list[Way]:
+        """Return the best ways, improved; where too many become equal, others follow as they are."""
+        finished = {
+            way.instructions: way for way in reversed([self._finished(w, first) for w in ways[: self.top + _SPARE]])
+        }
+        others = [way for way in ways[1:] if way.instructions not in finished]
+        return [*reversed(finished.values()), *others[: max(self.top - len(finished), 0)]]
 
     def _finished(self, way: Way, first: Bits) -> Way:
         """Return a way through all steps, improved as a whole: with an end that people leave, and nothing needless."""
@@ -600,6 +701,11 @@ def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) 
     handled = {arg for taken in choice.steps for arg in taken.instruction.args}
     handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}
     return names <= handled if every else bool(names & handled)
+
+
+def _instructions(choice: Choice) -> Instructions:
+    """Return the instructions of a choice."""
+    return tuple(step.instruction for step in choice.steps)
 
 
 def _impossible(target: Target, reason: str) -> Refusal:

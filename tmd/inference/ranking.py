@@ -71,11 +71,13 @@ class LostGoal:
         formula: The goal.
         row: The lexicon row, action or model's words that it was derived from.
         why: Why it was not taken.
+        planned: Whether there is a plan for it.
     """
 
     formula: Formula
     row: str
     why: str
+    planned: bool = False
 
 
 @dataclass(frozen=True, slots=True)

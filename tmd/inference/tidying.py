@@ -9,25 +9,34 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from itertools import pairwise, permutations
 from typing import TypeAlias
 
-from tmd.pddl.model import Instruction
+from tmd.pddl.domain_traits import single_valued
+from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.semantics import opposite
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled, GaveUp, Planner
+from tmd.world.compile import PART_OF
 
-# Cost of letting something fall rather than putting it down, in instructions.
+# Cost of letting something fall rather than putting it down, and of leaving a thing elsewhere unasked, in instructions.
 _CARE = 3
+_ELSEWHERE = 2
 # Generated states after which the search for a part gives up, and that for what is restored at the end.
 _CAP = 200
 _END_CAP = 3_000
+# Weight of a place where nothing stood at the start, against the other disorder of a plan.
+_STRANGE = 3
 # Maximum length of a part that is planned again: a search for so few instructions takes milliseconds.
 _WINDOW = 5
+# Maximum number of instructions that are moved together: to go to a thing, open and take it.
+_BLOCK = 4
 Condition: TypeAlias = tuple[Cube, ...]
 """A disjunction of conjunctions."""
-Key: TypeAlias = tuple[int, int, int]
-"""Conditions that are not restored, cost, and atoms that are changed in the end: less is better."""
+Key: TypeAlias = tuple[int, int, int, int]
+"""Conditions that are not restored, cost, atoms that are changed in the end, and disorder: less is better."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +63,8 @@ class PlanPart:
 
 
 Plan: TypeAlias = tuple[PlanPart, ...]
+Placed: TypeAlias = Sequence[tuple[int, Instruction]]
+"""Instructions, each with the number of its part."""
 
 
 class Tidying:
@@ -66,6 +77,7 @@ class Tidying:
         lasting: The atoms that do not pass by themselves.
         contents: The atoms that say what is in what.
         allowed: Returns whether the request allows a sequence of states.
+        orderly: Whether instructions are put in order, and things are taken back to where they were.
     """
 
     def __init__(
@@ -76,6 +88,8 @@ class Tidying:
         lasting: Bits,
         contents: Bits,
         allowed: Callable[[Sequence[Bits]], bool],
+        *,
+        orderly: bool = True,
     ) -> None:
         self.task = task
         self.planner = planner
@@ -83,6 +97,7 @@ class Tidying:
         self.lasting = lasting
         self.contents = contents
         self.allowed = allowed
+        self.orderly = orderly
 
     def is_careless(self, instruction: Instruction) -> bool:
         """Return whether an instruction lets something fall."""
@@ -116,18 +131,57 @@ class _Improvement:
         end = states[-1][-1] if states else start
         self.moved = self._moved(end)
         self.absent = ~end & setup.contents  # what was poured away was in the way
-        asked_true = asked_false = 0
-        for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
-            cube = next((c for c in cubes if c.holds(state)), Cube())
-            asked_true |= cube.positive
-            asked_false |= cube.negative
-        self.asked = asked_true | asked_false
-        self.watched = [
+        self.asked_true, self.asked_false = _asked(kept, end, plan, states)
+        self.asked = self.asked_true | self.asked_false
+        self.settled = self._names(self.asked_true & end)
+        self._soon = cache(self._searched)
+        self._keys: dict[tuple[tuple[Instruction, ...], ...], Key | None] = {}
+
+    @cached_property
+    def watched(self) -> list[int]:
+        """The conditions that are restored: they did not hold at the start, and nobody asks for them."""
+        true, false = self.asked_true, self.asked_false
+        conditions = enumerate(self.setup.restored)
+        return [
             number
-            for number, condition in enumerate(setup.restored)
-            if not any(c.holds(start) for c in condition)
-            and not any(c.positive & asked_true or c.negative & asked_false for c in condition)
+            for number, condition in conditions
+            if not _any_holds(condition, self.start)
+            and not any(c.positive & true or c.negative & false for c in condition)
         ]
+
+    @cached_property
+    def places(self) -> list[GroundAtom]:
+        """The atoms that say where things are at the start."""
+        values = single_valued(self.task.problem.domain)
+        stood = self.task.names(self.start & self.setup.lasting & ~self.setup.contents)
+        return [atom for atom in stood if len(atom.args) > 1 and atom.predicate not in values]
+
+    @cached_property
+    def home(self) -> Bits:
+        """The atoms of ``places`` about things that the request does not name."""
+        named = self._names(self.asked)
+        return sum(1 << self.task.index[atom] for atom in self.places if atom.args[0] not in named)
+
+    @cached_property
+    def usual(self) -> set[str]:
+        """The places where something is at the start."""
+        return {atom.args[1] for atom in self.places}
+
+    @cached_property
+    def begun(self) -> tuple[Bits, list[Condition]]:
+        """The conditions that are to be restored and did not hold at the start: single atoms, and others."""
+        begun = [c for c in self.setup.restored if not _any_holds(c, self.start)]
+        simple = {c for c in begun if len(c) == 1 and not c[0].negative and c[0].positive.bit_count() == 1}
+        return sum({c[0].positive for c in simple}), [c for c in begun if c not in simple]
+
+    @cached_property
+    def wholes(self) -> dict[str, str]:
+        """The whole of each part."""
+        return {fact.args[0]: fact.args[1] for fact in self.task.static if fact.predicate == PART_OF}
+
+    def _names(self, bits: Bits) -> set[str]:
+        """Return the objects that atoms are about."""
+        return {argument for atom in self.task.names(bits) for argument in atom.args}
 
     def improved(self, plan: Plan) -> Plan:
         """Return the plan with what it leaves restored, and without what it does not need."""
@@ -137,12 +191,18 @@ class _Improvement:
         before = None
         while plan != before:
             before = plan
-            plan = self._with_others(self._with_windows(self.pruned(plan)))
+            plan = self.pruned(plan)
+            if self.setup.orderly:
+                plan = self._with_usual_places(self._returned(self._with_care(self._ordered(plan))))
+            plan = self._with_others(self._with_windows(plan))
         return plan
 
     def pruned(self, plan: Plan) -> Plan:
         """Return the plan without objects and instructions that are there for nothing."""
-        return plan if self._key(plan) is None else self._without_instructions(self._without_objects(plan))
+        if self._key(plan) is None:
+            return plan
+        plan = self._without_objects(plan)
+        return self._without_instructions(self._without_detours(plan) if self.setup.orderly else plan)
 
     # ------------------------------------------------------------------ the measure
 
@@ -157,6 +217,12 @@ class _Improvement:
 
     def _key(self, plan: Plan) -> Key | None:
         """Return how good a plan is; ``None`` where it cannot be executed or misses what it is for."""
+        own = tuple(segment.instructions for segment in plan)
+        if own not in self._keys:
+            self._keys[own] = self._measured(plan)
+        return self._keys[own]
+
+    def _measured(self, plan: Plan) -> Key | None:
         states = [self.start]
         cost = 0
         for segment in plan:
@@ -175,7 +241,33 @@ class _Improvement:
         other = end & self.absent or not self._moved(end) <= self.moved
         if other or not _any_holds(self.kept, end) or not self.setup.allowed(states):
             return None
-        return len(self._untidy(end)), cost, ((end ^ self.start) & self.setup.lasting).bit_count()
+        if self.setup.orderly:
+            cost += _ELSEWHERE * len({atom.args[0] for atom in self.task.names(self.home & ~end)})
+        changed = ((end ^ self.start) & self.setup.lasting).bit_count()
+        return len(self._untidy(end)), cost, changed, self._disorder(plan, states) if self.setup.orderly else 0
+
+    def _disorder(self, plan: Plan, states: Sequence[Bits]) -> int:
+        """Return for how long things are open, running, held or on the floor, and how often a plan turns elsewhere."""
+        long = sum(self._begun(state) for state in states)
+        instructions = [i for segment in plan for i in segment.instructions]
+        long += _STRANGE * len([p for p in self._new_places(states[-1]) if p.args[1] not in self.usual])
+        return long + 2 * sum(not self._units(a) & self._units(b) for a, b in pairwise(instructions))
+
+    def _new_places(self, end: Bits) -> list[GroundAtom]:
+        """Return where things are in the end that were elsewhere, unless the request says that they go there."""
+        places = self.setup.lasting & ~self.setup.contents & ~self.asked
+        lost = {(atom.predicate, atom.args[:1]) for atom in self.task.names(self.start & ~end & places)}
+        gained = self.task.names(end & ~self.start & places)
+        return [atom for atom in gained if len(atom.args) > 1 and (atom.predicate, atom.args[:1]) in lost]
+
+    def _units(self, instruction: Instruction) -> set[str]:
+        """Return the objects that an instruction handles; a part counts as its whole."""
+        return {self.wholes.get(argument, argument) for argument in instruction.args}
+
+    def _begun(self, state: Bits) -> int:
+        """Return how many conditions that are to be restored hold, and did not hold at the start."""
+        single, others = self.begun
+        return (state & single).bit_count() + sum(_any_holds(c, state) for c in others)
 
     def _untidy(self, state: Bits) -> list[int]:
         """Return the watched conditions that hold."""
@@ -248,12 +340,12 @@ class _Improvement:
             return
         answer = self._soon(state, goal, cap) if goal else GaveUp("")
         if isinstance(answer, Filled):
-            home = self._home(state)
-            back = self._soon(state, [Cube(c.positive | home, c.negative) for c in goal], cap) if home else answer
+            home = self._home(state, goal)
+            back = self._soon(state, tuple(Cube(c.positive | home, c.negative) for c in goal), cap) if home else answer
             near = isinstance(back, Filled) and len(back.plan) <= len(answer.plan) + 1
             yield back.plan if isinstance(back, Filled) and near else answer.plan
 
-    def _soon(self, state: Bits, goal: Sequence[Cube], cap: int) -> Answer:
+    def _searched(self, state: Bits, goal: Condition, cap: int) -> Answer:
         """Return what a short search finds, without careless instructions if there is a way without."""
         planner = self.setup.planner
         if not isinstance(planner, GapFiller):
@@ -261,10 +353,19 @@ class _Improvement:
         answer = planner.careful.soon(state, goal, cap)
         return answer if isinstance(answer, Filled) or cap == _CAP else planner.soon(state, goal, cap)
 
-    def _home(self, state: Bits) -> Bits:
-        """Return where things were at the start that are in a hand now, and that the request does not name."""
-        held = {a for n in self._untidy(state) for c in self.setup.restored[n] for a in self._arguments(c)}
-        held -= {argument for atom in self.task.names(self.asked) for argument in atom.args}
+    def _home(self, state: Bits, goal: Condition) -> Bits:
+        """Return where things were that are in a hand now and need not be, unless the request settles that."""
+        wanted = 0
+        for cube in goal:
+            wanted |= cube.positive
+        held = {
+            argument
+            for number in self._untidy(state)
+            for cube in self.setup.restored[number]
+            if not cube.positive & wanted
+            for argument in self._arguments(cube)
+        }
+        held -= self.settled
         lost = self.task.names(self.start & ~state & self.setup.lasting & ~self.asked)
         return sum(1 << self.task.index[atom] for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
 
@@ -300,11 +401,162 @@ class _Improvement:
             found.append(replace(segment, instructions=tuple(own)))
         return tuple(found)
 
+    def _with_care(self, plan: Plan) -> Plan:
+        """Return the plan with other instructions instead of those that let something fall or restore something."""
+        for place in range(len(plan)):
+            at = 0
+            while not plan[place].need.fixed and at < len(plan[place].instructions):
+                instruction, trace = plan[place].instructions[at], self._states(plan)[place]
+                restores = self._begun(trace[at + 1]) < self._begun(trace[at])
+                careless = self.setup.is_careless(instruction)
+                if restores or careless:
+                    other = self._executable(plan, but=(place, at))
+                    if self._key(other) is not None:
+                        plan = self._better(plan, [self._restored(other)])
+                if careless:
+                    for length in range(1, _WINDOW):
+                        plan = self._with_window(plan, place, at, length, _END_CAP)
+                at += 1
+        return plan
+
+    def _ordered(self, plan: Plan) -> Plan:
+        """Return the plan with instructions where they belong.
+
+        Things are opened, switched on and taken late and restored early, and what concerns one thing stands together.
+        """
+        at = 0
+        while at < sum(len(segment.instructions) for segment in plan):
+            better = plan
+            for length in range(_BLOCK, 0, -1):
+                better = self._better(better, self._moves(better, at, length))
+            at += better == plan  # another instruction may stand there now
+            plan = better
+        return plan
+
+    def _returned(self, plan: Plan) -> Plan:
+        """Return the plan with things taken back to where they were, where that costs little more."""
+        for atom in self.task.names(self.home & ~self._states(plan)[-1][-1]) if plan else ():
+            placed = _placed(plan)
+            states = self.task.trace(self.start, (i for _, i in placed))
+            handled = [n for n, (_, i) in enumerate(placed) if atom.args[0] in i.args]
+            if handled and not plan[placed[handled[-1]][0]].need.fixed:
+                before = range(handled[-1])
+                restoring = [n for n in before if self._begun(states[n + 1]) < self._begun(states[n])]
+                for other in (handled[-1], *restoring):
+                    without = {handled[-1], other}
+                    plan = self._better(plan, self._with_return(plan, placed, handled[:-1], without, atom))
+        return plan
+
+    def _with_return(
+        self, plan: Plan, placed: Placed, used: Sequence[int], without: set[int], atom: GroundAtom
+    ) -> Iterator[Plan]:
+        """Yield plans without some instructions that take a thing to where it was as soon as it has served.
+
+        Args:
+            plan: The plan.
+            placed: Its instructions.
+            used: The numbers of those for which the thing is needed.
+            without: The numbers of those that are left out.
+            atom: The place of the thing.
+        """
+        at = used[-1] + 1 if used else 0
+        kept = [pair for n, pair in enumerate(placed[:at]) if n not in without]
+        rest = [pair for n, pair in enumerate(placed[at:], at) if n not in without]
+        part = placed[at - 1][0] if at else placed[0][0]
+        if plan[part].need.fixed:
+            return
+        state = self._states(self._executable(_arranged(plan, kept)))[-1][-1]
+        home, needed = 1 << self.task.index[atom], 0
+        if rest:
+            needed = self.task.by_instruction[rest[0][1]].precondition.positive & state
+        for goal in dict.fromkeys((Cube(home), Cube(home | needed))):
+            for own in self._planned(state, (goal,)):
+                other = self._executable(_arranged(plan, [*kept, *((part, i) for i in own), *rest]))
+                if self._key(other) is not None:
+                    yield self._without_instructions(self._restored(other))
+
+    def _with_usual_places(self, plan: Plan) -> Plan:
+        """Return the plan with things put down where things stand at the start, rather than where nothing does."""
+        for atom in self._new_places(self._states(plan)[-1][-1]) if plan else ():
+            thing, there = atom.args[:2]
+            put_down = [(p, a) for p, a in _numbered(plan) if {thing, there} <= set(plan[p].instructions[a].args)]
+            if not put_down or there in self.usual or plan[put_down[-1][0]].need.fixed:
+                continue
+            place, at = put_down[-1]
+            first, last = max(at - _WINDOW, 0), at + _WINDOW
+            part = plan[place].instructions[first:last]
+            others = (tuple(_with_name(i, there, other) for i in part) for other in sorted(self.usual))
+            known = (own for own in others if all(i in self.task.by_instruction for i in own))
+            plan = self._better(plan, (self._with(plan, place, first, last, own) for own in known))
+        return plan
+
+    def _moves(self, plan: Plan, at: int, length: int) -> Iterator[Plan]:
+        """Yield the plans in which some instructions of one segment stand elsewhere, and that can be executed."""
+        placed = _placed(plan)
+        block, rest = placed[at : at + length], placed[:at] + placed[at + length :]
+        if len(block) < length or block[0][0] != block[-1][0] or plan[block[0][0]].need.fixed:
+            return
+        states = self.task.trace(self.start, (i for _, i in placed))
+        matters = self._begun(states[at]) != self._begun(states[at + length])
+        for to in range(len(rest) + 1):
+            place = _part_at(rest, to, at, block[0][0])
+            if (
+                to == at
+                or plan[place].need.fixed
+                or not (matters or self._related(block, rest[max(to - 1, 0) : to + 1]))
+            ):
+                continue
+            new = [*rest[:to], *((place, i) for _, i in block), *rest[to:]]
+            first = min(at, to)
+            if self._applicable(states[first], [i for _, i in new[first:]]):
+                yield _arranged(plan, new)
+
+    def _related(self, some: Placed, others: Placed) -> bool:
+        """Return whether some instructions concern what others do."""
+        return any(self._units(a) & self._units(b) for _, a in some for _, b in others)
+
+    def _applicable(self, state: Bits, instructions: Sequence[Instruction]) -> bool:
+        """Return whether instructions can be executed in a state."""
+        for instruction in instructions:
+            operator = self.task.by_instruction[instruction]
+            if not operator.applicable(state):
+                return False
+            state = operator.apply(state)
+        return True
+
     def _without_objects(self, plan: Plan) -> Plan:
         """Return the plan without the objects that it handles for nothing."""
         for name in dict.fromkeys(a for s in plan for i in s.instructions for a in i.args):
             plan = self._better(plan, [self._executable(plan, without=name)])
         return plan
+
+    def _without_detours(self, plan: Plan) -> Plan:
+        """Return the plan without objects that only stand for others: sugar goes into the mug that it is for."""
+        pairs = (pair for s in plan for i in s.instructions for pair in permutations(i.args, 2) if pair[0] != pair[1])
+        for name, other in dict.fromkeys(pairs):
+            direct = (self._renamed(plan, name, other, taking=taking) for taking in (True, False))
+            plan = self._better(plan, direct)
+        return plan
+
+    def _renamed(self, plan: Plan, name: str, other: str, *, taking: bool) -> Plan:
+        """Return the plan with one object instead of another, without what cannot be executed then.
+
+        Without ``taking``, that object is not taken in a hand, nor anything else begun with it.
+        """
+        found, state = [], self.start
+        for segment in plan:
+            own = []
+            for instruction in segment.instructions:
+                new = instruction if segment.need.fixed else _with_name(instruction, name, other)
+                operator = self.task.by_instruction.get(new)
+                if operator is None or not operator.applicable(state):
+                    continue
+                after = operator.apply(state)
+                if taking or segment.need.fixed or other not in new.args or self._begun(after) <= self._begun(state):
+                    own.append(new)
+                    state = after
+            found.append(replace(segment, instructions=tuple(own)))
+        return tuple(found)
 
     def _without_instructions(self, plan: Plan) -> Plan:
         """Return the plan without single instructions, and those that need them, that are there for nothing."""
@@ -337,13 +589,14 @@ class _Improvement:
                 at += 1
         return plan
 
-    def _with_window(self, plan: Plan, place: int, at: int) -> Plan:
-        last = min(at + _WINDOW, len(plan[place].instructions))
-        if last - at < 2:
+    def _with_window(self, plan: Plan, place: int, at: int, length: int = _WINDOW, cap: int = _CAP) -> Plan:
+        last = min(at + length, len(plan[place].instructions))
+        if last - at < min(2, length):
             return plan
         trace = self._states(plan)[place]
         goal = (self._relied_on(plan, place, last),)
-        return self._better(plan, (self._with(plan, place, at, last, own) for own in self._planned(trace[at], goal)))
+        found = self._planned(trace[at], goal, cap)
+        return self._better(plan, (self._with(plan, place, at, last, own) for own in found))
 
     def _relied_on(self, plan: Plan, place: int, at: int) -> Cube:
         """Return the literals of a state in a plan that the instructions and needs after it read."""
@@ -362,6 +615,46 @@ class _Improvement:
                 read |= _read_by(self.task.by_instruction[instruction], state)
         state = states[place][at]
         return Cube(read & state, read & ~state)
+
+
+def _with_name(instruction: Instruction, name: str, other: str) -> Instruction:
+    """Return an instruction with another object in the place of one."""
+    return Instruction(
+        instruction.name, tuple(other if argument == name else argument for argument in instruction.args)
+    )
+
+
+def _asked(kept: Condition, end: Bits, plan: Plan, states: Sequence[Sequence[Bits]]) -> tuple[Bits, Bits]:
+    """Return what must hold and what must not hold at the ends of the parts of a plan, as they were reached."""
+    true = false = 0
+    for cubes, state in ((kept, end), *((s.need.end, trace[-1]) for s, trace in zip(plan, states, strict=True))):
+        cube = next((c for c in cubes if c.holds(state)), Cube())
+        true |= cube.positive
+        false |= cube.negative
+    return true, false
+
+
+def _placed(plan: Plan) -> list[tuple[int, Instruction]]:
+    """Return all instructions, each with the number of its part."""
+    return [(place, i) for place, segment in enumerate(plan) for i in segment.instructions]
+
+
+def _part_at(rest: Placed, to: int, at: int, own: int) -> int:
+    """Return the number of the part to which instructions belong that are moved from ``at`` to ``to``."""
+    if to and to <= at:
+        return rest[to - 1][0]
+    return rest[to][0] if to < len(rest) else own
+
+
+def _arranged(plan: Plan, placed: Placed) -> Plan:
+    """Return the plan with other instructions, each with the number of its part."""
+    parts = (tuple(i for own, i in placed if own == number) for number in range(len(plan)))
+    return tuple(replace(s, instructions=own) for s, own in zip(plan, parts, strict=True))
+
+
+def _numbered(plan: Plan) -> list[tuple[int, int]]:
+    """Return the number of the part of each instruction, and its number there."""
+    return [(place, at) for place, segment in enumerate(plan) for at in range(len(segment.instructions))]
 
 
 def _ends(plan: Plan, states: Sequence[Sequence[Bits]]) -> Iterator[tuple[Condition, Bits]]:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import replace
-from functools import partial
+from functools import cache, partial
 from importlib.util import find_spec
 from threading import Thread
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
+from tmd.pddl.model import And, Atom, Formula, Instruction, Not, Or, Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.planning.fast_downward import binaries, fast_downward, first_plan_of_gap
 from tmd.planning.kairos import kairos, kairos_beside
@@ -21,7 +21,7 @@ from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solve
 from tmd.planning.up_planners import EngineSpec, fast_downward_engine, require_unified_planning, solve_with_engine
 
 if TYPE_CHECKING:
-    from tmd.pddl.task import Bits, Cube, Task
+    from tmd.pddl.task import Bits, Cube, Operator, Task
 
 IN_PROCESS = "in-process"
 """The optimal search of this package, the default."""
@@ -46,6 +46,9 @@ PLANNERS = (AUTO, FAST_DOWNWARD, KAIROS, IN_PROCESS, f"{UP_PREFIX}ENGINE")
 
 # Generated states up to which the greedy search's plans are about as cheap as Fast Downward's first ones.
 SOON = 2_000
+
+# More than the cost of any part of a goal.
+_FAR = 10**9
 
 # Seconds between two looks at whether the search in this process is still wanted.
 _LOOK = 0.05
@@ -118,7 +121,7 @@ def last_resort(task: Task) -> Planner:
 
 def soon(task: Task) -> Planner:
     """Return the planner of this process that is content with any plan, and gives up after some seconds."""
-    return EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON))
+    return InTurn((EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON)), PartByPart(task)))
 
 
 class TaskPlanners:
@@ -229,6 +232,114 @@ class EachAlone:
         answer = _best([self._planner.fill(state, (cube,)) for cube in goal])
         # the reason of all together
         return self._planner.fill(state, goal) if isinstance(answer, Unreachable) else answer
+
+
+class PartByPart:
+    """Reaches the parts of a goal one after another, the nearest first, and keeps those that it has reached.
+
+    Where many things are to be put away, or one part is for the next, each part is near, and all together are far.
+    Where no part is near, an instruction that brings one about is made ready: the bowl gets into a shut microwave.
+
+    Args:
+        task: The instantiated problem.
+    """
+
+    # Generated states after which the optimal search for one part gives up, then the greedy one, and all together.
+    SHORT, LONG, ALL = 500, 4_000, 15_000
+    # Maximum number of instructions that are made ready for one another.
+    DEPTH = 2
+
+    def __init__(self, task: Task) -> None:
+        from tmd.planning.search.in_process import FirstSearch, OptimalSearch
+
+        self._task = task
+        self._searches = OptimalSearch(task, cap=self.SHORT), FirstSearch(task, cap=self.LONG)
+        self._left = 0
+        self._achievers = cache(lambda part: tuple(self._adding(part)))
+
+    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
+        """Return the cheapest plan to one of the alternatives; those with the fewest open parts are tried first."""
+        self._left = self.ALL
+        plans = (self._parts(state, cube, self.DEPTH) for cube in sorted(goal, key=partial(_open, state)))
+        found = [answer for answer in plans if answer is not None]
+        return min(found, key=lambda answer: answer.cost) if found else GaveUp("the parts of the goal")
+
+    def _parts(self, state: Bits, cube: Cube, depth: int) -> Filled | None:
+        """Return a plan for one alternative."""
+        plan: tuple[Instruction, ...] = ()
+        cost, known = 0, dict.fromkeys(_literals(cube), 0)
+        while not cube.holds(state):
+            kept = cube._replace(positive=cube.positive & state, negative=cube.negative & ~state)
+            parts = sorted((p for p in known if not p.holds(state)), key=lambda p: known[p])
+            best = self._nearest(state, kept, parts, known)
+            if best is None:
+                ready = (self._made_ready(state, kept, part, depth) for part in parts)
+                best = next((answer for answer in ready if answer is not None), None)
+            if best is None:
+                return None
+            plan, state, cost = (*plan, *best.plan), best.state, cost + best.cost
+        return Filled(plan, state, cost)
+
+    def _nearest(self, state: Bits, kept: Cube, parts: Sequence[Cube], known: dict[Cube, int]) -> Filled | None:
+        """Return the cheapest plan to one of several parts; ``known`` has what each cost last."""
+        best: Filled | None = None
+        for part in parts:
+            if best is not None and best.cost <= known[part]:
+                break
+            answer = self._near(state, kept.joined(part) or part)
+            known[part] = answer.cost if answer is not None else _FAR
+            if answer is not None and (best is None or answer.cost < best.cost):
+                best = answer
+        return best
+
+    def _near(self, state: Bits, cube: Cube) -> Filled | None:
+        """Return a plan for a part of a goal that is near."""
+        for search in self._searches if self._left > 0 else ():
+            answer = search.fill(state, (cube,))
+            self._left -= search.generated
+            if not isinstance(answer, GaveUp):
+                return answer if isinstance(answer, Filled) else None
+        return None
+
+    def _made_ready(self, state: Bits, kept: Cube, part: Cube, depth: int) -> Filled | None:
+        """Return a plan that makes an instruction ready which brings about a part, and ends with it."""
+        if not depth or self._left <= 0:
+            return None
+        ways = [(o, both) for o, cube in self._achievers(part) if (both := cube.joined(kept)) is not None]
+        for operator, cube in sorted(ways, key=lambda way: _open(state, way[1])):
+            before = self._parts(state, cube, depth - 1)
+            if before is None or not operator.applicable(before.state):
+                continue
+            end = operator.apply(before.state)
+            if kept.holds(end) and part.holds(end):
+                return Filled((*before.plan, operator.instruction), end, before.cost + operator.cost)
+        return None
+
+    def _adding(self, part: Cube) -> Iterator[tuple[Operator, Cube]]:
+        """Yield the operators that bring about a literal, each with what must hold for that."""
+        for operator in self._task.operators:
+            if operator.add & part.positive or operator.delete & part.negative:
+                yield operator, operator.precondition
+            for condition, add, delete in operator.conditional:
+                if add & part.positive or delete & part.negative:
+                    both = operator.precondition.joined(condition)
+                    if both is not None:
+                        yield operator, both
+
+
+def _open(state: Bits, cube: Cube) -> int:
+    """Return the number of literals of a cube that do not hold."""
+    return (cube.positive & ~state).bit_count() + (cube.negative & state).bit_count()
+
+
+def _literals(cube: Cube) -> list[Cube]:
+    """Return the literals of a cube, each as a cube."""
+    from tmd.pddl.task import Cube
+
+    def bits(whole: Bits) -> list[Bits]:
+        return [1 << n for n in range(whole.bit_length()) if whole >> n & 1]
+
+    return [*(Cube(bit, 0) for bit in bits(cube.positive)), *(Cube(0, bit) for bit in bits(cube.negative))]
 
 
 class InTurn:

@@ -110,6 +110,9 @@ def _below(shown: ShownGoal, *, verbose: bool) -> list[str]:
     pddl = flat(goal.formula) if verbose else shortened(flat(folded(goal.formula)))
     source = f"   {goal.origin}" if goal.source else ""
     others = [f"not taken: {flat(other.formula)}   {other.why}" for other in goal.others if verbose]
+    if shown.rivals and not verbose:
+        further = f", or {len(shown.rivals) - 1} more" if len(shown.rivals) > 1 else ""
+        others = [f"taken so, not: {shortened(shown.rivals[0])}{further}"]
     more = f"   ({len(goal.others)} not taken: --verbose)" if goal.others and not verbose else ""
     return [f"{pddl}{source}{more}", *([f"note: {goal.note}"] if goal.note else []), *others]
 

@@ -29,6 +29,7 @@ class ShownGoal:
         since: After how many steps of the plan it comes to hold, for good if it holds in the end; ``None`` for never.
         until: Where it was reached and does not hold in the end, the number of the step that undid it.
         reached: Whether it holds when its own part of the plan is done.
+        rivals: Other candidate goals that there are plans for, in words, the likeliest first.
     """
 
     goal: StepGoal
@@ -36,6 +37,7 @@ class ShownGoal:
     since: int | None = None
     until: int | None = None
     reached: bool = False
+    rivals: tuple[str, ...] = ()
 
     @property
     def asked(self) -> bool:
@@ -76,7 +78,14 @@ class ShownGoal:
 def in_words(goals: Iterable[StepGoal], problem: Problem) -> list[ShownGoal]:
     """Return the goals in words."""
     wording = Wording(problem)
-    return [ShownGoal(goal, _words(goal.formula, wording)) for goal in goals]
+    return [ShownGoal(goal, _words(goal.formula, wording), rivals=_rivals(goal, wording)) for goal in goals]
+
+
+def _rivals(goal: StepGoal, wording: Wording) -> tuple[str, ...]:
+    """Return the other candidate goals that there are plans for and that are put otherwise."""
+    own = _words(goal.formula, wording)
+    others = dict.fromkeys(_words(other.formula, wording) for other in goal.others if other.planned)
+    return tuple(words for words in others if words and words != own)
 
 
 def _words(formula: Formula | None, wording: Wording) -> str:

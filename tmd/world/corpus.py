@@ -56,10 +56,10 @@ class Corpus:
         """
         if is_environment_file(environment):
             problem = self.read(Path(environment))
-            return make_world(problem.name, problem, self.lexicon)
+            return make_world(problem.name, problem, self.lexicon, costs=self.folder.costs)
         name = str(environment)
         if name not in self._worlds:
-            self._worlds[name] = make_world(name, self.read(self.file(name)), self.lexicon)
+            self._worlds[name] = make_world(name, self.read(self.file(name)), self.lexicon, costs=self.folder.costs)
         return self._worlds[name]
 
     def file(self, environment: str | Path) -> Path:

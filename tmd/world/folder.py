@@ -79,6 +79,17 @@ class DomainFolder:
         """The PDDL that people write: ``instructions.pddl`` where classes are compiled in."""
         return self.path / "instructions.pddl"
 
+    @cached_property
+    def costs(self) -> dict[str, int]:
+        """The costs of instructions that ``skills.yaml`` gives.
+
+        Raises:
+            TmdError: A cost is no whole number of at least 0.
+        """
+        from tmd.world.costs import read_costs
+
+        return read_costs(self.path / "skills.yaml")
+
     @property
     def lexicon_path(self) -> Path | None:
         """``lexicon.yaml``, if there is one."""

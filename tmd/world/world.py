@@ -22,6 +22,7 @@ from tmd.pddl.model import OBJECT, TRUE, Domain, GroundAtom, Instruction, Proble
 from tmd.pddl.task import Bits, Task
 from tmd.short_repr import short_repr
 from tmd.world.compile import PART_OF as PART_OF  # goals and studio need it as well
+from tmd.world.costs import with_costs
 from tmd.world.verb_clause import VerbClause
 
 
@@ -37,7 +38,13 @@ class World:
     mentions: Mentions
 
 
-def make_world(name: str, problem: Problem, lexicon: Lexicon, kinds: Mapping[str, str] | None = None) -> World:
+def make_world(
+    name: str,
+    problem: Problem,
+    lexicon: Lexicon,
+    kinds: Mapping[str, str] | None = None,
+    costs: Mapping[str, int] | None = None,
+) -> World:
     """Ground ``problem`` and prepare its objects and nouns.
 
     The goal and the metric of ``problem`` are dropped, because the request says what is wanted.
@@ -47,8 +54,10 @@ def make_world(name: str, problem: Problem, lexicon: Lexicon, kinds: Mapping[str
         problem: The environment.
         lexicon: The words of the domain.
         kinds: For objects whose PDDL type says less than that, what kind of thing each is.
+        costs: The costs of actions, where some differ.
     """
     problem = replace(problem, goal=TRUE, minimize_cost=False, metric_location=None)
+    problem = with_costs(problem, costs or {})
     task = ground(problem)
     profiles = Profiles(task)
     return World(name, task, universe(problem), profiles, Mentions(profiles, lexicon, kinds))

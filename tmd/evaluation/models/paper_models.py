@@ -253,13 +253,13 @@ class Crf:
         planners = TaskPlanners(world.task, planner, IN_PROCESS, config.cap)
         if config.goals:
             # a refused text is scored by what --guess makes of it: nothing at all would be compared with nothing
-            config = replace(config, guess=True)
+            config = replace(config, guess=True, orderly=False)
         if config.language:
             reader = reader_of(config, taught.library, taught.goals)
             dialogue = reader.begin(example.demonstration.text, world, world.task.init)
         else:
             dialogue = Dialogue(Parsed("", self._clauses(example, data)))
-        # people who demonstrate leave doors open and things in their hands: plans are compared without such restoration
+        # people who demonstrate leave doors open and things in their hands: plans are compared without such tidying
         restored = restored_of(world, taught.library, taught.goals, config, declared=False)
         return infer(
             dialogue, world, taught.library, energy, planners, config, policy=policy, restored=restored, top=top

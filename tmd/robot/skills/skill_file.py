@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, Field
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Domain, Instruction
@@ -44,6 +44,8 @@ class SkillEntry(BaseModel):
     relation: str | None = None
     setting: str | None = None
     seconds: float = 2.0
+    # read by tmd.world.costs as well
+    cost: int = Field(default=1, strict=True, ge=0)
 
 
 class Exposure(BaseModel):
