@@ -256,8 +256,6 @@
       (forall (?y - thing ?z - item) (when (and (guards ?x ?y) (at ?z ?y in)) (not (hidden ?z))))
       (forall (?y - thing ?z - item ?w - part)
         (when (and (guards ?x ?y) (part_of ?w ?z) (at ?z ?y in)) (not (hidden ?w))))
-      (forall (?y - thing ?z - item ?v - item ?w - thing)
-        (when (and (guards ?x ?y) (at ?z ?y in) (at ?v ?z in) (same_unit ?w ?v) (not (shut ?z))) (not (hidden ?w))))
       (forall (?y - fixture) (when (interrupts ?x ?y) (not (active ?y))))
       (forall (?y - fixture ?z - item)
         (when (and (interrupts ?x ?y) (at ?z ?y in)) (not (heating ?z))))))
@@ -271,9 +269,7 @@
       (forall (?y - thing) (when (guards ?x ?y) (shut ?y)))
       (forall (?y - thing ?z - item) (when (and (guards ?x ?y) (at ?z ?y in)) (hidden ?z)))
       (forall (?y - thing ?z - item ?w - part)
-        (when (and (guards ?x ?y) (part_of ?w ?z) (at ?z ?y in)) (hidden ?w)))
-      (forall (?y - thing ?z - item ?v - item ?w - thing)
-        (when (and (guards ?x ?y) (at ?z ?y in) (at ?v ?z in) (same_unit ?w ?v)) (hidden ?w)))))
+        (when (and (guards ?x ?y) (part_of ?w ?z) (at ?z ?y in)) (hidden ?w)))))
 
   ; Press x, a button or switch. What it controls starts, or stops if it was working; channel or volume go one
   ; further, and for these the television or player has to be on. The buttons of a remote control want it in the hand.

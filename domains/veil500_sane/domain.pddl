@@ -238,7 +238,10 @@
   (:action scoopto
     :parameters (?x - scooper ?y - item)
     :precondition (and
-      (holding pr2 ?x) (is ?x scoopsleft) (not (= ?x ?y)) (or (holding pr2 ?y) (and (near pr2 ?y) (not (shut_away ?y)))))
+      (holding pr2 ?x)
+      (is ?x scoopsleft)
+      (not (= ?x ?y))
+      (or (holding pr2 ?y) (and (near pr2 ?y) (not (shut_away ?y)))))
     :effect (and
       (when (declares ?y icecream) (is ?y icecream))
       (not (is ?x scoopsleft))))

@@ -22,7 +22,7 @@ from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
 from tmd.goals.words import BE, is_condition, is_noun, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, PUT, Clause, Condition, Mood, Parsed, Quantifier, Skipped
-from tmd.language.lexicon.lexicon import Lexicon, singular
+from tmd.language.lexicon.lexicon import Lexicon, section, singular
 from tmd.language.lexicon.names import with_names
 from tmd.language.parser import NO_VERB, parse
 from tmd.language.syntax.brackets import REMINDER
@@ -217,7 +217,8 @@ class RuleDialogue(Dialogue):
         others = (other for other in self.steps if isinstance(other, RuleStep) and other is not step)
         asked = any(other.main and not (other.optional or other.clause.told) for other in others)
         bare = not clause.objects and is_verb(clause.verb, "parting")  # "time to go home"
-        return asked and (clause.told or bare or (clause.implied and nothing))
+        wished = not section("wishing").isdisjoint(clause.text.lower().split())
+        return asked and (clause.told or bare or (clause.implied and nothing and not wished))
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``: what its nouns turned out to mean."""

@@ -32,7 +32,7 @@ from tmd.pddl.ground_formula import (
     negation,
     only_negative,
 )  # fmt: skip
-from tmd.pddl.model import Atom, Formula, Or, conjuncts, predicates_of
+from tmd.pddl.model import Atom, Formula, Not, Or, conjuncts, predicates_of
 from tmd.planning.unsolvable import Impossible
 
 _NEVER_OTHERWISE = Or((FALSE,))
@@ -182,11 +182,28 @@ class RowReader:
                 return found
             formula, used = found
             formula = self._as_at_first(formula, reading)
+            if used is not None and used.source == ACTIONS:
+                formula = self._taken_out(formula, unit, reading)
             formulas.append(self._where_spoken_of(formula, used, unit, reading))
         clause = reading.clause
         either = any(clause.phrase(name).either for name in clause.direct)
         none = all(is_none(n, clause) for n in clause.direct or ("",))
         return disjunction(formulas) if either or none else conjunction(formulas), used
+
+    def _taken_out(self, formula: Formula, unit: Unit, reading: ClauseReading) -> Formula:
+        """Return that a thing is held as that it is also no longer where it is taken from.
+
+        That is what the clause says, "out of the trunk", or wherever it is: "get the sword out".
+        """
+        if not isinstance(formula, Atom):
+            return formula
+        origins = (t for r, t in unit.relations if is_relation(r, "origin"))
+        places = {name for target in origins for name in self.referents.targets(target, reading)}
+        out = reading.clause.verb.rpartition("_")[2] in section("out_words")
+        facts = [f for term in formula.terms for f in self.nouns.facts_about(term) if f.args[0] == term]
+        left = [f for f in facts if places & set(f.args[1:]) or (out and len(f.args) > 1)]
+        now = (f for f in left if f.predicate in self.grounder.changing and self.grounder.holds(f, reading.state))
+        return conjunction([formula, *(Not(Atom(f.predicate, f.args)) for f in now)])
 
     def _is_vacuous(self, unit: Unit, refusal: Refusal, reading: ClauseReading) -> bool:
         """Return whether all things of a kind in some state are meant, and none of the kind is."""

@@ -247,7 +247,7 @@ class _Words:
         why = "predicates of place"
         yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)
         yield self._row(_ROWS["back"], (Slot("?x"),), conjunction(list(back)), "put_back X", why)
-        both = (Slot("?x"), Slot("?z", _ROWS["with"]))
+        both = (Slot("?x"), Slot("?z", (*_ROWS["with"], *_ROWS["for"])))
         yield self._row(_ROWS["swap"], both, conjunction(list(swapped)), "swap X with Z", why)
 
     def _all_places(self) -> dict[str, list[Formula]]:
@@ -366,6 +366,8 @@ class _Words:
         """
         for predicate in self.domain.predicates:
             first, *rest = split_name(predicate.name)
+            if rest and first in words_of("names", "covering"):
+                first, *rest = rest  # "mop the gallery", with ``floor_mopped``
             verb = participle(first)
             things = self.things(predicate)
             said = predicate.name in self.made and predicate.name not in self.passing

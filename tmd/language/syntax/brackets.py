@@ -291,7 +291,8 @@ class Bracketer(ClauseEnds):
             token.kind = K.DET  # "neither the lamp nor the radio should be on"
             return self._keep(at)
         contrast = self.kind(self.back(at)) is K.COMMA and self.kind(self.peek(at)) in NP | {K.P}
-        if self._verb is None and self._named() and not contrast:  # "chips in the bowl, not on the plate"
+        apart = self.kind(self.back(at)) is K.CC and self.kind(self.peek(at)) is K.V  # "…, but don't wrap it"
+        if self._verb is None and self._named() and not (contrast or apart):  # "chips in the bowl, not on the plate"
             token.kind = K.AUX  # "the mug shouldn't be there"
             return self._statement(at, negated=True)
         deed = self.past(at + 1, "(NEG|IDLE|AUX|SUBJECT|TO|INF)*")
@@ -531,6 +532,7 @@ class Bracketer(ClauseEnds):
         heads = [token.text for token in self.out[end:] if token.kind is K.N][-1:]
         ends = [t.text for t in self.tokens[begin:behind] if t.kind is K.N][-1:]
         owns = [token.text for token in self.out[start:end] if token.kind is K.N][-1:]
+        ends, owns, heads = ([name.rstrip("_0123456789") for name in names] for names in (ends, owns, heads))
         pairs = ((similarity(ends[0], other[0]) if ends and other else 0.0) for other in (owns, heads))
         own, last = pairs
         return bool(heads) and own > last

@@ -29,7 +29,7 @@ from tmd.language.syntax.brackets import ALSO, RELATIVE
 from tmd.language.syntax.grammar import CHOICE, Leaf, Node, is_a, leaves, trees
 from tmd.language.syntax.joins import SETTING
 from tmd.language.syntax.noun_phrases import Phrase, also_of, named_in, phrases_of
-from tmd.language.syntax.tokens import IMPLIED, Kind, Token
+from tmd.language.syntax.tokens import EXISTS, IMPLIED, Kind, Token
 
 _MULTIPLE = "; "
 
@@ -377,7 +377,8 @@ class Attachment:
         tells = opening in section("origins") or next(leaves(place)).form == RELATIVE
         origin = tells and len(rest) > 1 and is_a(rest[1], "place")
         goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
-        placing = self.draft.verb.stem in section("placing") | section("belonging")
+        places = section("placing") | section("belonging") | section("getting") | section("wishing")
+        placing = self.draft.verb.stem in places or any(t.kind is Kind.PRON for t in leaves(place))
         opposite = isinstance(place, Tree) and any(
             w in section("other_words") for p in named_in(place.children) for w in p.lead
         )
@@ -406,6 +407,8 @@ class Attachment:
         return name in section("static") and not going
 
     def _with_hosted(self, stem: str, targets: list[Phrase]) -> bool:
+        if self.draft.verb.form == EXISTS:
+            return False  # "there should be a glass on the table with juice in it"
         if self._tells_one():
             return True
         if any(not section("tools").isdisjoint((t.name, t.name.rpartition("_")[2])) for t in targets):

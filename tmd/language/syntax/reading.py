@@ -30,8 +30,8 @@ from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft, as_one
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
-from tmd.language.syntax.sayings import EXISTS, Saying, demand, described, empty_draft, give_back, name_verb
-from tmd.language.syntax.tokens import IMPLIED, Kind, Token
+from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, give_back, name_verb
+from tmd.language.syntax.tokens import EXISTS, IMPLIED, Kind, Token
 
 _ASIDES = ("demand", "statement")
 _DENIALS = ("denial", "manner")
@@ -376,6 +376,10 @@ class TextReading:
         """Read a unit without a verb: prohibitions, demands, statements, and what is only named."""
         rest = [n for n in nodes if not is_a(n, *_ASIDES, *_DENIALS)]
         last = self.drafts[-1] if self.drafts else None
+        denied_next = trees(nodes, "denial") and about_things(rest) and _precedes(rest, trees(nodes, "denial")[0])
+        if denied_next and not trees(nodes, *_ASIDES):
+            self._named(rest)  # "the urn in the workshop, but don't wrap it"
+            rest = []
         for node in trees(nodes, *_ASIDES, *_DENIALS):
             if node.data in _ASIDES:
                 self._aside(node, trees(nodes, "condition"))
@@ -498,7 +502,15 @@ class TextReading:
             if before is not None and same and not draft.conditions and not draft.verb.otherwise:
                 draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in section("guards")]
                 draft.fronted = True
+            if before is not None and before.verb.otherwise and self._goes_on(before, draft):
+                draft.verb.otherwise = True  # "otherwise stop it and clean it"
             before = draft
+
+    def _goes_on(self, before: ClauseDraft, draft: ClauseDraft) -> bool:
+        """Return whether a clause is joined to the one before it, and is not what comes after it in any case."""
+        between = re.findall(r"[a-z]+", self.text[before.verb.span.end : draft.verb.span.start].lower())
+        same = before.verb.sentence == draft.verb.sentence and not draft.conditions
+        return same and section("then_words").isdisjoint(between)
 
 
 def _is_taken_up(nodes: Sequence[Node]) -> bool:
@@ -662,6 +674,11 @@ def _mixed(node: Tree[Leaf]) -> bool:
 def _denied_whole(node: Tree[Leaf]) -> bool:
     """Return whether a negation is about a clause as a whole."""
     return next(leaves(node)).negated and not _mixed(node)
+
+
+def _precedes(nodes: Sequence[Node], other: Node) -> bool:
+    """Return whether nodes stand before another one."""
+    return next(leaves(nodes[0])).span.start < next(leaves(other)).span.start
 
 
 def _is_denied(node: Tree[Leaf], saying: Saying) -> bool:

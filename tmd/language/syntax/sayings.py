@@ -15,10 +15,8 @@ from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in
-from tmd.language.syntax.tokens import IMPLIED, VERBAL, Kind, Token
+from tmd.language.syntax.tokens import EXISTS, IMPLIED, VERBAL, Kind, Token
 
-EXISTS = "exists"
-"""The form of *be* in "there is"."""
 Attach = Callable[[ClauseDraft, Sequence[Node], Sequence[Node]], None]
 """Attaches arguments, and what a predicate says of them, to a clause."""
 
@@ -68,7 +66,7 @@ class Saying:
         wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
         settled = section("belonging") | section("staying") | section("returning")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
-        placed = placed or (bool(trees(self.rest, "place")) and self._goes())
+        placed = placed or self._goes()
         duty = any(t.text in section("duties") for t in words) and not self._somebody()  # "we have guests"
         return wished or placed or duty or self._wants()
 
@@ -77,7 +75,9 @@ class Saying:
         goes = self.verbs[-1:]
         planned = [v for v in goes if v.kind is Kind.ING and v.stem in section("belonging")]
         allowed = [v for v in goes if v.stem in section("waiting") and self._helped("asking")]
-        return about_things(self.subject) and bool(planned or allowed) and not self._somebody()
+        places = section("static") | section("arrivals")
+        there = any(next(leaves(node)).text in places for node in trees(self.rest, "place"))
+        return there and about_things(self.subject) and bool(planned or allowed) and not self._somebody()
 
     def _somebody(self) -> bool:
         """Return whether its subject is somebody who is not asked."""

@@ -388,7 +388,7 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) ->
             token.kind = Kind.ADV
         elif token.capital and not lexicon.knows(singular(word)):
             token.form = NAME
-    if token.kind is Kind.SUB and starts and word in lexicon.verbs:
+    if token.kind in (Kind.SUB, Kind.ADV) and starts and word in lexicon.verbs:
         # "Till the bed": the domain has such a verb
         token.kind, token.stem, token.form, token.strength = Kind.WORD, word, "base", 2
     elif token.kind in (Kind.WORD, Kind.ADJ):

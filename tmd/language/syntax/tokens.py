@@ -73,6 +73,8 @@ class Kind(StrEnum):
     """Joins the parts of a subordinate clause."""
 
 
+EXISTS = "exists"
+"""The form of *be* in "there is"."""
 IMPLIED = "implied"
 """The form of a verb that the text leaves out: "A glass of milk, please."."""
 NAME = "name"
