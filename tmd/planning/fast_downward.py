@@ -242,7 +242,7 @@ def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool,
     return Solved(plan, verdict.cost, optimal)
 
 
-def first_plan_of_gap(problem: Problem, seconds: int = 3) -> Solution:
+def first_plan_of_gap(problem: Problem, seconds: int = 10) -> Solution:
     """Return the first plan of Fast Downward for a gap that nothing else fills.
 
     Args:
