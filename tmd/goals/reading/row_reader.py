@@ -32,7 +32,7 @@ from tmd.pddl.ground_formula import (
     negation,
     only_negative,
 )  # fmt: skip
-from tmd.pddl.model import Atom, Formula, Not, Or, conjuncts, predicates_of
+from tmd.pddl.model import Atom, Formula, GroundAtom, Not, Or, conjuncts, predicates_of
 from tmd.planning.unsolvable import Impossible
 
 _NEVER_OTHERWISE = Or((FALSE,))
@@ -200,10 +200,16 @@ class RowReader:
         origins = (t for r, t in unit.relations if is_relation(r, "origin"))
         places = {name for target in origins for name in self.referents.targets(target, reading)}
         out = reading.clause.verb.rpartition("_")[2] in section("out_words")
-        facts = [f for term in formula.terms for f in self.nouns.facts_about(term) if f.args[0] == term]
-        left = [f for f in facts if places & set(f.args[1:]) or (out and len(f.args) > 1)]
-        now = (f for f in left if f.predicate in self.grounder.changing and self.grounder.holds(f, reading.state))
-        return conjunction([formula, *(Not(Atom(f.predicate, f.args)) for f in now)])
+        facts = [f for term in formula.terms for f in self._standing(term, reading)]
+        left = (f for f in facts if out or places & set(f.args[1:]))
+        return conjunction([formula, *(Not(Atom(f.predicate, f.args)) for f in left)])
+
+    def _standing(self, name: str, reading: ClauseReading) -> Iterator[GroundAtom]:
+        """Yield the facts that say where a thing is now, and may change."""
+        for fact in self.nouns.facts_about(name):
+            changes = fact.predicate in self.grounder.changing and self.grounder.holds(fact, reading.state)
+            if changes and len(fact.args) > 1 and fact.args[0] == name:
+                yield fact
 
     def _is_vacuous(self, unit: Unit, refusal: Refusal, reading: ClauseReading) -> bool:
         """Return whether all things of a kind in some state are meant, and none of the kind is."""

@@ -376,8 +376,7 @@ class TextReading:
         """Read a unit without a verb: prohibitions, demands, statements, and what is only named."""
         rest = [n for n in nodes if not is_a(n, *_ASIDES, *_DENIALS)]
         last = self.drafts[-1] if self.drafts else None
-        denied_next = trees(nodes, "denial") and about_things(rest) and _precedes(rest, trees(nodes, "denial")[0])
-        if denied_next and not trees(nodes, *_ASIDES):
+        if _is_denied_next(rest, nodes):
             self._named(rest)  # "the urn in the workshop, but don't wrap it"
             rest = []
         for node in trees(nodes, *_ASIDES, *_DENIALS):
@@ -676,9 +675,12 @@ def _denied_whole(node: Tree[Leaf]) -> bool:
     return next(leaves(node)).negated and not _mixed(node)
 
 
-def _precedes(nodes: Sequence[Node], other: Node) -> bool:
-    """Return whether nodes stand before another one."""
-    return next(leaves(nodes[0])).span.start < next(leaves(other)).span.start
+def _is_denied_next(named: Sequence[Node], nodes: Sequence[Node]) -> bool:
+    """Return whether things are named, and a denial follows."""
+    denials = trees(nodes, "denial")
+    if not denials or trees(nodes, *_ASIDES) or not about_things(named):
+        return False
+    return next(leaves(named[0])).span.start < next(leaves(denials[0])).span.start
 
 
 def _is_denied(node: Tree[Leaf], saying: Saying) -> bool:
