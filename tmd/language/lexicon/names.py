@@ -64,9 +64,9 @@ def with_names(lexicon: Lexicon, objects: Sequence[str], actions: Sequence[str])
     its particle ("pump up").
     """
     parts = [words for name in objects if (words := tuple(word for word in split_name(name) if word.isalpha()))]
-    doing = [words for words in map(split_name, actions) if _reading(lexicon, words)[:2] == (words[0], "base")]
+    doing = [words for words in map(split_name, actions) if len(words) == 1 or _is_verb(lexicon, words[0])]
     phrasal = ("_".join(words[:2]) for words in doing if not section("particles").isdisjoint(words[1:2]))
-    compounds = {words for words in parts if len(words) > 1 and _reading(lexicon, words)[2] < _SURE}
+    compounds = {words for words in parts if _is_compound(lexicon, words)}
     return replace(
         lexicon,
         compounds=lexicon.compounds | compounds,
@@ -74,6 +74,17 @@ def with_names(lexicon: Lexicon, objects: Sequence[str], actions: Sequence[str])
         verbs=lexicon.verbs | {words[0] for words in doing},
         phrasal={name: name for name in sorted(phrasal)} | dict(lexicon.phrasal),
     )
+
+
+def _is_compound(lexicon: Lexicon, words: tuple[str, ...]) -> bool:
+    """Return whether the words of an object's name are one noun, and the first no instruction."""
+    return len(words) > 1 and _reading(lexicon, words)[2] < _SURE
+
+
+def _is_verb(lexicon: Lexicon, word: str) -> bool:
+    """Return whether a word is the base form of a verb, by itself or joined with its particle: "backup"."""
+    stems = (word.removesuffix(particle) for particle in section("particles") if word.endswith(particle))
+    return any(stem and _reading(lexicon, (stem,))[:2] == (stem, "base") for stem in (word, *stems))
 
 
 def _reading(lexicon: Lexicon, words: Sequence[str]) -> tuple[str, str, int]:

@@ -555,7 +555,11 @@ class Bracketer(ClauseEnds):
 
     def _stop(self, at: int) -> int:
         token = self.tokens[at]
-        if token.text == ":" and self._verb is None and self._named() and self.kind(at + 1) is K.V:
+        if token.text == ":" and self._verb is None and self._named() and self.kind(self.peek(at)) is K.V:
+            if self.follows(self.peek(at) + 1, "IDLE* BREAK"):  # "window: please close"
+                self.out.insert(self._subject, self.tokens[self.peek(at)])
+                self._verb = self.out[self._subject]
+                return self.peek(at) + 1
             return at + 1  # "the radio: put it in the crate"
         ended = token.kind is K.STOP
         token.kind, token.form = K.SEP, ALSO if self._too(at + 1 + (self.kind(at + 1) is K.CC)) else ""
@@ -793,16 +797,27 @@ class Bracketer(ClauseEnds):
             return self._bracket(token, K.SUB, at + 1, end)
         if self.among(at, "replacing"):
             return self._replaced(at)
+        if self._benefits(at):
+            return at + 2
         if self.kind(at + 1) is K.ING and self.among(at, "without_words", "by_words"):
             return self._manner(at)
         if self.kind(at + 1) is K.ING and self._verb is not None and self._verb.stem in section("stopping"):
             return at + 1  # "refrain from opening it"
-        state = self.among(at, "end_states") and self.kind(at + 1) not in NP | {K.ING, K.V, K.OF}
-        if state and self._is_state(at):
+        if self._is_state_word(at):
             token.kind = K.STATE
         elif self.among(at, "of_words") and self._last() in HEADS:
             token.kind = K.OF
         return self._keep(at)
+
+    def _is_state_word(self, at: int) -> bool:
+        """Return whether a preposition is a state: "the lamp on"."""
+        state = self.among(at, "end_states") and self.kind(at + 1) not in NP | {K.ING, K.V, K.OF}
+        return state and self._is_state(at)
+
+    def _benefits(self, at: int) -> bool:
+        """Return whether something is done for somebody: "lay it on the bench for him"."""
+        somebody = self.among(at, "awaited") and self.among(at + 1, "animate") and self.follows(at + 2, "BREAK")
+        return somebody and self._verb is not None and self._verb.stem not in section("waiting")
 
     def _name_target(self, at: int) -> None:
         """Give a preposition a noun phrase: "in there", "with neither milk nor sugar", "without using the axe"."""
@@ -876,7 +891,9 @@ class Bracketer(ClauseEnds):
 
     def _inner_other(self, at: int) -> int:
         """Keep the subject as a pronoun, and "let" as a verb."""
-        self.tokens[at].kind = K.PRON if self.kind(at) is K.SUBJECT else K.V
+        token = self.tokens[at]
+        token.kind = K.PRON if token.kind is K.SUBJECT else K.V
+        token.text = token.text.partition("'")[0]  # "once you've done that"
         return self._keep(at)
 
     def _inner_noun(self, at: int) -> int:

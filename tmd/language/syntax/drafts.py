@@ -379,6 +379,7 @@ class Attachment:
         goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
         places = section("placing") | section("belonging") | section("getting") | section("wishing")
         placing = self.draft.verb.stem in places or any(t.kind is Kind.PRON for t in leaves(place))
+        placing = placing and name not in section("with_words")  # "with neither milk nor sugar in it"
         opposite = isinstance(place, Tree) and any(
             w in section("other_words") for p in named_in(place.children) for w in p.lead
         )

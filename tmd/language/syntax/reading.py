@@ -368,6 +368,8 @@ class TextReading:
         placed = trees(nodes, "place") and not all(p.name in section("one_words") for p in copy.direct)
         if not placed and copy.result is None:
             copy.take_places(draft)  # "…, but not the one on the shelf"
+        if any(p.said().other for p in copy.direct):
+            copy.relations = copy.relations[-1:]  # what tells which one it is, is not said of the other one
         return copy
 
     # requests other than imperatives
@@ -677,7 +679,7 @@ def _denied_whole(node: Tree[Leaf]) -> bool:
 
 def _is_denied_next(named: Sequence[Node], nodes: Sequence[Node]) -> bool:
     """Return whether things are named, and a denial follows."""
-    denials = trees(nodes, "denial")
+    denials = [node for node in trees(nodes, "denial") if any(t.kind is Kind.V for t in leaves(node))]
     if not denials or trees(nodes, *_ASIDES) or not about_things(named):
         return False
     return next(leaves(named[0])).span.start < next(leaves(denials[0])).span.start

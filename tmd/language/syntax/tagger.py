@@ -301,6 +301,9 @@ def _compounds(tokens: list[Token], lexicon: Lexicon) -> None:
         if first.kind is last.kind is Kind.WORD and f"{first.text}{singular(last.text)}" in lexicon.kinds:
             for token in (first, last):
                 token.kind, token.stem, token.strength = Kind.N, "", 0
+        elif f"{first.text}{last.text}" in lexicon.verbs and last.text in section("particles"):
+            first.kind, first.stem, first.form, first.strength = Kind.WORD, f"{first.text}{last.text}", "base", 3
+            last.kind = Kind.FILLER  # "back up", where the domain has "backup"
     for words in lexicon.compounds:
         for at in (at for at, token in enumerate(tokens) if token.text == words[0]):
             run = tokens[at : at + len(words)]

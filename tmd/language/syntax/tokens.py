@@ -143,6 +143,7 @@ _AMPERSAND = "&amp;"
 MARKUP = "a sign, not a word"
 """Why HTML, entities and pictures are skipped."""
 ADDRESS = "addresses somebody"
+CLOSING = "closes a letter"
 _RUN = 3
 """Repeated runs of at least this many words are slips."""
 _LONGEST_RUN = 120
@@ -153,6 +154,8 @@ _UNITS = frozenset("%°")
 _LONG_WORD = 60
 _LABEL = 4
 """Maximum number of words before the colon of a note."""
+_SALUTATION = 5
+"""Maximum number of words and signs of a salutation, or of a closing: "Dear all,", "Kind regards,"."""
 _NOTE = 12
 """Tokens on each side of the colon that are looked at."""
 _TITLE_SHARE = 0.4
@@ -175,12 +178,27 @@ def tokenise(text: str) -> list[Token]:
             tokens[-1:] = _cut(tokens[-1], pairs("its"))  # as people write it: "when its done"
         tokens += _cut(token, pairs("two_words"))
     tokens = _dictated(tokens)
+    _letter(tokens, text)
     _units(tokens)
     _enumeration(tokens, text)
     tokens = _labelled(tokens)
     _capitals(tokens, text)
     _articles(tokens, text)
     return tokens
+
+
+def _letter(tokens: list[Token], text: str) -> None:
+    """Set the salutation and the closing of a letter aside: lines of their own that begin with such a word."""
+    lines = text.splitlines(keepends=True)
+    start, closed = 0, False
+    for number, line in enumerate(lines if len(lines) > 1 else []):
+        words = [t for t in tokens if start <= t.span.start < start + len(line)]
+        first, short = words[0].text if words else "", len(words) <= _SALUTATION
+        closed = closed or (number > 0 and short and first in section("closings"))
+        if closed or (not number and short and first in section("salutations")):
+            for token in words:
+                token.kind, token.note = Kind.SKIP, CLOSING if closed else ADDRESS
+        start += len(line)
 
 
 def _dictated(tokens: list[Token]) -> list[Token]:
@@ -269,7 +287,8 @@ def _enumeration(tokens: list[Token], text: str) -> None:
         if token.kind is not Kind.NUM or token.text != str(number) or after.text not in (".", ")", ":"):
             continue
         ahead = text[: token.span.start].strip(" (|\n\t")
-        opens = number > 1 or not ahead or ahead.endswith(":")
+        line = text[: token.span.start].rstrip(" (|\t")
+        opens = number > 1 or not ahead or ahead.endswith(":") or line.endswith("\n")
         if opens and sign in ("", after.text):
             token.kind = after.kind = Kind.STOP
             sign, number = after.text, number + 1
