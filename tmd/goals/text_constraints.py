@@ -76,11 +76,21 @@ class ConstraintReader:
             found |= TextConstraints(kept=tuple(preserved), left=left)
         return replace(found, left=(*found.left, *sorted(found.untouched)))
 
+    def _meant(self, noun: str, clause: Clause, state: Bits) -> tuple[str, ...]:
+        """Return the things that a noun of a clause may mean, by where they are: "the sock on the sofa"."""
+        names = self.reader.nouns.things(noun, state)
+        moments = Moments(state, state)
+        for relation in (r for r in clause.relations if r.source == noun):
+            targets = self.reader.nouns.things(relation.target, state)
+            there = self.reader.nouns.related_now(names, relation.relation, targets, moments)
+            names = there or names
+        return names
+
     def _with_named(self, clause: Clause, parsed: Parsed, state: Bits, memory: Memory) -> Memory:
         """Return the memory of what the text names, for a prohibition of another one: "…, not the other lamp"."""
         if not any(clause.phrase(noun).other for noun in clause.direct):
             return memory
-        named = {n: self.reader.nouns.things(n, state) for said in parsed.clauses for n in said.direct}
+        named = {n: self._meant(n, said, state) for said in parsed.clauses for n in said.direct}
         single = {n: Bound(names) for n, names in named.items() if len(names) == 1 and n not in clause.direct}
         return replace(memory, bound={**memory.bound, **single})
 
