@@ -217,7 +217,7 @@ class RuleDialogue(Dialogue):
         others = (other for other in self.steps if isinstance(other, RuleStep) and other is not step)
         asked = any(other.main and not (other.optional or other.clause.told) for other in others)
         bare = not clause.objects and is_verb(clause.verb, "parting")  # "time to go home"
-        wished = not section("wishing").isdisjoint(clause.text.lower().split()[:1])
+        wished = not (section("wishing") - section("liking")).isdisjoint(clause.text.lower().split()[:1])
         return asked and (clause.told or bare or (clause.implied and nothing and not wished))
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
