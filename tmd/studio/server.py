@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.studio import page
 from tmd.studio.guard import TOKEN, Guard, guarding, kept_token
+from tmd.studio.panels import furnish
 from tmd.studio.studio import Studio
 from tmd.studio.visitor import KEY, Visitor
 
@@ -80,6 +81,7 @@ class Server:
 
     def _arrive(self, client: ClientHandle) -> None:
         visitor = Visitor(self.studio, client, self._identity(client))
+        furnish(visitor)
         with self._lock:
             self._visitors[client.client_id] = visitor
             if self.studio.teacher.learning:

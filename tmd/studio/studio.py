@@ -9,7 +9,6 @@ from threading import RLock
 
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.reading.syntax import nearest, read_text
-from tmd.studio.applicable_actions import Offers
 from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
@@ -18,11 +17,9 @@ from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.meshes import Figure
 from tmd.studio.view3d.performance import RobotRun
-from tmd.world.compile import compile_problem
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
 from tmd.world.environment import load_environment
-from tmd.world.world import make_world
 
 
 class Studio:
@@ -52,7 +49,6 @@ class Studio:
         self._texts = example_texts(corpus)
         self._lock = RLock()
         self._settings: dict[str, Setting] = {}
-        self._offers: dict[str, Offers] = {}
         self._extra: dict[str, Path] = {}
         if extra is not None:
             start = load_environment(extra).name
@@ -79,22 +75,9 @@ class Studio:
         """
         with self._lock:
             if name not in self._settings:
-                self._settings[name] = self._open(name)
+                place = self._extra.get(name, name)
+                self._settings[name] = open_setting(self.corpus, self.corpus.world(place), self.corpus.file(place))
             return self._settings[name]
-
-    def _open(self, name: str) -> Setting:
-        path = self._extra.get(name)
-        if path is None:
-            return open_setting(self.corpus, self.corpus.world(name), self.corpus.file(name))
-        problem = compile_problem(load_environment(path), self.corpus.folder)
-        return open_setting(self.corpus, make_world(name, problem, self.corpus.lexicon), path)
-
-    def offers(self, name: str) -> Offers:
-        """Return the instructions of an environment."""
-        with self._lock:
-            if name not in self._offers:
-                self._offers[name] = Offers(self.setting(name).world)
-            return self._offers[name]
 
     def figure(self) -> Figure | None:
         """Return the robot; ``None`` where its model is not installed."""

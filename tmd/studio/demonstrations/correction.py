@@ -251,12 +251,24 @@ def steps_of(
     return [DemonstratedStep(step.instruction, owners[step.clause]) for step in plan.steps]
 
 
-def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded:
-    """Return the plans for the text of a saved correction, the corrected one first, if it works."""
-    problem, task = grounded.world.task.problem, grounded.world.task
-    verdict = validate(problem, saved.instructions)
+def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded | None:
+    """Return the plans for the text of a saved correction, the corrected one first; ``None`` if it does not work.
+
+    It has an energy only if inference found it as well.
+    """
+    verdict = validate(grounded.world.task.problem, saved.instructions)
     if not verdict.valid:
-        return grounded
+        return None
+    pairs = list(zip(grounded.plans, grounded.verdicts, strict=True))
+    others = [pair for pair in pairs if pair[0].instructions != saved.instructions]
+    same = (plan for plan in grounded.plans if plan.instructions == saved.instructions)
+    plans, verdicts = zip((next(same, None) or _by_hand(grounded, saved), verdict), *others, strict=True)
+    return replace(grounded, plans=plans, verdicts=verdicts)
+
+
+def _by_hand(grounded: Grounded, saved: Demonstration) -> RankedPlan:
+    """Return a saved correction as a plan without energy, for the goals of the best plan."""
+    task = grounded.world.task
     starts = [clause.span.start for clause in grounded.parsed.clauses] or [0]
     steps: list[list[PlanStep]] = [[] for _ in starts]
     for segment in saved.segments:
@@ -268,13 +280,7 @@ def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded:
         replace(each, first=ends[each.clause] - len(steps[each.clause]), last=ends[each.clause]) for each in goals
     )
     choices = tuple(Choice(saved.id, tuple(each), {}, {}) for each in steps)
-    *_, state = task.trace(task.init, saved.instructions)
-    kept = [n for n, plan in enumerate(grounded.plans) if plan.instructions != saved.instructions]
-    return replace(
-        grounded,
-        plans=(RankedPlan(choices, state, goals=placed), *(grounded.plans[n] for n in kept)),
-        verdicts=(verdict, *(grounded.verdicts[n] for n in kept)),
-    )
+    return RankedPlan(choices, task.trace(task.init, saved.instructions)[-1], goals=placed)
 
 
 def _renamed(step: DemonstratedStep, names: Mapping[str, str]) -> DemonstratedStep:

@@ -12,8 +12,9 @@ from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import CorrectionDraft
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
-from tmd.studio.panels.context import PanelContext, chosen, put
+from tmd.studio.page import PageLink
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
+from tmd.studio.visitor import Panel, Visitor, chosen, put
 from tmd.view.panels import StepLine, fragment, step_list
 
 EVERYWHERE = "in every step"
@@ -23,11 +24,13 @@ PLAN_FIRST = "<p>Plan something under Say, and press 'Correct this plan'.</p>"
 NO_STEPS = "No step is left: that nothing is to be done is a correction as well."
 
 
-class CorrectPanel:
+class CorrectPanel(Panel):
     """Panel that edits a proposed plan, and saves it."""
 
-    def __init__(self, visitor: PanelContext) -> None:
-        self._visitor = visitor
+    name = "correct"
+
+    def __init__(self, visitor: Visitor) -> None:
+        super().__init__(visitor)
         self._correction: Correction | None = None
         self._insertable: dict[str, Instruction] = {}
         self._at = 0
@@ -61,7 +64,7 @@ class CorrectPanel:
         self._text.content = fragment(PLAN_FIRST)
         self._look_for_draft()
 
-    def open(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
+    def correct(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text; what was corrected before and is not saved is asked for."""
         visitor = self._visitor
 
@@ -107,9 +110,9 @@ class CorrectPanel:
         self._open(draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon), draft.goal)
         visitor.tell("Here is the correction that is not saved.")
 
-    def come_back(self) -> None:
+    def come_back(self, link: PageLink) -> None:
         """Resume the correction after the page was loaded again, if there is one."""
-        if self._correction is None and self._draft() is not None:
+        if link.tab == "Correct" and self._correction is None and self._draft() is not None:
             self.resume()
 
     def _keep(self) -> None:
@@ -171,8 +174,8 @@ class CorrectPanel:
     def _instructions(self) -> None:
         """Offer the instructions with an object; the planner may make possible those that do not apply."""
         name = chosen(self._with)
-        operators = self._visitor.studio.offers(self._visitor.setting.name).of(None if name == NOTHING else name)
-        self._insertable = self._visitor.wording.by_words(operator.instruction for operator in operators)
+        operators = self._visitor.setting.offers(None if name == NOTHING else name)
+        self._insertable = self._visitor.setting.wording.by_words(operator.instruction for operator in operators)
         self._what.options = (NOTHING, *self._insertable)
         self._able()
 
@@ -187,7 +190,7 @@ class CorrectPanel:
     def _mend(self) -> None:
         added = self._going().repair()
         self._refresh()
-        said = "; ".join(map(self._visitor.wording.instruction, added))
+        said = "; ".join(map(self._visitor.setting.wording.instruction, added))
         self._visitor.tell(f"Put in: {said}." if added else "Nothing is missing.")
 
     def _save(self) -> None:
@@ -197,7 +200,8 @@ class CorrectPanel:
         saved = visitor.studio.save(session, SHOWN, self._goal.value.strip() or None)
         visitor.studio.drafts.discard(visitor.identity, CorrectionDraft)
         self.entered()
-        visitor.saved(saved)
+        for panel in visitor.panels:
+            panel.saved(saved)
 
     # showing
 
@@ -210,14 +214,13 @@ class CorrectPanel:
         used = sorted(set(steps[self._at - 1].instruction.args)) if self._at else []
         self._old.options = (NOTHING, *used)
         works = broken.step - 1 if broken else len(steps)
-        self._reel.follow(step.instruction for step in steps[:works])
-        states = self._reel.states
+        states = Reel(visitor.setting, [step.instruction for step in steps[:works]]).states
         self._reel.become([*states, *[states[-1]] * (len(steps) - works)])
         visitor.watch(self._reel, self._at, self, [step.instruction for step in steps])
         lines = [StepLine(step.instruction, f"clause {step.clause + 1}") for step in steps]
         faults = {broken.step: [f"✗ {broken.why}"]} if broken else {}
         state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
-        in_words = visitor.wording.instruction
+        in_words = visitor.setting.wording.instruction
         listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct")
         self._text.content = fragment(f"<p role='status'>{state}</p>") + listed
         self._able()

@@ -14,7 +14,8 @@ from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import Draft
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.environment_view import Reel
-from tmd.studio.panels.context import PanelContext, chosen, put
+from tmd.studio.page import PageLink
+from tmd.studio.visitor import Panel, Visitor, chosen, put
 from tmd.view.panels import StepLine, changed, step_list
 
 if TYPE_CHECKING:
@@ -27,26 +28,30 @@ GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is s
 _FEW = 4
 
 
-class DemonstratePanel:
+class DemonstratePanel(Panel):
     """Panel that demonstrates: it carries out, marks, undoes and saves."""
 
-    def __init__(self, visitor: PanelContext) -> None:
-        self._visitor = visitor
+    name = "demonstrate"
+
+    def __init__(self, visitor: Visitor) -> None:
+        super().__init__(visitor)
         self._session: Session | None = None
         self._reel = Reel(visitor.setting)
         self._offered: list[GuiButtonHandle] = []
         self._more: dict[str, Instruction] = {}
         gui = visitor.client.gui
         self._text = gui.add_text("Task text", "", multiline=True, hint="What you are going to show.")
-        self._begin = visitor.button("Begin", self.begin, color="blue")
+        self._begin = visitor.button("Begin", self._start, color="blue")
         self._resume = visitor.button("Go on with what was not saved", self.resume, visible=False)
         self._steps = gui.add_html("")
         self._clause = visitor.dropdown("It serves", ("1",), self._mark, visible=False)
-        self._undo = visitor.button("Undo", self.undo, visible=False)
-        self._redo = visitor.button("Redo", self.redo, visible=False)
+        self._undo = visitor.button("Undo", self._take_back, visible=False)
+        self._redo = visitor.button("Redo", self._make_again, visible=False)
         self._do = gui.add_folder("Do", visible=False)
         with self._do:
-            self._object = visitor.dropdown("With", (NONE, *visitor.setting.names()), self._point)
+            self._object = visitor.dropdown(
+                "With", (NONE, *visitor.setting.names()), lambda: visitor.point(self._object)
+            )
             self._buttons = gui.add_folder("Possible now")
             self._others = visitor.dropdown("More", (NOTHING,), self._able)
             self._other = visitor.button("Do that, and first what it needs", self._do_other, disabled=True)
@@ -54,8 +59,14 @@ class DemonstratePanel:
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
             self._goal = gui.add_text("Goal (optional)", "", hint=GOAL_HINT)
-            self._save = visitor.button("Save (K)", self.save, color="blue")
-            visitor.button("Throw away", self.discard, color="red")
+            self._save = visitor.button("Save (K)", self._store, color="blue")
+            visitor.button("Throw away", self._discard, color="red")
+        for words, key, act in (
+            ("Undo", "U", self._take_back),
+            ("Redo", "R", self._make_again),
+            ("Keep the demonstration: save it", "K", self._store),
+        ):
+            visitor.command(words, key, act)
         visitor.guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
@@ -65,7 +76,7 @@ class DemonstratePanel:
 
     # beginning and ending
 
-    def begin(self) -> None:
+    def _start(self) -> None:
         """Begin a new demonstration of the text; one that was not saved is asked for."""
         visitor, draft = self._visitor, self._draft()
 
@@ -100,7 +111,7 @@ class DemonstratePanel:
         self._steps.content = ""
         self._look_for_draft()
 
-    def save(self) -> None:
+    def _store(self) -> None:
         """Save the demonstration, and learn from it."""
         visitor = self._visitor
         session = self._going()
@@ -108,10 +119,10 @@ class DemonstratePanel:
         saved = visitor.studio.save(session, self._task.value, goal)
         visitor.studio.drafts.discard(visitor.identity, Draft)
         self._close()
-        visitor.saved(saved)
+        for panel in visitor.panels:
+            panel.saved(saved)
 
-    def discard(self) -> None:
-        """Throw the demonstration away."""
+    def _discard(self) -> None:
         visitor = self._visitor
         self._going()
         visitor.studio.drafts.discard(visitor.identity, Draft)
@@ -145,15 +156,14 @@ class DemonstratePanel:
         self._open(session)
         visitor.tell(f"Here is what was not saved: {len(session.steps)} steps.")
 
-    def come_back(self) -> None:
+    def come_back(self, link: PageLink) -> None:
         """Resume the unsaved demonstration after the page was loaded again, if there is one."""
-        if self._session is None and self._draft() is not None:
+        if link.tab == "Demonstrate" and self._session is None and self._draft() is not None:
             self.resume()
 
     # doing
 
-    def do(self, instruction: Instruction) -> None:
-        """Carry out an instruction after the step that is looked at."""
+    def _carry_out(self, instruction: Instruction) -> None:
         self._going().do(instruction)
         self.refresh()
 
@@ -173,14 +183,12 @@ class DemonstratePanel:
     def _able(self) -> None:
         self._other.disabled = self._others.value == NOTHING
 
-    def undo(self) -> None:
-        """Take the last change back."""
+    def _take_back(self) -> None:
         if not self._going().undo():
             raise TmdError("there is nothing to take back")
         self.refresh()
 
-    def redo(self) -> None:
-        """Make it again."""
+    def _make_again(self) -> None:
         if not self._going().redo():
             raise TmdError("nothing was taken back")
         self.refresh()
@@ -212,7 +220,7 @@ class DemonstratePanel:
             cursor = session.cursor
             visitor.watch(self._reel, cursor, self, [step.instruction for step in session.steps])
             titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
-            wording = visitor.wording
+            wording = visitor.setting.wording
             gains = changed(*self._reel.changes(cursor), wording.fact)
             lines = [
                 StepLine(step.instruction, f"clause {step.clause + 1}" + (", marked" if step.marked else ""))
@@ -224,20 +232,15 @@ class DemonstratePanel:
             if session.steps:
                 self._clause.options = tuple(titles)
                 put(self._clause, titles[session.steps[cursor - 1].clause if cursor else 0])
-            self.offers()
+            self.pointed()
 
-    def _point(self) -> None:
-        name = None if self._object.value == NONE else chosen(self._object)
-        if name != self._visitor.selected:
-            self._visitor.select(name)
-
-    def offers(self) -> None:
+    def pointed(self) -> None:
         """Offer what can be done with the object that was pointed at, now or after what it needs."""
         session, visitor = self._session, self._visitor
         if session is None:
             return
         put(self._object, visitor.selected or NONE)
-        operators = visitor.studio.offers(visitor.setting.name).of(visitor.selected)
+        operators = visitor.setting.offers(visitor.selected)
         possible = [operator.instruction for operator in operators if operator.applicable(session.state)]
         alike = Counter[str]()
         few = []
@@ -249,11 +252,11 @@ class DemonstratePanel:
             for handle in self._offered:
                 handle.remove()
             self._offered = [
-                visitor.button(words, partial(self.do, instruction), hint=str(instruction))
-                for words, instruction in visitor.wording.by_words(few).items()
+                visitor.button(words, partial(self._carry_out, instruction), hint=str(instruction))
+                for words, instruction in visitor.setting.wording.by_words(few).items()
             ]
         rest = [operator.instruction for operator in operators if operator.instruction not in few]
-        self._more = visitor.wording.by_words(rest)
+        self._more = visitor.setting.wording.by_words(rest)
         options = (NOTHING, *self._more)
         if self._others.options != options:
             self._others.options = options
