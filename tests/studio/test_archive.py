@@ -20,10 +20,10 @@ from tmd.check.checker import Checker
 from tmd.diagnostics import OutputError, TmdError
 from tmd.files import try_lock
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.demonstrations.demo_store import Archive, demonstration
+from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.world.corpus import Corpus
-from tmd.world.demonstration import demonstration_line, read_demonstration, read_demonstrations
+from tmd.world.demonstration import demonstration_line, read_demonstrations
 from tmd.world.folder import DomainFolder
 from tmd.world.world import make_world
 
@@ -234,10 +234,9 @@ def test_any_text_is_read_back_as_it_was(table: Corpus, text: str) -> None:
         session = shown(table, text)
     except TmdError:
         return
-    found = demonstration(session, session.segments(), "a-corner1-01", "a")
-    line = demonstration_line(found)
-    assert len(line.splitlines()) == 1
-    assert read_demonstration(Path("a"), 1, line) == found
+    found = Archive(table).save(session)
+    assert found.text == session.text and list(map(str, found.instructions)) == PLAN
+    assert len(demonstration_line(found).splitlines()) == 1
 
 
 def test_the_domain_may_lie_anywhere(table: Corpus, tmp_path: Path) -> None:

@@ -143,7 +143,7 @@ def test_an_environment_that_is_not_in_the_corpus(
     monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
     file = tmp_path / "mine.yaml"
     file.write_text(table.file("corner1").read_text().replace("name: corner1", "name: mine"))
-    served = Server(Studio(table, Teacher(table), extra=file), "127.0.0.1", 0)
+    served = Server(Studio(table, Teacher(table), file), "127.0.0.1", 0)
     try:
         with Wire(served.url) as visitor:
             visitor.put("Task text", f"{TEXT}.")

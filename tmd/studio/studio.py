@@ -28,8 +28,8 @@ class Studio:
     Args:
         corpus: The domain, with its demonstrations.
         teacher: What was learned of it.
-        start: The environment that visitors come to first.
-        extra: An environment file that is not among those of the domain.
+        start: The environment that visitors come to first, or its file, which need not be among those of the domain;
+            the first one by default.
 
     Attributes:
         archive: Where demonstrations are saved.
@@ -40,7 +40,7 @@ class Studio:
         TmdError: There is no such environment, or it is wrong.
     """
 
-    def __init__(self, corpus: Corpus, teacher: Teacher, start: str | None = None, extra: Path | None = None) -> None:
+    def __init__(self, corpus: Corpus, teacher: Teacher, start: str | Path | None = None) -> None:
         self.corpus = corpus
         self.teacher = teacher
         self.archive = Archive(corpus)
@@ -50,9 +50,11 @@ class Studio:
         self._lock = RLock()
         self._settings: dict[str, Setting] = {}
         self._extra: dict[str, Path] = {}
-        if extra is not None:
-            start = load_environment(extra).name
-            self._extra[start] = extra
+        if isinstance(start, Path) and start.parent == corpus.directory / "environments":
+            start = start.stem
+        elif isinstance(start, Path):
+            name = load_environment(start).name
+            self._extra[name], start = start, name
         names = self.environments()
         if not names:
             raise TmdError(
@@ -153,20 +155,3 @@ def _figure() -> Figure | None:
         return Figure()
     except MissingToolError:
         return None
-
-
-def open_studio(corpus: Corpus, environment: Path | None = None, learned: Path | None = None) -> Studio:
-    """Return the studio of a domain, with what its demonstrations teach.
-
-    Args:
-        corpus: The domain.
-        environment: The file of the environment that visitors come to first; the first one by default.
-        learned: Where ``tmd learn --out`` saved.
-
-    Raises:
-        TmdError: The environment or a demonstration is wrong.
-    """
-    teacher = Teacher(corpus, learned)
-    if environment is not None and environment.parent == corpus.directory / "environments":
-        return Studio(corpus, teacher, environment.stem)
-    return Studio(corpus, teacher, extra=environment)

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from itertools import accumulate
 
 from tmd.diagnostics import TmdError
-from tmd.goals.wording import Wording
 from tmd.grounded import Grounded
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.language.clause import Clause
@@ -21,10 +20,10 @@ from tmd.pddl.semantics import bind, get_constraints
 from tmd.pddl.task import Bits
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
-from tmd.planning.result import Filled, Planner, Unreachable
+from tmd.planning.result import Filled, Unreachable
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
-from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, History, Session
+from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, Session, Steps
 from tmd.view.panels import require_object
 from tmd.world.demonstration import Demonstration
 from tmd.world.world import World
@@ -43,7 +42,7 @@ class Break:
     why: str
 
 
-class Correction:
+class Correction(Steps):
     """A plan under correction.
 
     Args:
@@ -55,7 +54,6 @@ class Correction:
 
     Attributes:
         proposed: The plan as it was proposed.
-        history: The edits, to undo and to redo.
 
     Raises:
         TmdError: The environment has no such instruction as one of ``steps``.
@@ -69,22 +67,13 @@ class Correction:
         lexicon: Lexicon | None = None,
         steps: Sequence[DemonstratedStep] | None = None,
     ) -> None:
-        self.world = world
-        self.text = clean(text)
         self.proposed = tuple(proposed)
+        super().__init__(world, text, self.proposed)
         self._lexicon = lexicon
-        self._planner: Planner | None = None
-        self._wording = Wording(world.task.problem)
-        self.history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
         if steps is not None:
             for step in steps:
                 bind(world.task.problem, step.instruction)
             self.history.add(tuple(steps))
-
-    @property
-    def steps(self) -> tuple[DemonstratedStep, ...]:
-        """The plan as it is now."""
-        return self.history.current
 
     def delete(self, step: int) -> None:
         """Leave a step out.
@@ -152,7 +141,7 @@ class Correction:
 
     def broken(self) -> Break | None:
         """Return the first step that does not apply; ``None`` where all do."""
-        return self._played(self.steps)[1]
+        return self._played()[1]
 
     def repair(self) -> tuple[Instruction, ...]:
         """Let the planner put in what is missing before the first step that does not apply.
@@ -163,12 +152,10 @@ class Correction:
         Raises:
             TmdError: Nothing leads there, or nothing was found; nothing was put in.
         """
-        state, found = self._played(self.steps)
+        state, found = self._played()
         if found is None:
             return ()
-        if self._planner is None:
-            self._planner = make(IN_PROCESS, self.world.task)
-        needed = what_it_needs(self.steps[found.step - 1].instruction, state, self.world, self._planner)
+        needed = what_it_needs(self.steps[found.step - 1].instruction, state, self.world)
         self._put_in(found.step, needed)
         return needed
 
@@ -200,16 +187,14 @@ class Correction:
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
         self.history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
-    def _played(self, steps: Sequence[DemonstratedStep]) -> tuple[Bits, Break | None]:
+    def _played(self) -> tuple[Bits, Break | None]:
         """Return the state before the first step that does not apply, and that step; or the last state."""
-        task = self.world.task
-        state = task.init
-        for number, step in enumerate(steps, start=1):
-            operator = task.by_instruction.get(step.instruction)
-            if operator is None or not operator.applicable(state):
-                why = self._wording.broken(step.instruction, task.decode(state)) or "it can never be done here"
-                return state, Break(number, why)
-            state = operator.apply(state)
+        state = self.world.task.init
+        for number, step in enumerate(self.steps, start=1):
+            after = self._after(step.instruction, state)
+            if isinstance(after, str):
+                return state, Break(number, after)
+            state = after
         return state, None
 
     def _replaced(self, old: str, new: str) -> Mapping[str, str]:
@@ -220,12 +205,8 @@ class Correction:
         theirs = dict(parts.get(new, ()))
         return {old: new} | {part: theirs[short] for short, part in parts.get(old, ()) if short in theirs}
 
-    def _known(self, step: int) -> None:
-        if not 0 < step <= len(self.steps):
-            raise TmdError(f"there is no step {step}", hint=f"the plan has {len(self.steps)} steps")
 
-
-def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: Planner) -> tuple[Instruction, ...]:
+def what_it_needs(instruction: Instruction, state: Bits, world: World) -> tuple[Instruction, ...]:
     """Return the instructions that the planner needs in ``state`` so that ``instruction`` applies.
 
     Raises:
@@ -234,7 +215,7 @@ def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: 
     operator = world.task.by_instruction.get(instruction)
     if operator is None:
         raise TmdError(f"{instruction} can never be done here", hint="take another object")
-    answer = planner.fill(state, get_constraints([operator])[0])
+    answer = make(IN_PROCESS, world.task).fill(state, get_constraints([operator])[0])
     if not isinstance(answer, Filled):
         why = answer.reason if isinstance(answer, Unreachable) else f"the planner gave up at {answer.limit}"
         raise TmdError(f"nothing makes {instruction} possible: {why}")

@@ -14,11 +14,9 @@ from tmd.files import locked, make_directory, write_bytes
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.session import Session
-from tmd.view.meaning import after
 from tmd.world.corpus import Corpus, check_executable, final_state
 from tmd.world.demonstration import (
     Demonstration,
-    Segment,
     check_goal,
     demonstration_line,
     read_demonstration,
@@ -108,7 +106,10 @@ class Archive:
         with locked(file.with_name(_LOCK), wait=self.wait):
             before = read_demonstrations(file) if file.exists() else []
             name = _next_id(f"{task}-{session.world.name}", before)
-            found = demonstration(session, segments, name, task, goal)
+            ends = _end_state(session.world, session.states[-1])
+            proposed = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
+            where, text = session.world.name, session.text
+            found = Demonstration(name, task, where, text, segments, ends, proposed, goal=goal)
             line = demonstration_line(found)
             self._check(found, line, file, len(before) + 1)
             old = file.read_bytes() if file.exists() else b""
@@ -127,21 +128,6 @@ class Archive:
         world = self.corpus.world(found.environment)
         check_executable(found, world)
         check_goal(found, world.task.problem, final_state(found, world))
-
-
-def demonstration(
-    session: Session,
-    segments: tuple[Segment, ...],
-    name: str,
-    task: str,
-    goal: str | None = None,
-) -> Demonstration:
-    """Return a session as a demonstration."""
-    world = session.world
-    end = after((i for segment in segments for i in segment.instructions), world, world.task.init)
-    whole = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
-    ends = _end_state(world, end)
-    return Demonstration(name, task, world.name, session.text, segments, ends, whole, goal=goal)
 
 
 def _end_state(world: World, end: Bits) -> tuple[str, ...]:

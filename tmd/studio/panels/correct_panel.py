@@ -12,9 +12,8 @@ from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import CorrectionDraft
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
-from tmd.studio.page import PageLink
-from tmd.studio.panels.demonstrate_panel import GOAL_HINT
-from tmd.studio.visitor import Panel, Visitor, chosen, put
+from tmd.studio.panels.demonstrate_panel import GOAL_HINT, DraftPanel
+from tmd.studio.visitor import Visitor, chosen, put
 from tmd.view.panels import StepLine, fragment, step_list
 
 EVERYWHERE = "in every step"
@@ -24,20 +23,19 @@ PLAN_FIRST = "<p>Plan something under Say, and press 'Correct this plan'.</p>"
 NO_STEPS = "No step is left: that nothing is to be done is a correction as well."
 
 
-class CorrectPanel(Panel):
+class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
     """Panel that edits a proposed plan, and saves it."""
 
     name = "correct"
+    form = CorrectionDraft
+    idle = "nothing is corrected", "plan something under Say, and press 'Correct this plan'"
 
     def __init__(self, visitor: Visitor) -> None:
-        super().__init__(visitor)
-        self._correction: Correction | None = None
-        self._insertable: dict[str, Instruction] = {}
-        self._at = 0
-        self._reel = Reel(visitor.setting)
         gui = visitor.client.gui
         self._text = gui.add_html(fragment(PLAN_FIRST))
-        self._resume = visitor.button("Go on with the correction", self.resume, visible=False)
+        super().__init__(visitor, "Go on with the correction")
+        self._insertable: dict[str, Instruction] = {}
+        self._at = 0
         self._all = gui.add_folder("Edit", visible=False)
         with self._all:
             self._delete = visitor.button("Delete", self._leave_out)
@@ -55,14 +53,11 @@ class CorrectPanel(Panel):
             self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
             self._goal.on_update(visitor.guarded(self._keep))
             visitor.button("Save the correction", self._save, color="blue")
-        visitor.guarded(self._look_for_draft)(None)
 
-    def entered(self) -> None:
-        """Close the correction in another environment; an unfinished one is kept."""
-        self._correction = None
+    def _close(self) -> None:
         self._all.visible = False
         self._text.content = fragment(PLAN_FIRST)
-        self._look_for_draft()
+        super()._close()
 
     def correct(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text; what was corrected before and is not saved is asked for."""
@@ -84,7 +79,7 @@ class CorrectPanel(Panel):
     def _open(self, correction: Correction, goal: str = "") -> None:
         visitor = self._visitor
         visitor.stop()
-        self._correction = correction
+        self._work = correction
         self._reel, self._at = Reel(visitor.setting), 1 if correction.steps else 0
         self._new.options = self._with.options = (NOTHING, *visitor.setting.names())
         self._all.visible, self._resume.visible = True, False
@@ -93,31 +88,14 @@ class CorrectPanel(Panel):
 
     # what is not saved yet
 
-    def _draft(self) -> CorrectionDraft | None:
-        return self._visitor.studio.drafts.of(self._visitor.identity, CorrectionDraft)
-
-    def _look_for_draft(self) -> None:
-        self._resume.visible = self._draft() is not None
-
-    def resume(self) -> None:
-        """Go on with the correction that is not saved."""
+    def _take_up(self, draft: CorrectionDraft) -> None:
         visitor = self._visitor
-        draft = self._draft()
-        if draft is None:
-            raise TmdError("there is no correction that is not saved")
-        if draft.environment != visitor.setting.name:
-            visitor.enter(draft.environment)
         self._open(draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon), draft.goal)
         visitor.tell("Here is the correction that is not saved.")
 
-    def come_back(self, link: PageLink) -> None:
-        """Resume the correction after the page was loaded again, if there is one."""
-        if link.tab == "Correct" and self._correction is None and self._draft() is not None:
-            self.resume()
-
     def _keep(self) -> None:
         """Keep the correction as a draft, if it changes anything."""
-        visitor, correction = self._visitor, self._correction
+        visitor, correction = self._visitor, self._work
         if correction is None:
             return
         goal = self._goal.value.strip()
@@ -125,11 +103,6 @@ class CorrectPanel(Panel):
             visitor.studio.drafts.keep(visitor.identity, CorrectionDraft.of(correction, goal))
         else:
             visitor.studio.drafts.discard(visitor.identity, CorrectionDraft)
-
-    def _going(self) -> Correction:
-        if self._correction is None:
-            raise TmdError("nothing is corrected", hint="plan something under Say, and press 'Correct this plan'")
-        return self._correction
 
     # edits
 
@@ -195,13 +168,7 @@ class CorrectPanel(Panel):
 
     def _save(self) -> None:
         """Save the corrected plan as a demonstration of the text, and learn from it."""
-        visitor = self._visitor
-        session = self._going().session(visitor.studio.teacher.habits)
-        saved = visitor.studio.save(session, SHOWN, self._goal.value.strip() or None)
-        visitor.studio.drafts.discard(visitor.identity, CorrectionDraft)
-        self.entered()
-        for panel in visitor.panels:
-            panel.saved(saved)
+        self._store(self._going().session(self._visitor.studio.teacher.habits), SHOWN, self._goal.value)
 
     # showing
 

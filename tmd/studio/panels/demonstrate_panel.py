@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar, Generic, TypeVar
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
-from tmd.planning.backends import IN_PROCESS, make
-from tmd.studio.demonstrations.correction import what_it_needs
+from tmd.studio.demonstrations.correction import Correction, what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
-from tmd.studio.demonstrations.drafts import Draft
+from tmd.studio.demonstrations.drafts import CorrectionDraft, Draft
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
@@ -28,21 +27,89 @@ GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is s
 _FEW = 4
 
 
-class DemonstratePanel(Panel):
+_Work = TypeVar("_Work", Session, Correction)
+_Draft = TypeVar("_Draft", Draft, CorrectionDraft)
+
+
+class DraftPanel(Panel, Generic[_Work, _Draft]):
+    """Panel of something that is kept as a draft until it is saved.
+
+    Attributes:
+        form: The form of the draft.
+        idle: An error where nothing is under way: the message, and the remedy.
+    """
+
+    form: type[_Draft]
+    idle: ClassVar[tuple[str, str]]
+
+    def __init__(self, visitor: Visitor, resume: str) -> None:
+        super().__init__(visitor)
+        self._work: _Work | None = None
+        self._reel = Reel(visitor.setting)
+        self._resume = visitor.button(resume, self._go_on, visible=False)
+        visitor.guarded(self._look_for_draft)(None)
+
+    def _draft(self) -> _Draft | None:
+        return self._visitor.studio.drafts.of(self._visitor.identity, self.form)
+
+    def _look_for_draft(self) -> None:
+        self._resume.visible = self._draft() is not None
+
+    def _go_on(self) -> None:
+        """Go on with what was not saved."""
+        visitor, draft = self._visitor, self._draft()
+        if draft is None:
+            raise TmdError("there is nothing that was not saved")
+        if draft.environment != visitor.setting.name:
+            visitor.enter(draft.environment)
+        self._take_up(draft)
+
+    def _take_up(self, draft: _Draft) -> None:
+        """Show a draft."""
+        raise NotImplementedError
+
+    def come_back(self, link: PageLink) -> None:
+        """Go on with what was not saved after the page was loaded again, if there is something."""
+        if link.tab == self.name.capitalize() and self._work is None and self._draft() is not None:
+            self._go_on()
+
+    def _going(self) -> _Work:
+        if self._work is None:
+            raise TmdError(self.idle[0], hint=self.idle[1])
+        return self._work
+
+    def _store(self, session: Session, task: str, goal: str) -> None:
+        """Save a demonstration, and learn from it."""
+        visitor = self._visitor
+        saved = visitor.studio.save(session, task, goal.strip() or None)
+        visitor.studio.drafts.discard(visitor.identity, self.form)
+        self._close()
+        for panel in visitor.panels:
+            panel.saved(saved)
+
+    def entered(self) -> None:
+        """Close what is under way in another environment; it is kept."""
+        self._close()
+
+    def _close(self) -> None:
+        self._work = None
+        self._look_for_draft()
+
+
+class DemonstratePanel(DraftPanel[Session, Draft]):
     """Panel that demonstrates: it carries out, marks, undoes and saves."""
 
     name = "demonstrate"
+    form = Draft
+    idle = "no demonstration is under way", "type a task, and press Begin"
 
     def __init__(self, visitor: Visitor) -> None:
-        super().__init__(visitor)
-        self._session: Session | None = None
-        self._reel = Reel(visitor.setting)
-        self._offered: list[GuiButtonHandle] = []
-        self._more: dict[str, Instruction] = {}
         gui = visitor.client.gui
         self._text = gui.add_text("Task text", "", multiline=True, hint="What you are going to show.")
         self._begin = visitor.button("Begin", self._start, color="blue")
-        self._resume = visitor.button("Go on with what was not saved", self.resume, visible=False)
+        super().__init__(visitor, "Go on with what was not saved")
+        self._offered: list[GuiButtonHandle] = []
+        self._more: dict[str, Instruction] = {}
         self._steps = gui.add_html("")
         self._clause = visitor.dropdown("It serves", ("1",), self._mark, visible=False)
         self._undo = visitor.button("Undo", self._take_back, visible=False)
@@ -59,15 +126,14 @@ class DemonstratePanel(Panel):
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
             self._goal = gui.add_text("Goal (optional)", "", hint=GOAL_HINT)
-            self._save = visitor.button("Save (K)", self._store, color="blue")
+            self._save = visitor.button("Save (K)", self._save_it, color="blue")
             visitor.button("Throw away", self._discard, color="red")
         for words, key, act in (
             ("Undo", "U", self._take_back),
             ("Redo", "R", self._make_again),
-            ("Keep the demonstration: save it", "K", self._store),
+            ("Keep the demonstration: save it", "K", self._save_it),
         ):
             visitor.command(words, key, act)
-        visitor.guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
         """Show the objects of another environment."""
@@ -94,7 +160,7 @@ class DemonstratePanel(Panel):
 
     def _open(self, session: Session) -> None:
         self._visitor.stop()
-        self._session = session
+        self._work = session
         put(self._goal, "")
         self._reel = Reel(self._visitor.setting)
         for handle in (self._undo, self._redo, self._do, self._keep):
@@ -104,23 +170,14 @@ class DemonstratePanel(Panel):
         self.refresh()
 
     def _close(self) -> None:
-        self._session = None
         for handle in (self._undo, self._redo, self._do, self._keep, self._clause):
             handle.visible = False
         self._begin.label, self._begin.color = "Begin", "blue"
         self._steps.content = ""
-        self._look_for_draft()
+        super()._close()
 
-    def _store(self) -> None:
-        """Save the demonstration, and learn from it."""
-        visitor = self._visitor
-        session = self._going()
-        goal = self._goal.value.strip() or None
-        saved = visitor.studio.save(session, self._task.value, goal)
-        visitor.studio.drafts.discard(visitor.identity, Draft)
-        self._close()
-        for panel in visitor.panels:
-            panel.saved(saved)
+    def _save_it(self) -> None:
+        self._store(self._going(), self._task.value, self._goal.value)
 
     def _discard(self) -> None:
         visitor = self._visitor
@@ -129,37 +186,13 @@ class DemonstratePanel(Panel):
         self._close()
         visitor.tell("Thrown away.", aloud=True)
 
-    def _going(self) -> Session:
-        if self._session is None:
-            raise TmdError("no demonstration is under way", hint="type a task, and press Begin")
-        return self._session
-
-    # drafts
-
-    def _draft(self) -> Draft | None:
-        return self._visitor.studio.drafts.of(self._visitor.identity, Draft)
-
-    def _look_for_draft(self) -> None:
-        self._resume.visible = self._draft() is not None
-
-    def resume(self) -> None:
-        """Go on with what was not saved."""
+    def _take_up(self, draft: Draft) -> None:
         visitor = self._visitor
-        draft = self._draft()
-        if draft is None:
-            raise TmdError("there is no demonstration that was not saved")
-        if draft.environment != visitor.setting.name:
-            visitor.enter(draft.environment)
         session = draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon, visitor.studio.teacher.habits)
         put(self._text, session.text)
         put(self._task, draft.task)
         self._open(session)
         visitor.tell(f"Here is what was not saved: {len(session.steps)} steps.")
-
-    def come_back(self, link: PageLink) -> None:
-        """Resume the unsaved demonstration after the page was loaded again, if there is one."""
-        if link.tab == "Demonstrate" and self._session is None and self._draft() is not None:
-            self.resume()
 
     # doing
 
@@ -174,7 +207,7 @@ class DemonstratePanel(Panel):
         instruction = self._more.get(self._others.value)
         if instruction is None:
             raise TmdError("choose an instruction first", hint="point at an object")
-        needed = what_it_needs(instruction, session.state, world, make(IN_PROCESS, world.task))
+        needed = what_it_needs(instruction, session.state, world)
         for each in (*needed, instruction):
             session.do(each)
         self.refresh()
@@ -209,7 +242,7 @@ class DemonstratePanel(Panel):
 
     def refresh(self) -> None:
         """Show the demonstration as it is now, and keep it."""
-        session = self._session
+        session = self._work
         if session is None:
             return
         visitor = self._visitor
@@ -236,12 +269,13 @@ class DemonstratePanel(Panel):
 
     def pointed(self) -> None:
         """Offer what can be done with the object that was pointed at, now or after what it needs."""
-        session, visitor = self._session, self._visitor
+        session, visitor = self._work, self._visitor
         if session is None:
             return
         put(self._object, visitor.selected or NONE)
         operators = visitor.setting.offers(visitor.selected)
-        possible = [operator.instruction for operator in operators if operator.applicable(session.state)]
+        state = session.state
+        possible = [operator.instruction for operator in operators if operator.applicable(state)]
         alike = Counter[str]()
         few = []
         for instruction in possible:
