@@ -20,6 +20,7 @@ from tmd.check.checker import Checker
 from tmd.diagnostics import OutputError, TmdError
 from tmd.files import try_lock
 from tmd.pddl.plan_file import parse_instruction
+from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.world.corpus import Corpus
@@ -95,9 +96,8 @@ def test_a_goal_is_saved_with_what_reaches_it(table: Corpus) -> None:
 
 def test_a_correction_may_have_a_goal_that_its_plan_did_not_reach(table: Corpus) -> None:
     proposed = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN[:3])
-    session = Session(
-        table.world("corner1"), TEXT, table.lexicon, instructions=map(parse_instruction, PLAN), proposed=proposed
-    )
+    steps = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN)
+    session = Correction(table.world("corner1"), TEXT, proposed, table.lexicon, steps)
     found = Archive(table).save(session, "corrected", goal="(at cup1 shelf1 on)")
     assert (found.goal, found.proposed) == ("(at cup1 shelf1 on)", tuple(step.instruction for step in proposed))
     assert faults(table, table.directory / "corrected" / "demonstrations.jsonl") == []
@@ -116,9 +116,8 @@ def test_a_task_that_is_there_grows_and_keeps_what_it_had(table: Corpus) -> None
 
 def test_a_correction_keeps_the_plan_that_was_proposed(table: Corpus) -> None:
     proposed = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN[:3])
-    session = Session(
-        table.world("corner1"), TEXT, table.lexicon, instructions=map(parse_instruction, PLAN), proposed=proposed
-    )
+    steps = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN)
+    session = Correction(table.world("corner1"), TEXT, proposed, table.lexicon, steps)
     found = Archive(table).save(session, "corrected")
     assert found.proposed == tuple(step.instruction for step in proposed)
     file = table.directory / "corrected" / "demonstrations.jsonl"

@@ -11,7 +11,8 @@ from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.studio.environment_view import Setting
 from tmd.view.goals import in_words
-from tmd.view.panels import StepLine, changed, goal_list, notice, object_facts, step_list
+from tmd.view.panels import changed, goal_list, notice, object_facts, step_list
+from tmd.view.subject import PlannedStep
 from tmd.world.world import World
 
 
@@ -21,7 +22,7 @@ def test_what_people_type_is_text(typed: str) -> None:
     for html in (
         notice(said, said),
         notice(said, fault=True),
-        step_list([StepLine(Instruction(said, (said,)), said, latent=True)], 1),
+        step_list([PlannedStep(Instruction(said, (said,)), said, latent=True)], 1),
         "".join(changed([GroundAtom("p", (said,))], [])),
     ):
         assert "<script" not in html
@@ -46,7 +47,7 @@ def test_goals_are_ticked_where_they_hold(kitchen1: World) -> None:
 
 
 def test_the_step_that_was_taken_last_is_told_by_a_sign_too() -> None:
-    lines = [StepLine(parse_instruction(text), "clause 1") for text in ("find(pot1)", "moveto(pot1)")]
+    lines = [PlannedStep(parse_instruction(text), "clause 1") for text in ("find(pot1)", "moveto(pot1)")]
     html = step_list(lines, 1, ["<i>news</i>"])
     first, _, second = html.partition("moveto")
     assert 'aria-current="step"' in first and "▸" in first and "news" in first
@@ -70,7 +71,7 @@ def test_an_instruction_is_told_in_words(kitchen1: World) -> None:
         ("juggle(a, b)", "juggle a, b"),
     ):
         assert wording.instruction(parse_instruction(instruction)) == words
-    steps = [StepLine(parse_instruction(text), "clause 1") for text in ("wait()", "find(x)")]
+    steps = [PlannedStep(parse_instruction(text), "clause 1") for text in ("wait()", "find(x)")]
     html = step_list(steps, 1, in_words=lambda instruction: "y" if instruction.args else "Let <time> pass")
     assert "▸ Let &lt;time&gt; pass</span>" in html and "<code>wait()</code>" in html
     assert 'title="find(x)"' in html and ">y</span>" in html and "<code>find(x)" not in html

@@ -1,13 +1,13 @@
 """Corrections of a proposed plan: edits, the first broken step after each, and repair by a planner.
 
 Steps are counted from 1, clauses from 0, as in a session. Between two edits a plan may be one that cannot be carried
-out; it becomes a session when it can.
+out; it can be saved when it can.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import accumulate
 
 from tmd.diagnostics import TmdError
@@ -21,25 +21,11 @@ from tmd.pddl.task import Bits
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Unreachable
-from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
-from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, Session, Steps
+from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, Steps
 from tmd.view.panels import require_object
-from tmd.world.demonstration import Demonstration
+from tmd.world.demonstration import Demonstration, Segment
 from tmd.world.world import World
-
-
-@dataclass(frozen=True, slots=True)
-class Break:
-    """The first step that does not apply.
-
-    Attributes:
-        step: Its number, from 1.
-        why: The broken precondition in words.
-    """
-
-    step: int
-    why: str
 
 
 class Correction(Steps):
@@ -67,9 +53,8 @@ class Correction(Steps):
         lexicon: Lexicon | None = None,
         steps: Sequence[DemonstratedStep] | None = None,
     ) -> None:
-        self.proposed = tuple(proposed)
-        super().__init__(world, text, self.proposed)
-        self._lexicon = lexicon
+        self.proposed: tuple[DemonstratedStep, ...] = tuple(proposed)
+        super().__init__(world, text, lexicon, self.proposed)
         if steps is not None:
             for step in steps:
                 bind(world.task.problem, step.instruction)
@@ -139,8 +124,8 @@ class Correction(Steps):
             self.history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
         return len(changed)
 
-    def broken(self) -> Break | None:
-        """Return the first step that does not apply; ``None`` where all do."""
+    def broken(self) -> tuple[int, str] | None:
+        """Return the number of the first step that does not apply, from 1, and why; ``None`` where all do."""
         return self._played()[1]
 
     def repair(self) -> tuple[Instruction, ...]:
@@ -155,30 +140,21 @@ class Correction(Steps):
         state, found = self._played()
         if found is None:
             return ()
-        needed = what_it_needs(self.steps[found.step - 1].instruction, state, self.world)
-        self._put_in(found.step, needed)
+        needed = what_it_needs(self.instructions[found[0] - 1], state, self.world)
+        self._put_in(found[0], needed)
         return needed
 
-    def session(self, habits: Habits = NO_HABITS) -> Session:
-        """Return the corrected plan as a session, with the plan that was proposed.
+    def segments(self) -> tuple[Segment, ...]:
+        """Return the pieces of the text with the corrected steps of each.
 
         Raises:
             TmdError: A step does not apply.
         """
-        steps = self.steps
-        highest = 0
-        pins: dict[int, int] = {}
-        for number, step in enumerate(steps, start=1):
-            highest = pins[number] = max(highest, step.clause)
-        return Session(
-            self.world,
-            self.text,
-            self._lexicon,
-            instructions=[step.instruction for step in steps],
-            pins=pins,
-            proposed=self.proposed,
-            habits=habits,
-        )
+        broken = self.broken()
+        if broken is not None:
+            step, why = broken
+            raise TmdError(f"step {step}, {self.instructions[step - 1]}, does not apply: {why}")
+        return super().segments()
 
     def _put_in(self, step: int, instructions: Sequence[Instruction]) -> None:
         """Insert instructions before the step of that number, for its clause, or for the last one at the end."""
@@ -187,13 +163,13 @@ class Correction(Steps):
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
         self.history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
-    def _played(self) -> tuple[Bits, Break | None]:
-        """Return the state before the first step that does not apply, and that step; or the last state."""
+    def _played(self) -> tuple[Bits, tuple[int, str] | None]:
+        """Return the state before the first step that does not apply, its number and why; or the last state."""
         state = self.world.task.init
         for number, step in enumerate(self.steps, start=1):
             after = self._after(step.instruction, state)
             if isinstance(after, str):
-                return state, Break(number, after)
+                return state, (number, after)
             state = after
         return state, None
 

@@ -13,7 +13,7 @@ from tmd.diagnostics import TmdError
 from tmd.files import locked, make_directory, write_bytes
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
-from tmd.studio.demonstrations.session import Session
+from tmd.studio.demonstrations.session import Steps
 from tmd.world.corpus import Corpus, check_executable, final_state
 from tmd.world.demonstration import (
     Demonstration,
@@ -80,11 +80,11 @@ class Archive:
                 hint="give it another name, and copy its file there",
             )
 
-    def save(self, session: Session, task: str = SHOWN, *, goal: str | None = None) -> Demonstration:
+    def save(self, session: Steps, task: str = SHOWN, *, goal: str | None = None) -> Demonstration:
         """Append a demonstration to the file of its task.
 
         Args:
-            session: The demonstration; all its steps, wherever it is looked at.
+            session: The demonstration, or the correction; all its steps, wherever it is looked at.
             task: The task it is an example of.
             goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
@@ -106,7 +106,8 @@ class Archive:
         with locked(file.with_name(_LOCK), wait=self.wait):
             before = read_demonstrations(file) if file.exists() else []
             name = _next_id(f"{task}-{session.world.name}", before)
-            ends = _end_state(session.world, session.states[-1])
+            task_of = session.world.task
+            ends = _end_state(session.world, task_of.trace(task_of.init, session.instructions)[-1])
             proposed = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
             where, text = session.world.name, session.text
             found = Demonstration(name, task, where, text, segments, ends, proposed, goal=goal)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Generic, TypeVar
 
 from tmd.diagnostics import TmdError
@@ -87,19 +88,28 @@ class Steps:
     Args:
         world: The environment they begin in.
         text: What is to be done.
+        lexicon: The words of the domain.
+        steps: The steps.
 
     Attributes:
         world: The environment.
         text: The text, without control characters.
+        clauses: The pieces of the text that steps serve, at least one.
         history: The steps, and those that were undone.
+        proposed: The plan that is corrected, if one is.
 
     Raises:
         TmdError: The text is empty or too long.
     """
 
-    def __init__(self, world: World, text: str, steps: tuple[DemonstratedStep, ...] = ()) -> None:
+    proposed: tuple[DemonstratedStep, ...] | None = None
+
+    def __init__(
+        self, world: World, text: str, lexicon: Lexicon | None, steps: tuple[DemonstratedStep, ...] = ()
+    ) -> None:
         self.world = world
         self.text = clean(text)
+        self.clauses: tuple[ClauseSpan, ...] = cut(self.text, lexicon)
         self.history = History(steps)
         self._wording = Wording(world.task.problem)
 
@@ -107,6 +117,22 @@ class Steps:
     def steps(self) -> tuple[DemonstratedStep, ...]:
         """All steps that were not undone."""
         return self.history.current
+
+    @property
+    def instructions(self) -> tuple[Instruction, ...]:
+        """The steps without the clauses."""
+        return tuple(step.instruction for step in self.steps)
+
+    def segments(self) -> tuple[Segment, ...]:
+        """Return the pieces of the text with what serves each, as a demonstration has them."""
+        last = len(self.clauses) - 1
+        owners = list(accumulate((min(step.clause, last) for step in self.steps), max))
+        return tuple(
+            Segment(
+                piece.start, piece.end, tuple(i for i, n in zip(self.instructions, owners, strict=True) if n == number)
+            )
+            for number, piece in enumerate(self.clauses)
+        )
 
     def _known(self, step: int, least: int = 1) -> None:
         if not least <= step <= len(self.steps):
@@ -134,11 +160,9 @@ class Session(Steps):
         lexicon: The words of the domain.
         instructions: What was done already.
         pins: The clauses that the person chose, from 0, by the number of the step, from 1.
-        proposed: The plan that is corrected, if one is.
         habits: What was done for verbs before; proposals of clauses are better with it.
 
     Attributes:
-        clauses: The pieces of the text that steps serve, at least one.
         cursor: After how many steps the state is that is looked at.
 
     Raises:
@@ -153,23 +177,15 @@ class Session(Steps):
         *,
         instructions: Iterable[Instruction] = (),
         pins: Mapping[int, int] | None = None,
-        proposed: tuple[DemonstratedStep, ...] | None = None,
         habits: Habits = NO_HABITS,
     ) -> None:
-        super().__init__(world, text)
-        self.clauses: tuple[ClauseSpan, ...] = cut(self.text, lexicon)
-        self.proposed = None if proposed is None else _in_order(proposed, len(self.clauses))
+        super().__init__(world, text, lexicon)
         self._habits = habits
         self.cursor = 0
         for instruction in instructions:
             self.do(instruction)
         for step, clause in sorted((pins or {}).items()):
             self.mark(step, clause)
-
-    @property
-    def instructions(self) -> tuple[Instruction, ...]:
-        """The steps without the clauses."""
-        return tuple(step.instruction for step in self.steps)
 
     @property
     def pins(self) -> dict[int, int]:
@@ -242,27 +258,9 @@ class Session(Steps):
         pins = {n: c for n, c in self.pins.items() if (n < step and c <= clause) or (n > step and c >= clause)}
         self._become(self.instructions, {**pins, step: clause})
 
-    def segments(self) -> tuple[Segment, ...]:
-        """Return the pieces of the text with what serves each, as a demonstration has them."""
-        steps = self.steps
-        return tuple(Segment(piece.start, piece.end, _own(steps, n)) for n, piece in enumerate(self.clauses))
-
     def _become(self, done: tuple[Instruction, ...], pins: Mapping[int, int]) -> None:
         """Make instructions, and the clauses that the person chose for some of them, the current steps."""
         chosen = {number - 1: clause for number, clause in pins.items()}
         clauses = propose([piece.clause for piece in self.clauses], done, self.world, chosen, self._habits)
         pairs = enumerate(zip(done, clauses, strict=True))
         self.history.add(tuple(DemonstratedStep(each, clause, n in chosen) for n, (each, clause) in pairs))
-
-
-def _in_order(steps: Iterable[DemonstratedStep], clauses: int) -> tuple[DemonstratedStep, ...]:
-    """Return the steps with clauses that there are, never falling."""
-    found: list[DemonstratedStep] = []
-    for step in steps:
-        clause = min(max(step.clause, found[-1].clause if found else 0), clauses - 1)
-        found.append(DemonstratedStep(step.instruction, clause, step.marked))
-    return tuple(found)
-
-
-def _own(steps: Iterable[DemonstratedStep], clause: int) -> tuple[Instruction, ...]:
-    return tuple(step.instruction for step in steps if step.clause == clause)

@@ -14,7 +14,8 @@ from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT, DraftPanel
 from tmd.studio.visitor import Visitor, chosen, put
-from tmd.view.panels import StepLine, fragment, step_list
+from tmd.view.panels import fragment, step_list
+from tmd.view.subject import PlannedStep
 
 EVERYWHERE = "in every step"
 HERE = "in this step"
@@ -168,7 +169,7 @@ class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
 
     def _save(self) -> None:
         """Save the corrected plan as a demonstration of the text, and learn from it."""
-        self._store(self._going().session(self._visitor.studio.teacher.habits), SHOWN, self._goal.value)
+        self._store(self._going(), SHOWN, self._goal.value)
 
     # showing
 
@@ -180,13 +181,13 @@ class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
         self._at = min(self._at, len(steps))
         used = sorted(set(steps[self._at - 1].instruction.args)) if self._at else []
         self._old.options = (NOTHING, *used)
-        works = broken.step - 1 if broken else len(steps)
+        works = broken[0] - 1 if broken else len(steps)
         states = Reel(visitor.setting, [step.instruction for step in steps[:works]]).states
         self._reel.become([*states, *[states[-1]] * (len(steps) - works)])
         visitor.watch(self._reel, self._at, self, [step.instruction for step in steps])
-        lines = [StepLine(step.instruction, f"clause {step.clause + 1}") for step in steps]
-        faults = {broken.step: [f"✗ {broken.why}"]} if broken else {}
-        state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
+        lines = [PlannedStep(step.instruction, f"clause {step.clause + 1}") for step in steps]
+        faults = {broken[0]: [f"✗ {broken[1]}"]} if broken else {}
+        state = f"Step {broken[0]} does not apply." if broken else "Every step applies." if steps else NO_STEPS
         in_words = visitor.setting.wording.instruction
         listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct")
         self._text.content = fragment(f"<p role='status'>{state}</p>") + listed

@@ -11,11 +11,12 @@ from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.correction import Correction, what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import CorrectionDraft, Draft
-from tmd.studio.demonstrations.session import Session
+from tmd.studio.demonstrations.session import Session, Steps
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
 from tmd.studio.visitor import Panel, Visitor, chosen, put
-from tmd.view.panels import StepLine, changed, step_list
+from tmd.view.panels import changed, step_list
+from tmd.view.subject import PlannedStep
 
 if TYPE_CHECKING:
     from viser import GuiButtonHandle
@@ -78,7 +79,7 @@ class DraftPanel(Panel, Generic[_Work, _Draft]):
             raise TmdError(self.idle[0], hint=self.idle[1])
         return self._work
 
-    def _store(self, session: Session, task: str, goal: str) -> None:
+    def _store(self, session: Steps, task: str, goal: str) -> None:
         """Save a demonstration, and learn from it."""
         visitor = self._visitor
         saved = visitor.studio.save(session, task, goal.strip() or None)
@@ -256,7 +257,7 @@ class DemonstratePanel(DraftPanel[Session, Draft]):
             wording = visitor.setting.wording
             gains = changed(*self._reel.changes(cursor), wording.fact)
             lines = [
-                StepLine(step.instruction, f"clause {step.clause + 1}" + (", marked" if step.marked else ""))
+                PlannedStep(step.instruction, f"clause {step.clause + 1}" + (", marked" if step.marked else ""))
                 for step in session.steps
             ]
             self._steps.content = step_list(lines, cursor, gains, in_words=wording.instruction, of="demonstrate")

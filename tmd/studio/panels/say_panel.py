@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
@@ -22,7 +23,7 @@ from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.correction import as_corrected, steps_of
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
-from tmd.studio.view3d.performance import RobotRun, plan_lines
+from tmd.studio.view3d.performance import RobotRun
 from tmd.studio.visitor import Panel, Visitor, chosen, put
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
@@ -30,7 +31,8 @@ from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
 from tmd.view.object_rows import object_rows
-from tmd.view.panels import StepLine, changed, effort, fragment, goal_list, judgement, step_list
+from tmd.view.panels import changed, effort, fragment, goal_list, judgement, step_list
+from tmd.view.subject import PlannedStep, planned_steps
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
@@ -445,14 +447,14 @@ class SayPanel(Panel):
         self._list(lines)
         self._visitor.keep_link()
 
-    def _lines(self) -> list[StepLine]:
+    def _lines(self) -> list[PlannedStep]:
         """Return the steps of the plan or the run that is looked at; none where there is neither."""
         if self._grounded is None or not self._reels:
             return []
         run = self._running()
-        return run.lines if run else plan_lines(self._grounded.plans[self._number()])
+        return run.lines if run else planned_steps(self._grounded.plans[self._number()])
 
-    def _list(self, lines: list[StepLine]) -> None:
+    def _list(self, lines: list[PlannedStep]) -> None:
         """List the steps, with what the one that is looked at changed."""
         wording, run, reel = self._visitor.setting.wording, self._running(), self._reel()
         doing = run is not None and run.now is not None and self._visitor.live
@@ -524,24 +526,14 @@ def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callabl
     if not plans:
         return f"The same sentence has no plan yet: {grounded.reason}."
     for place, plan in enumerate(plans, start=1):
-        more = _beside(shown, plan)
-        if more is None:
+        rest = iter(plan)
+        if not all(instruction in rest for instruction in shown):
             continue
-        also = f", and does more: {'; '.join(map(said, more))}" if more else ""
+        more = "; ".join(map(said, (Counter(plan) - Counter(shown)).elements()))
+        also = f", and does more: {more}" if more else ""
         so = f"as plan {place} of {len(plans)}" if place > 1 else ""
         return f"The same sentence {'' if so else 'now '}gives what you showed{so and ' '}{so}{also}."
     return "The same sentence still gives another plan."
-
-
-def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[Instruction] | None:
-    """Return the other instructions of a plan that has all of ``shown`` in order; ``None`` where it has not."""
-    rest, more = list(shown), []
-    for instruction in plan:
-        if rest and rest[0] == instruction:
-            rest.pop(0)
-        else:
-            more.append(instruction)
-    return None if rest else more
 
 
 def _styled(content: str) -> str:

@@ -17,7 +17,7 @@ from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.video.symbolic_renderer import Colour
 from tmd.studio.environment_view import Reel, Setting
-from tmd.view.panels import StepLine
+from tmd.view.subject import PlannedStep, planned_steps
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 
@@ -79,13 +79,13 @@ class RobotRun(Reel):
         assert setting.look is not None
         self._still = setting.look.still
         self._orders = [Order(step.instruction, step.clause, step.latent) for step in plan.steps]
-        self._lines = plan_lines(plan)
+        self._lines = planned_steps(plan)
         self._moved, self._advanced = moved, advanced
         self._colours = self._still.colours(self.facts(0))
         self._session: SimulationSession | None = None
         self._ticks = 0
         self.planned = plan.instructions
-        self.done: list[StepLine] = []
+        self.done: list[PlannedStep] = []
         self.faults: dict[int, list[str]] = {}
         self.now: Title | None = None
         self.left = list(self._lines)
@@ -94,7 +94,7 @@ class RobotRun(Reel):
         self.over = ""
 
     @property
-    def lines(self) -> list[StepLine]:
+    def lines(self) -> list[PlannedStep]:
         """The instructions that were done, and those that are still to be done."""
         return [*self.done, *self.left]
 
@@ -157,7 +157,7 @@ class RobotRun(Reel):
         """Take up the beginning of an instruction."""
         self.now = title
         rest = self._lines[title.number - 1 :]
-        self.left = [StepLine(title.instruction, "repair"), *rest] if title.repair else rest
+        self.left = [PlannedStep(title.instruction, "repair"), *rest] if title.repair else rest
         self._advanced()
 
     def end(self, title: Title, step: ExecutedStep) -> None:
@@ -171,11 +171,3 @@ class RobotRun(Reel):
         self._colours = self._still.colours(step.state)
         self._look()
         self._advanced()
-
-
-def plan_lines(plan: RankedPlan) -> list[StepLine]:
-    """Return the steps of a plan, each with its clause."""
-    return [
-        StepLine(each.instruction, f"clause {each.clause + 1}" + (", unsaid" if each.latent else ""), each.latent)
-        for each in plan.steps
-    ]
