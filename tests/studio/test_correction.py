@@ -53,16 +53,16 @@ def test_a_deleted_step_breaks_a_later_one_and_is_repaired(correction: Correctio
     assert [str(i) for i in correction.repair()] == ["open(microwave1_door)"]
     assert correction.broken() is None
     assert served(correction) == PLAN
-    assert correction.history.undo()
+    assert correction.undo()
     assert correction.broken() == found
-    assert correction.history.redo()
+    assert correction.redo()
     assert correction.broken() is None
 
 
 def test_an_object_is_swapped_everywhere_or_in_one_step(correction: Correction) -> None:
     assert correction.swap("mug1", "cup1", 3) == 1
     assert lines(correction)[:3] == ["find(mug1)", "moveto(mug1)", "grasp(cup1)"]
-    assert correction.history.undo()
+    assert correction.undo()
     assert correction.swap("mug1", "cup1") == 4
     assert correction.broken() is None
     assert ("grasp(cup1)", 0) in served(correction)
@@ -76,7 +76,7 @@ def test_parts_are_swapped_with_their_whole(correction: Correction) -> None:
     assert lines(correction)[4] == "open(fridge1_door)"
     with pytest.raises(TmdError, match='"counter1" in grasp\\(counter1\\) is of type "counter"'):
         correction.swap("mug1", "counter1")
-    assert correction.history.undo()
+    assert correction.undo()
     assert correction.steps == before
 
 
@@ -112,7 +112,7 @@ def test_what_can_never_be_done_is_not_repaired(correction: Correction) -> None:
     correction.insert(1, parse_instruction("keep(fork1, microwave1, in)"))
     with pytest.raises(TmdError, match=r"keep\(fork1, microwave1, in\) can never be done here"):
         correction.repair()
-    correction.history.undo()
+    correction.undo()
     assert correction.broken() is None
 
 

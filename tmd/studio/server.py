@@ -31,8 +31,6 @@ _TRIES = 8
 _WINDOWS = 8
 # Seconds between two looks at learning that is under way.
 _LOOK = 0.5
-# Seconds that a browser may take to say who it is.
-_PATIENCE = 5.0
 _CHANGED = "Files of the domain have changed on disk: start tmd studio again to use them."
 
 # Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded.
@@ -93,11 +91,7 @@ class Server:
 
         A window takes a name of the browser that no other window has now, rather one with something that was not saved.
         """
-        try:
-            said = client.local_storage.get_item(KEY, timeout=_PATIENCE) or ""
-        except (RuntimeError, TimeoutError):
-            said = ""
-        drafts = self.studio.drafts
+        said, drafts = page.stored(client, KEY), self.studio.drafts
         names = list(dict.fromkeys(said.split(",")[:_WINDOWS])) if said else []
         kept = [name for name in names if drafts.kept(name)]
         for known in (kept, [name for name in names if name not in kept]):

@@ -58,7 +58,7 @@ class Correction(Steps):
         if steps is not None:
             for step in steps:
                 bind(world.task.problem, step.instruction)
-            self.history.add(tuple(steps))
+            self._add(tuple(steps))
 
     def delete(self, step: int) -> None:
         """Leave a step out.
@@ -67,7 +67,7 @@ class Correction(Steps):
             TmdError: There is no such step.
         """
         self._known(step)
-        self.history.add(self.steps[: step - 1] + self.steps[step:])
+        self._add(self.steps[: step - 1] + self.steps[step:])
 
     def insert(self, step: int, instruction: Instruction) -> None:
         """Put an instruction in, so that it becomes the step of that number, for the clause of the step behind it.
@@ -96,7 +96,7 @@ class Correction(Steps):
         self._known(to)
         kept = [*self.steps[: step - 1], *self.steps[step:]]
         kept.insert(to - 1, self.steps[step - 1])
-        self.history.add(tuple(kept))
+        self._add(tuple(kept))
 
     def swap(self, old: str, new: str, step: int | None = None) -> int:
         """Take another object instead of ``old``, and its parts instead of those of ``old``.
@@ -121,7 +121,7 @@ class Correction(Steps):
         for other in changed.values():
             bind(self.world.task.problem, other.instruction)
         if changed:
-            self.history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
+            self._add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
         return len(changed)
 
     def broken(self) -> tuple[int, str] | None:
@@ -161,7 +161,7 @@ class Correction(Steps):
         beside = self.steps[step - 1 : step] or self.steps[-1:]
         owner = beside[0].clause if beside else 0
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
-        self.history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
+        self._add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
     def _played(self) -> tuple[Bits, tuple[int, str] | None]:
         """Return the state before the first step that does not apply, its number and why; or the last state."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from itertools import accumulate
-from typing import Generic, TypeVar
 
 from tmd.diagnostics import TmdError
 from tmd.goals.wording import Wording
@@ -22,49 +21,6 @@ from tmd.world.world import World
 
 # Longer demonstrations are refused: the longest of the bundled ones has about thirty steps.
 MAX_STEPS = 500
-
-
-_T = TypeVar("_T")
-
-
-class History(Generic[_T]):
-    """The versions of an immutable value, one of them current."""
-
-    def __init__(self, first: _T) -> None:
-        self._versions = [first]
-        self._at = 0
-
-    @property
-    def current(self) -> _T:
-        """The current version."""
-        return self._versions[self._at]
-
-    def add(self, version: _T) -> None:
-        """Make a new version current, in place of all that were undone."""
-        self._versions[self._at + 1 :] = [version]
-        self._at += 1
-
-    @property
-    def before(self) -> bool:
-        """Return whether there is a version to go back to."""
-        return self._at > 0
-
-    @property
-    def after(self) -> bool:
-        """Return whether there is a version that was undone."""
-        return self._at + 1 < len(self._versions)
-
-    def undo(self) -> bool:
-        """Go back to the version before; return false if there is none."""
-        moved = self.before
-        self._at -= moved
-        return moved
-
-    def redo(self) -> bool:
-        """Go to the version after; return false if there is none."""
-        moved = self.after
-        self._at += moved
-        return moved
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +51,6 @@ class Steps:
         world: The environment.
         text: The text, without control characters.
         clauses: The pieces of the text that steps serve, at least one.
-        history: The steps, and those that were undone.
         proposed: The plan that is corrected, if one is.
 
     Raises:
@@ -110,13 +65,40 @@ class Steps:
         self.world = world
         self.text = clean(text)
         self.clauses: tuple[ClauseSpan, ...] = cut(self.text, lexicon)
-        self.history = History(steps)
+        self._versions, self._at = [steps], 0
         self._wording = Wording(world.task.problem)
 
     @property
     def steps(self) -> tuple[DemonstratedStep, ...]:
         """All steps that were not undone."""
-        return self.history.current
+        return self._versions[self._at]
+
+    @property
+    def undoable(self) -> bool:
+        """Return whether there is a change to take back."""
+        return self._at > 0
+
+    @property
+    def redoable(self) -> bool:
+        """Return whether there is a change that was taken back."""
+        return self._at + 1 < len(self._versions)
+
+    def undo(self) -> bool:
+        """Take the last change back; false where there is none."""
+        return self.undoable and self._go(-1)
+
+    def redo(self) -> bool:
+        """Make the change again that was taken back last; false where there is none."""
+        return self.redoable and self._go(1)
+
+    def _go(self, by: int) -> bool:
+        self._at += by
+        return True
+
+    def _add(self, steps: tuple[DemonstratedStep, ...]) -> None:
+        """Make steps current, in place of all that were undone."""
+        self._versions[self._at + 1 :] = [steps]
+        self._at += 1
 
     @property
     def instructions(self) -> tuple[Instruction, ...]:
@@ -218,17 +200,10 @@ class Session(Steps):
         self.cursor = at + 1
         return self.steps[-1]
 
-    def undo(self) -> bool:
-        """Take the last change back (a step, a mark); false where there is none."""
-        moved = self.history.undo()
-        self.cursor = len(self.steps) if moved else self.cursor
-        return moved
-
-    def redo(self) -> bool:
-        """Make the change again that was taken back last; false where there is none."""
-        moved = self.history.redo()
-        self.cursor = len(self.steps) if moved else self.cursor
-        return moved
+    def _go(self, by: int) -> bool:
+        super()._go(by)
+        self.cursor = len(self.steps)
+        return True
 
     def goto(self, step: int) -> None:
         """Look at the state after that many steps; 0 is the beginning. Nothing is undone.
@@ -263,4 +238,4 @@ class Session(Steps):
         chosen = {number - 1: clause for number, clause in pins.items()}
         clauses = propose([piece.clause for piece in self.clauses], done, self.world, chosen, self._habits)
         pairs = enumerate(zip(done, clauses, strict=True))
-        self.history.add(tuple(DemonstratedStep(each, clause, n in chosen) for n, (each, clause) in pairs))
+        self._add(tuple(DemonstratedStep(each, clause, n in chosen) for n, (each, clause) in pairs))

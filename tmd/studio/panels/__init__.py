@@ -1,4 +1,7 @@
-"""The panels of the studio's page: say, demonstrate, correct, the object that was pointed at, and the player above."""
+"""The panels of the studio's page: say, demonstrate, correct, the object that was pointed at, and the player above.
+
+Begin with :class:`tmd.studio.visitor.Panel`, their base.
+"""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
         self._new.options = self._with.options = (NOTHING, *visitor.setting.names())
         self._all.visible, self._resume.visible = True, False
         put(self._goal, goal)
-        self._refresh()
+        self.refresh()
 
     # what is not saved yet
 
@@ -110,14 +110,14 @@ class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
     def goto(self, step: int) -> None:
         """Choose a step, and look at what it leads to."""
         self._at = min(max(step, 0), len(self._going().steps))
-        self._refresh()
+        self.refresh()
 
     def _able(self) -> None:
         """Disable the buttons that would do nothing."""
         correction, at = self._going(), self._at
         self._delete.disabled = not at
         self._earlier.disabled, self._later.disabled = at < 2, not 0 < at < len(correction.steps)
-        self._undo.disabled, self._redo.disabled = not correction.history.before, not correction.history.after
+        self._undo.disabled, self._redo.disabled = not correction.undoable, not correction.redoable
         self._repair.disabled = correction.broken() is None
         self._put_in.disabled = self._what.value == NOTHING
         for button in self._swaps:
@@ -125,24 +125,19 @@ class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
 
     def _leave_out(self) -> None:
         self._going().delete(self._at)
-        self._refresh()
+        self.refresh()
 
     def _move(self, by: int) -> None:
         self._going().move(self._at, self._at + by)
         self._at += by
-        self._refresh()
-
-    def _go_back(self, forward: bool) -> None:
-        history = self._going().history
-        history.redo() if forward else history.undo()
-        self._refresh()
+        self.refresh()
 
     def _swap(self, where: str) -> None:
         correction, old, new = self._going(), chosen(self._old), chosen(self._new)
         if NOTHING in (old, new):
             raise TmdError("choose the two objects first")
         count = correction.swap(old, new, self._at if where == HERE else None)
-        self._refresh()
+        self.refresh()
         self._visitor.tell(f"{count} step{'' if count == 1 else 's'} changed.")
 
     def _instructions(self) -> None:
@@ -159,11 +154,11 @@ class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
             raise TmdError("choose an instruction first")
         self._going().insert(self._at + 1, instruction)
         self._at += 1
-        self._refresh()
+        self.refresh()
 
     def _mend(self) -> None:
         added = self._going().repair()
-        self._refresh()
+        self.refresh()
         said = "; ".join(map(self._visitor.setting.wording.instruction, added))
         self._visitor.tell(f"Put in: {said}." if added else "Nothing is missing.")
 
@@ -173,7 +168,7 @@ class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
 
     # showing
 
-    def _refresh(self) -> None:
+    def refresh(self) -> None:
         """Show the plan as it is now, and the state after the chosen step, or the last one that is reached."""
         visitor, correction = self._visitor, self._going()
         self._keep()

@@ -79,6 +79,15 @@ class DraftPanel(Panel, Generic[_Work, _Draft]):
             raise TmdError(self.idle[0], hint=self.idle[1])
         return self._work
 
+    def _go_back(self, forward: bool) -> None:
+        work = self._going()
+        if not (work.redo() if forward else work.undo()):
+            raise TmdError("nothing was taken back" if forward else "there is nothing to take back")
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Show what is under way as it is now, and keep it."""
+
     def _store(self, session: Steps, task: str, goal: str) -> None:
         """Save a demonstration, and learn from it."""
         visitor = self._visitor
@@ -113,8 +122,8 @@ class DemonstratePanel(DraftPanel[Session, Draft]):
         self._more: dict[str, Instruction] = {}
         self._steps = gui.add_html("")
         self._clause = visitor.dropdown("It serves", ("1",), self._mark, visible=False)
-        self._undo = visitor.button("Undo", self._take_back, visible=False)
-        self._redo = visitor.button("Redo", self._make_again, visible=False)
+        self._undo = visitor.button("Undo", partial(self._go_back, False), visible=False)
+        self._redo = visitor.button("Redo", partial(self._go_back, True), visible=False)
         self._do = gui.add_folder("Do", visible=False)
         with self._do:
             self._object = visitor.dropdown(
@@ -130,8 +139,8 @@ class DemonstratePanel(DraftPanel[Session, Draft]):
             self._save = visitor.button("Save (K)", self._save_it, color="blue")
             visitor.button("Throw away", self._discard, color="red")
         for words, key, act in (
-            ("Undo", "U", self._take_back),
-            ("Redo", "R", self._make_again),
+            ("Undo", "U", partial(self._go_back, False)),
+            ("Redo", "R", partial(self._go_back, True)),
             ("Keep the demonstration: save it", "K", self._save_it),
         ):
             visitor.command(words, key, act)
@@ -217,16 +226,6 @@ class DemonstratePanel(DraftPanel[Session, Draft]):
     def _able(self) -> None:
         self._other.disabled = self._others.value == NOTHING
 
-    def _take_back(self) -> None:
-        if not self._going().undo():
-            raise TmdError("there is nothing to take back")
-        self.refresh()
-
-    def _make_again(self) -> None:
-        if not self._going().redo():
-            raise TmdError("nothing was taken back")
-        self.refresh()
-
     def goto(self, step: int) -> None:
         """Look at the state after so many steps; nothing is undone."""
         self._going().goto(step)
@@ -262,7 +261,7 @@ class DemonstratePanel(DraftPanel[Session, Draft]):
             ]
             self._steps.content = step_list(lines, cursor, gains, in_words=wording.instruction, of="demonstrate")
             self._clause.visible, self._save.disabled = bool(session.steps), not session.steps
-            self._undo.disabled, self._redo.disabled = not session.history.before, not session.history.after
+            self._undo.disabled, self._redo.disabled = not session.undoable, not session.redoable
             if session.steps:
                 self._clause.options = tuple(titles)
                 put(self._clause, titles[session.steps[cursor - 1].clause if cursor else 0])

@@ -32,7 +32,7 @@ from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
 from tmd.view.object_rows import object_rows
 from tmd.view.panels import changed, effort, fragment, goal_list, judgement, step_list
-from tmd.view.subject import PlannedStep, planned_steps
+from tmd.view.subject import planned_steps
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
@@ -306,13 +306,7 @@ class SayPanel(Panel):
         visitor.tell(f"No plan: {why}.", "; or ".join(filter(None, (hint, shown, tried))), fault=True)
 
     def _show(
-        self,
-        grounded: Grounded,
-        place: int = 0,
-        step: int = 0,
-        *,
-        watch: bool = True,
-        request: Request | None = None,
+        self, grounded: Grounded, place: int = 0, step: int = 0, *, watch: bool = True, request: Request | None = None
     ) -> None:
         """Show what a text was grounded to: the plan at ``place``, after ``step`` steps, and its picture if wanted."""
         self._waiting = None
@@ -434,36 +428,25 @@ class SayPanel(Panel):
         return len(self._reel().states) - 1 if self._reels else 0
 
     def _look(self, *, watch: bool = True) -> None:
-        if not self._reels:
+        """Show the step that is looked at: in the picture, in the list, what it changed, and the goals that hold."""
+        if self._grounded is None or not self._reels:
             return
-        reel, lines = self._reel(), self._lines()
+        visitor, run, reel = self._visitor, self._running(), self._reel()
+        lines = run.lines if run else planned_steps(self._grounded.plans[self._number()])
+        instructions = [line.instruction for line in lines]
         if watch:
-            self._visitor.watch(reel, self._step, self, [line.instruction for line in lines])
-        problem = self._visitor.setting.world.task.problem
+            visitor.watch(reel, self._step, self, instructions)
+        wording, problem = visitor.setting.wording, visitor.setting.world.task.problem
         facts, shown = reel.facts(self._step), [goal for goal in self._asked if goal.asked]
         true = sum(holds(goal.goal.formula, facts, problem) for goal in shown if goal.goal.formula is not None)
         self._reached.label = f"Goals: {true} of {len(shown)} hold now"
         self._goals.content = goal_list(self._asked, facts, problem)
-        self._list(lines)
-        self._visitor.keep_link()
-
-    def _lines(self) -> list[PlannedStep]:
-        """Return the steps of the plan or the run that is looked at; none where there is neither."""
-        if self._grounded is None or not self._reels:
-            return []
-        run = self._running()
-        return run.lines if run else planned_steps(self._grounded.plans[self._number()])
-
-    def _list(self, lines: list[PlannedStep]) -> None:
-        """List the steps, with what the one that is looked at changed."""
-        wording, run, reel = self._visitor.setting.wording, self._running(), self._reel()
-        doing = run is not None and run.now is not None and self._visitor.live
+        doing = run is not None and run.now is not None and visitor.live
         gains = () if doing else changed(*reel.changes(self._step), wording.fact)
         faults, current = run.faults if run else None, self._step + doing
         self._steps.content = step_list(lines, current, gains, faults, in_words=wording.instruction, of="say")
-        instructions = [line.instruction for line in lines]
-        problem = self._visitor.setting.world.task.problem
         self._chart.content = _styled(object_rows(instructions, problem, current, wording))
+        visitor.keep_link()
 
     # what next
 
