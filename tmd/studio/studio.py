@@ -12,7 +12,7 @@ from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
-from tmd.studio.demonstrations.session import Session, Steps
+from tmd.studio.demonstrations.session import EditedSteps, Session
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.meshes import Figure
@@ -95,7 +95,7 @@ class Studio:
         self.archive.refuse(setting.world)
         return Session(setting.world, text, self.corpus.lexicon, habits=self.teacher.habits)
 
-    def save(self, session: Steps, task: str, goal: str | None = None) -> Demonstration:
+    def save(self, session: EditedSteps, task: str, goal: str | None = None) -> Demonstration:
         """Save a demonstration: the next text is grounded with it, and the rest is learned in the background.
 
         Args:

@@ -22,13 +22,13 @@ from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Unreachable
 from tmd.studio.demonstrations.clause_spans import clean, cut
-from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, Steps
+from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, EditedSteps
 from tmd.view.panels import require_object
 from tmd.world.demonstration import Demonstration, Segment
 from tmd.world.world import World
 
 
-class Correction(Steps):
+class Correction(EditedSteps):
     """A plan under correction.
 
     Args:

@@ -13,7 +13,7 @@ from tmd.diagnostics import TmdError
 from tmd.files import locked, make_directory, write_bytes
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
-from tmd.studio.demonstrations.session import Steps
+from tmd.studio.demonstrations.session import EditedSteps
 from tmd.world.corpus import Corpus, check_executable, final_state
 from tmd.world.demonstration import (
     Demonstration,
@@ -80,7 +80,7 @@ class Archive:
                 hint="give it another name, and copy its file there",
             )
 
-    def save(self, session: Steps, task: str = SHOWN, *, goal: str | None = None) -> Demonstration:
+    def save(self, session: EditedSteps, task: str = SHOWN, *, goal: str | None = None) -> Demonstration:
         """Append a demonstration to the file of its task.
 
         Args:

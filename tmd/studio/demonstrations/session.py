@@ -38,7 +38,7 @@ class DemonstratedStep:
     marked: bool = False
 
 
-class Steps:
+class EditedSteps:
     """Steps for a text, with undo and redo.
 
     Args:
@@ -133,7 +133,7 @@ class Steps:
         return self._wording.broken(instruction, task.decode(state)) or "nothing can bring it about here"
 
 
-class Session(Steps):
+class Session(EditedSteps):
     """A demonstration under way.
 
     Args:

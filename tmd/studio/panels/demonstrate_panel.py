@@ -11,7 +11,7 @@ from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.correction import Correction, what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import CorrectionDraft, Draft
-from tmd.studio.demonstrations.session import Session, Steps
+from tmd.studio.demonstrations.session import EditedSteps, Session
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
 from tmd.studio.visitor import Panel, Visitor, chosen, put
@@ -88,7 +88,7 @@ class DraftPanel(Panel, Generic[_Work, _Draft]):
     def refresh(self) -> None:
         """Show what is under way as it is now, and keep it."""
 
-    def _store(self, session: Steps, task: str, goal: str) -> None:
+    def _store(self, session: EditedSteps, task: str, goal: str) -> None:
         """Save a demonstration, and learn from it."""
         visitor = self._visitor
         saved = visitor.studio.save(session, task, goal.strip() or None)
