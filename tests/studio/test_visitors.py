@@ -6,6 +6,7 @@ import json
 import random
 import shutil
 import socket
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -563,3 +564,50 @@ def test_what_has_no_places_is_a_graph(tmp_path: Path, monkeypatch: pytest.Monke
             visitor.shows("red_block: block</h4>")
     finally:
         served.close()
+
+
+def test_a_domain_that_is_broken_meanwhile_is_told_of_and_used_as_it_was(
+    table: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also a file of demonstrations that somebody has written half of."""
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    domain = tmp_path / "02_table"
+    shutil.copytree(table.folder.path, domain)
+    corpus = Corpus(DomainFolder(domain), table.directory)
+    served = Server(Studio(corpus, Teacher(corpus), "corner1"), "127.0.0.1", 0)
+    try:
+        with Wire(served.url) as visitor:
+            begin(visitor, f"{TEXT}.")
+            do(visitor, "cup1", STEPS[0])
+            (domain / "objects.yaml").write_text("classes: [")
+            visitor.told("Files of the domain have changed on disk")
+            plan_it(visitor, f"{TEXT}.")
+            visitor.told("Learning failed: ")
+            assert "objects.yaml" in visitor.said()
+            shutil.copy(table.folder.path / "objects.yaml", domain)
+            file = table.directory / "shown" / "demonstrations.jsonl"
+            file.parent.mkdir()
+            file.write_text('{"id": "shown-cor')
+            visitor.put("Text", f"{TEXT}.")
+            visitor.press("Plan it")
+            visitor.told("demonstrations.jsonl")
+            file.unlink()
+            plan_it(visitor, f"{TEXT}.")
+            do(visitor, "cup1", STEPS[1])
+            visitor.press("Save (K)")
+            visitor.told("Saved as shown-corner1-01")
+    finally:
+        served.close()
+
+
+def test_a_window_that_is_closed_at_once_leaves_nothing_behind(server: Server) -> None:
+    for _ in range(5):
+        with Wire(server.url):
+            pass
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        due, drafts = time.monotonic() + 30, server.studio.drafts.directory
+        while len(held := list(drafts.glob("*.lock"))) > 1 and time.monotonic() < due:
+            time.sleep(0.1)
+        assert len(held) == 1

@@ -84,6 +84,8 @@ class Server:
             self._visitors[client.client_id] = visitor
             if self.studio.teacher.learning:
                 visitor.learning(on=True)
+        if client.client_id not in self._viser.get_clients():  # it was closed meanwhile
+            self._leave(client)
         visitor.guarded(visitor.come_back)(None)
 
     def _identity(self, client: ClientHandle) -> str:
@@ -122,7 +124,7 @@ class Server:
                 visitors = list(self._visitors.values())
             for visitor in visitors:
                 if learning != told:
-                    visitor.learning(on=learning)
+                    visitor.learning(on=learning, failed=self.studio.teacher.error)
                 if now != files:
                     visitor.tell(_CHANGED, "What was not saved is kept.", aloud=True)
             told, files = learning, now

@@ -513,10 +513,12 @@ class Visitor:
         if self._playing is not None:
             self._playing.set()
 
-    def learning(self, *, on: bool) -> None:
-        """Show that something is being learned, or that it is done."""
+    def learning(self, *, on: bool, failed: Exception | None = None) -> None:
+        """Show that something is being learned, that it is done, or that it failed."""
         self._learning.visible = on
-        for panel in () if on else self.panels:
+        if failed is not None:
+            self.tell(f"Learning failed: {failed}", "Plans are made with what was learned before.", fault=True)
+        for panel in () if on or failed else self.panels:
             self.guarded(panel.learned)(None)
 
 
