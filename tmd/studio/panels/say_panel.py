@@ -288,7 +288,13 @@ class SayPanel(Panel):
         """Report the number of plans, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            more = _ASKED if grounded.question is not None else f"{self._run.over} {_BACK}" if self._run else None
+            more = (
+                _ASKED
+                if grounded.question is not None
+                else f"{self._run.over or _STOPPING} {_BACK}"
+                if self._run
+                else None
+            )
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
@@ -494,6 +500,7 @@ class SayPanel(Panel):
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
 _BACK = "It is under Plan, to look back."
+_STOPPING = "The robot is being stopped."
 _ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."
