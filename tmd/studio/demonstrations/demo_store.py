@@ -33,7 +33,7 @@ _WAIT = 10.0
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,59}")
 _NUMBER = re.compile(r"[0-9]{1,9}")
 _TAKEN = frozenset({"environments", "learned"})
-# Characters that a name may have.
+# Characters of a name that are shown.
 _LONGEST = 200
 
 
@@ -57,9 +57,7 @@ class Archive:
         """
         if not _NAME.fullmatch(task) or task in _TAKEN:
             hint = "a name begins with a lower-case letter and has lower-case letters, digits and _, at most 60"
-            raise TmdError(
-                f"a task cannot be called {task!r}" if len(task) <= _LONGEST else "too long a name", hint=hint
-            )
+            raise TmdError(f"a task cannot be called {task[:_LONGEST]!r}", hint=hint)
         return self.corpus.directory / task / FILE
 
     def refuse(self, world: World) -> None:

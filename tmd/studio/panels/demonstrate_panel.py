@@ -138,12 +138,9 @@ class DemonstratePanel(DraftPanel[Session, Draft]):
             self._goal = gui.add_text("Goal (optional)", "", hint=GOAL_HINT)
             self._save = visitor.button("Save (K)", self._save_it, color="blue")
             visitor.button("Throw away", self._discard, color="red")
-        for words, key, act in (
-            ("Undo", "U", partial(self._go_back, False)),
-            ("Redo", "R", partial(self._go_back, True)),
-            ("Keep the demonstration: save it", "K", self._save_it),
-        ):
-            visitor.command(words, key, act)
+        visitor.command("Undo", "U", partial(self._go_back, False))
+        visitor.command("Redo", "R", partial(self._go_back, True))
+        visitor.command("Keep the demonstration: save it", "K", self._save_it)
 
     def entered(self) -> None:
         """Show the objects of another environment."""

@@ -417,7 +417,8 @@ class SayPanel(Panel):
         over = run.ended.is_set() and bool(run.over)
         self._robot.disabled, self._stop.disabled = not over, over
         if over:
-            self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
+            explain = _EXPLAIN.format(run.setting.path, run.setting.name) if run.failed else ""
+            self._visitor.tell(run.over, f"{_BACK if run.done else ''} {explain}".strip() or None, aloud=True)
         elif run.now is not None:
             said = self._visitor.setting.wording.instruction(run.now.instruction)
             self._visitor.tell(f"The robot, step {run.now.number} of {run.now.of}: {said}")
@@ -500,6 +501,7 @@ class SayPanel(Panel):
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
 _BACK = "It is under Plan, to look back."
+_EXPLAIN = "Why: download the plan; tmd run {} --plan {}.plan --explain why.html draws what was tried in vain."
 _STOPPING = "The robot is being stopped."
 _ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from threading import Event
-from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import RankedPlan
@@ -14,16 +13,13 @@ from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
-from tmd.robot.sim.simulator import STEPS_PER_SECOND
+from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
+from tmd.robot.skills.results import ExecutedStep, SkillStatus
 from tmd.robot.video.symbolic_renderer import Colour
 from tmd.studio.environment_view import Reel, Setting
 from tmd.view.subject import PlannedStep, planned_steps
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
-
-if TYPE_CHECKING:
-    from tmd.robot.sim.simulator import Simulator
-    from tmd.robot.skills.results import ExecutedStep
 
 # Moments of a simulated second.
 RATE = 8
@@ -70,6 +66,7 @@ class RobotRun(Reel):
         moments: The poses, in order; empty until the simulation is there.
         ended: Set to stop the run.
         over: How it ended, in words; empty while it goes on.
+        failed: Whether the robot could not go on.
     """
 
     def __init__(
@@ -91,7 +88,7 @@ class RobotRun(Reel):
         self.left = list(self._lines)
         self.moments: list[Moment] = []
         self.ended = Event()
-        self.over = ""
+        self.over, self.failed = "", False
 
     @property
     def lines(self) -> list[PlannedStep]:
@@ -114,6 +111,7 @@ class RobotRun(Reel):
             execution = run_plan(environment, folder, problem, self._orders, prepare=self._prepare).execution
             reason = f": {execution.reason}" if execution.reason else ""
             self.over = f"The robot's run ended: {execution.status}{reason}."
+            self.failed = execution.status is SkillStatus.STOPPED
         except _StoppedError:
             self.over = f"The robot was stopped, {len(self.done)} of {len(self._orders)} steps done."
         except TmdError as error:
