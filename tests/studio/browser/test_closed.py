@@ -61,7 +61,7 @@ def test_two_browsers_have_their_own_plans_and_share_corrections(table_studio: S
         told(one, "This sentence now gives it here, as it was corrected.")
         assert shown(other) == own
         say(other, PUT)
-        told(other, "Planned in")
+        other.locator("ol:visible > li").filter(has_text="Put cup1 on shelf1").wait_for()
         assert "as it was corrected" in entry(other, "Plan").input_value()
         other.get_by_text("Energies, and why").click()
         other.get_by_text("is first because somebody corrected a plan so").wait_for()
