@@ -83,7 +83,7 @@ class Server:
         with self._lock:
             self._visitors[client.client_id] = visitor
             if self.studio.teacher.learning:
-                visitor.learning(on=True)
+                visitor.learning(True)
         if client.client_id not in self._viser.get_clients():  # it was closed meanwhile
             self._leave(client)
         visitor.guarded(visitor.come_back)(None)
@@ -117,14 +117,15 @@ class Server:
 
     def _follow(self) -> None:
         """Tell every visitor when learning begins and when it ends, and when files of the domain change."""
-        told, files = False, self._files()
+        teacher, files = self.studio.teacher, self._files()
+        told: tuple[bool, Exception | None] = False, None
         while not self._ended.wait(_LOOK):
-            learning, now = self.studio.teacher.learning, self._files()
+            learning, now = (teacher.learning, teacher.error), self._files()
             with self._lock:
                 visitors = list(self._visitors.values())
             for visitor in visitors:
                 if learning != told:
-                    visitor.learning(on=learning, failed=self.studio.teacher.error)
+                    visitor.learning(*learning)
                 if now != files:
                     visitor.tell(_CHANGED, "What was not saved is kept.", aloud=True)
             told, files = learning, now

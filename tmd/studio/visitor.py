@@ -453,7 +453,8 @@ class Visitor:
         try:
             act()
         except TmdError as error:
-            self.tell(error.message, error.hint, fault=True)
+            place = f"{error.location}: " if error.location else ""
+            self.tell(place + error.message, error.hint, fault=True)
         except Exception:
             traceback.print_exc(file=sys.stderr)
             self.tell("that is a fault of tmd itself; what was saved is safe.", "See the terminal.", fault=True)
@@ -513,7 +514,7 @@ class Visitor:
         if self._playing is not None:
             self._playing.set()
 
-    def learning(self, *, on: bool, failed: Exception | None = None) -> None:
+    def learning(self, on: bool, failed: Exception | None = None) -> None:
         """Show that something is being learned, that it is done, or that it failed."""
         self._learning.visible = on
         if failed is not None:

@@ -104,8 +104,7 @@ class Archive:
         with locked(file.with_name(_LOCK), wait=self.wait):
             before = read_demonstrations(file) if file.exists() else []
             name = _next_id(f"{task}-{session.world.name}", before)
-            task_of = session.world.task
-            ends = _end_state(session.world, task_of.trace(task_of.init, session.instructions)[-1])
+            ends = _end_state(session)
             proposed = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
             where, text = session.world.name, session.text
             found = Demonstration(name, task, where, text, segments, ends, proposed, goal=goal)
@@ -129,13 +128,14 @@ class Archive:
         check_goal(found, world.task.problem, final_state(found, world))
 
 
-def _end_state(world: World, end: Bits) -> tuple[str, ...]:
+def _end_state(session: EditedSteps) -> tuple[str, ...]:
     """Return the facts that changed, without those whose first argument is a constant, such as the robot."""
+    world, init = session.world, session.world.task.init
+    end = world.task.trace(init, session.instructions)[-1]
 
     def own(bits: Bits) -> list[GroundAtom]:
         return [a for a in world.task.names(bits) if a.args and a.args[0] not in world.profiles.constants]
 
-    init = world.task.init
     return (*map(str, own(end & ~init)), *(f"(not {atom})" for atom in own(init & ~end)))
 
 
