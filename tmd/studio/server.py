@@ -32,7 +32,6 @@ _WINDOWS = 8
 # Seconds between two looks at learning that is under way.
 _LOOK = 0.5
 _CHANGED = "Files of the domain have changed on disk: start tmd studio again to use them."
-
 # Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded.
 _WARMING = 5.0
 

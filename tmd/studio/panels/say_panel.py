@@ -38,7 +38,6 @@ from tmd.world.demonstration import Demonstration
 if TYPE_CHECKING:
     from viser import GuiButtonHandle
 
-
 # How many plans are ranked.
 TOP = 3
 OWN = "(own words)"
