@@ -612,3 +612,26 @@ def test_a_window_that_is_closed_at_once_leaves_nothing_behind(server: Server) -
         while len(held := list(drafts.glob("*.lock"))) > 1 and time.monotonic() < due:
             time.sleep(0.1)
         assert len(held) == 1
+
+
+def test_how_to_see_why_the_robot_could_not_go_on_is_said(
+    kitchen: Corpus, learned: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The mug stands on the second of two tables, at its far end."""
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    file = tmp_path / "far.yaml"
+    file.write_text(
+        "name: far\ndomain: kitchen\nobjects:\n"
+        "  table1: {class: table, position: [2.5, 0, 0]}\n  table2: {class: table, position: [3.3, 0, 0]}\n"
+        "  mug1: {class: mug, at: on table2, position: [3.55, 0.0, 0.74]}\n"
+    )
+    served = Server(Studio(kitchen, Teacher(kitchen, learned), file), "127.0.0.1", 0)
+    try:
+        with Wire(served.url) as visitor:
+            plan_it(visitor, "Take the mug.")
+            visitor.press("Let the robot do it")
+            visitor.told("run ended: stopped: ")
+            assert f"tmd run {file} --plan far.plan --explain why.html" in visitor.said()
+            visitor.shows("✗ stance: no place to stand reaches mug1")
+    finally:
+        served.close()
