@@ -583,7 +583,7 @@ def test_a_domain_that_is_broken_meanwhile_is_told_of_and_used_as_it_was(
             (domain / "objects.yaml").write_text("classes: [")
             visitor.told("Files of the domain have changed on disk")
             plan_it(visitor, f"{TEXT}.")
-            visitor.told("Everything that was saved is learned.")
+            assert served.studio.teacher.wait(60)
             file = table.directory / "shown" / "demonstrations.jsonl"
             file.parent.mkdir()
             file.write_text('{"id": "shown-cor')
