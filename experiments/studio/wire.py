@@ -17,7 +17,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from tmd.studio.page import EVENT, KEY
 
-WAIT = 60.0
+WAIT = 180.0
 _CAMERA = {
     "type": "ViewerCameraMessage", "wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, 1.0), "fov": 1.0, "near": 0.01,
     "far": 100.0, "image_height": 480, "image_width": 640, "look_at": (1.0, 0.0, 1.0), "up_direction": (0.0, 0.0, 1.0),
