@@ -385,10 +385,11 @@ class DomainKit:
             TmdError: The port is in use, or the environment or a demonstration is wrong.
         """
         from tmd.studio.server import Server
-        from tmd.studio.studio import open_studio
+        from tmd.studio.studio import Studio
+        from tmd.studio.teaching import Teacher
 
         path = None if environment is None else self._corpus.file(environment)
-        return Server(open_studio(self._corpus, path, self._learned), host, port)
+        return Server(Studio(self._corpus, Teacher(self._corpus, self._learned), path), host, port)
 
     @cached_property
     def _knowledge(self) -> Knowledge:

@@ -12,10 +12,10 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.applicable_actions import Offers
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Draft, Drafts
 from tmd.studio.demonstrations.session import Session
+from tmd.studio.environment_view import Setting
 from tmd.studio.teaching import Teacher
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
@@ -53,9 +53,9 @@ def _measure(directory: Path) -> None:
     teacher = Teacher(corpus)
     print(f"learning everything at first: {time.perf_counter() - start:.1f} s")
     world = corpus.world("kitchen5")
-    offers = Offers(world)
+    setting = Setting(world, corpus.file("kitchen5"))
     names = world.profiles.objects
-    timed(f"offers for all {len(names)} objects", lambda: [offers.of(n) for n in names])
+    timed(f"offers for all {len(names)} objects", lambda: [setting.offers(n) for n in names])
     session = Session(corpus.world("kitchen1"), TEXT, corpus.lexicon, habits=teacher.habits)
     lines = [parse_instruction(line.strip()) for line in PLAN.split(";")]
 

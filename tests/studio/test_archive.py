@@ -20,10 +20,11 @@ from tmd.check.checker import Checker
 from tmd.diagnostics import OutputError, TmdError
 from tmd.files import try_lock
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.demonstrations.demo_store import Archive, demonstration
+from tmd.studio.demonstrations.correction import Correction
+from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.world.corpus import Corpus
-from tmd.world.demonstration import demonstration_line, read_demonstration, read_demonstrations
+from tmd.world.demonstration import demonstration_line, read_demonstrations
 from tmd.world.folder import DomainFolder
 from tmd.world.world import make_world
 
@@ -95,9 +96,8 @@ def test_a_goal_is_saved_with_what_reaches_it(table: Corpus) -> None:
 
 def test_a_correction_may_have_a_goal_that_its_plan_did_not_reach(table: Corpus) -> None:
     proposed = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN[:3])
-    session = Session(
-        table.world("corner1"), TEXT, table.lexicon, instructions=map(parse_instruction, PLAN), proposed=proposed
-    )
+    steps = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN)
+    session = Correction(table.world("corner1"), TEXT, proposed, table.lexicon, steps)
     found = Archive(table).save(session, "corrected", goal="(at cup1 shelf1 on)")
     assert (found.goal, found.proposed) == ("(at cup1 shelf1 on)", tuple(step.instruction for step in proposed))
     assert faults(table, table.directory / "corrected" / "demonstrations.jsonl") == []
@@ -116,9 +116,8 @@ def test_a_task_that_is_there_grows_and_keeps_what_it_had(table: Corpus) -> None
 
 def test_a_correction_keeps_the_plan_that_was_proposed(table: Corpus) -> None:
     proposed = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN[:3])
-    session = Session(
-        table.world("corner1"), TEXT, table.lexicon, instructions=map(parse_instruction, PLAN), proposed=proposed
-    )
+    steps = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN)
+    session = Correction(table.world("corner1"), TEXT, proposed, table.lexicon, steps)
     found = Archive(table).save(session, "corrected")
     assert found.proposed == tuple(step.instruction for step in proposed)
     file = table.directory / "corrected" / "demonstrations.jsonl"
@@ -234,10 +233,9 @@ def test_any_text_is_read_back_as_it_was(table: Corpus, text: str) -> None:
         session = shown(table, text)
     except TmdError:
         return
-    found = demonstration(session, session.segments(), "a-corner1-01", "a")
-    line = demonstration_line(found)
-    assert len(line.splitlines()) == 1
-    assert read_demonstration(Path("a"), 1, line) == found
+    found = Archive(table).save(session)
+    assert found.text == session.text and list(map(str, found.instructions)) == PLAN
+    assert len(demonstration_line(found).splitlines()) == 1
 
 
 def test_the_domain_may_lie_anywhere(table: Corpus, tmp_path: Path) -> None:

@@ -39,3 +39,16 @@ def test_what_is_told_is_text(said: str) -> None:
     plans = [plan(1.0, said), plan(2.0, said, said)]
     html = candidates(plans, [said, said], [Rejected(0, said, said)], narrow=True)
     assert "<script" not in html
+
+
+def test_a_corrected_plan_is_first_and_says_so() -> None:
+    step = PlanStep(Instruction("wait", ()), 0, False)
+    by_hand = RankedPlan((Choice("shown-01", (step, step), {}, {}),), state=0)
+    html = candidates([by_hand, plan(3.5, "a-01")], narrow=True, corrected=True)
+    assert "<b>Plan 1</b> is first because somebody corrected a plan so; it has no energy" in html
+    assert html.count('scope="col"') == 2 and html.count("<td>–</td>") == 1 and "<b>–</b>" in html
+    assert "3.50" in html and "shown-01" in html
+    found = candidates([plan(4.25, "shown-01"), plan(3.5, "a-01")], narrow=True, corrected=True)
+    assert "corrected a plan so</li>" in found and "–" not in found and "4.25" in found
+    assert "<b>–</b>" in candidates([by_hand, plan(3.5, "a-01")])
+    assert "corrected" not in candidates([plan(4.25, "shown-01"), plan(3.5, "a-01")], narrow=True)

@@ -12,7 +12,7 @@ from tmd.goals.wording import Wording
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.task import Bits
-from tmd.studio.applicable_actions import Offers
+from tmd.studio.environment_view import Setting
 from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
 from tmd.world.world import World
@@ -29,12 +29,12 @@ def first_world(name: str) -> World:
 @pytest.mark.parametrize("domain", DOMAINS)
 def test_offers_are_the_ground_actions(domain: str) -> None:
     world = first_world(domain)
-    offers = Offers(world)
-    seen = {operator.instruction for operator in offers.of(None)}
+    setting = Setting(world, Path())
+    seen = {operator.instruction for operator in setting.offers(None)}
     assert all(not instruction.args for instruction in seen)
     for name in world.objects.types_of:
         parts = {part for _, part in world.profiles.parts.get(name, ())}
-        found = [operator.instruction for operator in offers.of(name)]
+        found = [operator.instruction for operator in setting.offers(name)]
         assert all(not i.args or {name, *parts} & set(i.args) for i in found)
         assert found == sorted(found, key=lambda i: name not in i.args)  # its own first
         seen.update(found)
@@ -83,4 +83,4 @@ def test_facts_in_words_or_as_they_are_written(kitchen1: World) -> None:
 
 def test_an_unknown_object_is_named(kitchen1: World) -> None:
     with pytest.raises(TmdError, match=r"there is no object 'mug' \(did you mean"):
-        Offers(kitchen1).of("mug")
+        Setting(kitchen1, Path()).offers("mug")

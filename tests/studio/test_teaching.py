@@ -178,7 +178,7 @@ def test_that_nothing_is_to_be_done_is_a_correction_that_is_saved_and_learned_fr
     world, text = table.world("corner1"), "Polish the cup."
     correction = Correction(world, text, [DemonstratedStep(parse_instruction(TABLE[0]), 0)], table.lexicon)
     correction.delete(1)
-    saved = Archive(table).save(correction.session())
+    saved = Archive(table).save(correction)
     assert saved.instructions == () and [str(i) for i in saved.proposed or ()] == TABLE[:1]
     teacher = Teacher(table)
     teacher.retrain()

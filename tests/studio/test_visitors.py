@@ -6,6 +6,7 @@ import json
 import random
 import shutil
 import socket
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -143,7 +144,7 @@ def test_an_environment_that_is_not_in_the_corpus(
     monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
     file = tmp_path / "mine.yaml"
     file.write_text(table.file("corner1").read_text().replace("name: corner1", "name: mine"))
-    served = Server(Studio(table, Teacher(table), extra=file), "127.0.0.1", 0)
+    served = Server(Studio(table, Teacher(table), file), "127.0.0.1", 0)
     try:
         with Wire(served.url) as visitor:
             visitor.put("Task text", f"{TEXT}.")
@@ -561,5 +562,76 @@ def test_what_has_no_places_is_a_graph(tmp_path: Path, monkeypatch: pytest.Monke
             visitor.told("grounding needs more than 500,000 combinations of objects")
             visitor.until(lambda: value(visitor, "Environment") == "yard1")
             visitor.shows("red_block: block</h4>")
+    finally:
+        served.close()
+
+
+def test_a_domain_that_is_broken_meanwhile_is_told_of_and_used_as_it_was(
+    table: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also a file of demonstrations that somebody has written half of."""
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    domain = tmp_path / "02_table"
+    shutil.copytree(table.folder.path, domain)
+    corpus = Corpus(DomainFolder(domain), table.directory)
+    served = Server(Studio(corpus, Teacher(corpus), "corner1"), "127.0.0.1", 0)
+    try:
+        with Wire(served.url) as visitor:
+            begin(visitor, f"{TEXT}.")
+            do(visitor, "cup1", STEPS[0])
+            (domain / "objects.yaml").write_text("classes: [")
+            visitor.told("Files of the domain have changed on disk")
+            plan_it(visitor, f"{TEXT}.")
+            assert served.studio.teacher.wait(60)
+            file = table.directory / "shown" / "demonstrations.jsonl"
+            file.parent.mkdir()
+            file.write_text('{"id": "shown-cor')
+            visitor.put("Text", f"{TEXT}.")
+            visitor.press("Plan it")
+            visitor.told("Not done: ")
+            assert "demonstrations.jsonl:1" in visitor.said()
+            served.studio.teacher.retrain()
+            visitor.told("Learning failed: ")
+            file.unlink()
+            plan_it(visitor, f"{TEXT}.")
+            do(visitor, "cup1", STEPS[1])
+            visitor.press("Save (K)")
+            visitor.told("Saved as shown-corner1-01")
+    finally:
+        served.close()
+
+
+def test_a_window_that_is_closed_at_once_leaves_nothing_behind(server: Server) -> None:
+    for _ in range(5):
+        with Wire(server.url):
+            pass
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        due, drafts = time.monotonic() + 30, server.studio.drafts.directory
+        while len(held := list(drafts.glob("*.lock"))) > 1 and time.monotonic() < due:
+            time.sleep(0.1)
+        assert len(held) == 1
+
+
+def test_how_to_see_why_the_robot_could_not_go_on_is_said(
+    kitchen: Corpus, learned: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The mug stands on the second of two tables, at its far end."""
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    file = tmp_path / "far.yaml"
+    file.write_text(
+        "name: far\ndomain: kitchen\nobjects:\n"
+        "  table1: {class: table, position: [2.5, 0, 0]}\n  table2: {class: table, position: [3.3, 0, 0]}\n"
+        "  mug1: {class: mug, at: on table2, position: [3.55, 0.0, 0.74]}\n"
+    )
+    served = Server(Studio(kitchen, Teacher(kitchen, learned), file), "127.0.0.1", 0)
+    try:
+        with Wire(served.url) as visitor:
+            plan_it(visitor, "Take the mug.")
+            visitor.press("Let the robot do it")
+            visitor.told("run ended: stopped: ")
+            assert f"tmd run {file} --plan far.plan --explain why.html" in visitor.said()
+            visitor.shows("✗ stance: no place to stand reaches mug1")
     finally:
         served.close()

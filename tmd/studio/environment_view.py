@@ -5,16 +5,19 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from threading import Lock
 
 from tmd.diagnostics import TmdError
+from tmd.goals.wording import Wording
 from tmd.pddl.model import GroundAtom, Instruction, State
-from tmd.pddl.task import Bits
+from tmd.pddl.task import Bits, Operator
 from tmd.robot.scene.furniture_layout import build_room
 from tmd.robot.skills.skill_file import visible
 from tmd.robot.video.symbolic_renderer import Picture, Still
 from tmd.studio.view3d.meshes import MeshPiece, pieces
+from tmd.view.panels import require_object
 from tmd.world.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
@@ -41,9 +44,9 @@ class Look:
     objects: dict[str, tuple[MeshPiece, ...]]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Setting:
-    """An environment, ready.
+    """An environment, ready. Nothing in it changes: threads may share it.
 
     Attributes:
         world: The environment, ground.
@@ -54,7 +57,7 @@ class Setting:
 
     world: World
     path: Path
-    look: Look | None
+    look: Look | None = None
     blind: str = ""
 
     @property
@@ -66,8 +69,29 @@ class Setting:
         """Return the objects that can be pointed at, without their parts, sorted."""
         if self.look is not None:
             return sorted(self.look.still.blueprints)
-        parts = {part for known in self.world.profiles.parts.values() for _, part in known}
-        return sorted(name for name in self.world.objects.types_of if name not in parts)
+        return sorted(name for name in self.world.objects.types_of if name not in self.world.profiles.wholes)
+
+    @cached_property
+    def wording(self) -> Wording:
+        """Its words for facts and instructions."""
+        return Wording(self.world.task.problem)
+
+    def offers(self, name: str | None) -> list[Operator]:
+        """Return the ground actions that mention an object or its parts, or no object at all, such as ``wait()``.
+
+        What can never be done is not among them.
+
+        Args:
+            name: The object, whose own instructions come before those of its parts; ``None`` for none.
+
+        Raises:
+            TmdError: There is no such object.
+        """
+        if name is not None:
+            require_object(name, self.world)
+        names = {name, *(part for _, part in self.world.profiles.parts.get(name or "", ()))}
+        found = [o for o in self.world.task.operators if not (args := o.instruction.args) or names & set(args)]
+        return sorted(found, key=lambda o: (name not in o.instruction.args, o.instruction))
 
 
 class Reel:
@@ -75,14 +99,15 @@ class Reel:
 
     Args:
         setting: The environment.
+        plan: Instructions that lead through further states; each of them must apply.
 
     Attributes:
         states: As bits of the environment's task; never empty.
     """
 
-    def __init__(self, setting: Setting) -> None:
+    def __init__(self, setting: Setting, plan: Iterable[Instruction] = ()) -> None:
         self.setting = setting
-        self.states: tuple[Bits, ...] = (setting.world.task.init,)
+        self.states: tuple[Bits, ...] = tuple(setting.world.task.trace(setting.world.task.init, plan))
         self._pictures: list[Picture] = [] if setting.look is None else [setting.look.first]
 
     def become(self, states: Sequence[Bits]) -> None:
@@ -92,11 +117,6 @@ class Reel:
             same += 1
         self.states = tuple(states)
         del self._pictures[max(same, 1) :]
-
-    def follow(self, plan: Iterable[Instruction]) -> None:
-        """Hold the states that the instructions of a plan lead through; each of them must apply."""
-        task = self.setting.world.task
-        self.become(task.trace(task.init, plan))
 
     def facts(self, step: int) -> State:
         """Return the facts after a number of steps."""
@@ -127,11 +147,11 @@ def open_setting(corpus: Corpus, world: World, path: Path) -> Setting:
         TmdError: The environment is wrong. Where only its shapes are, there is nothing to see, and it says why.
     """
     if path.suffix != ".yaml":
-        return Setting(world, path, None, "A PDDL problem has no places: it is drawn as a graph.")
+        return Setting(world, path, blind="A PDDL problem has no places: it is drawn as a graph.")
     try:
         return Setting(world, path, _look(corpus.folder, world, path))
     except TmdError as error:
-        return Setting(world, path, None, f"This environment is drawn as a graph: {error.message}.")
+        return Setting(world, path, blind=f"This environment is drawn as a graph: {error.message}.")
 
 
 def _look(folder: DomainFolder, world: World, path: Path) -> Look:

@@ -13,7 +13,7 @@ import os
 import secrets
 import socket
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from hmac import compare_digest
 from http import HTTPStatus
 from http.cookies import CookieError, SimpleCookie
@@ -47,18 +47,16 @@ def kept_token(directory: Path) -> str:
     Where it cannot be kept, it is a new one each time.
     """
     path = directory / _FILE
-    try:
+    token = secrets.token_urlsafe(_BYTES)
+    with suppress(OSError, OutputError, UnicodeError):
         make_directory(directory)
-        if not path.exists():
-            with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="ascii") as file:
-                file.write(secrets.token_urlsafe(_BYTES))
-        known = path.read_text(encoding="ascii").strip()
+        known = path.read_text(encoding="ascii").strip() if path.exists() else ""
         if len(known) >= _BYTES:
             return known
-        path.unlink()
-        return kept_token(directory)
-    except (OSError, OutputError, UnicodeError):
-        return secrets.token_urlsafe(_BYTES)
+        path.unlink(missing_ok=True)
+        with os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="ascii") as file:
+            file.write(token)
+    return token
 
 
 class Guard:
@@ -110,13 +108,9 @@ class Guard:
 
     def _kept(self, request: Request) -> str:
         cookies: SimpleCookie = SimpleCookie()
-        for header in request.headers.get_all("Cookie"):
-            try:
-                cookies.load(header)
-            except CookieError:
-                return ""
-        found = cookies.get(self._cookie)
-        return found.value if found is not None else ""
+        with suppress(CookieError):
+            cookies.load("; ".join(request.headers.get_all("Cookie")))
+        return cookies[self._cookie].value if self._cookie in cookies else ""
 
     def answer(self, request: Request) -> Response | None:
         """Return a refusal, or the page's address without the token; ``None`` to go on."""

@@ -19,7 +19,7 @@ from threading import Lock
 from typing import TYPE_CHECKING, Annotated
 from urllib.parse import parse_qsl, urlencode
 
-from pydantic import BaseModel, Field, ValidationError
+from pydantic import BaseModel, Field, TypeAdapter, ValidationError
 
 from tmd.studio.guard import response
 
@@ -130,11 +130,22 @@ class Event(BaseModel):
     clicked: bool = False
 
 
+_EVENTS = TypeAdapter(list[Event])
+
+
 class _Stored(BaseModel):
     """State of a window when it was loaded: its address, and whether its system is dark."""
 
     search: str = ""
     dark: bool = False
+
+
+def stored(client: ClientHandle, key: str) -> str:
+    """Return what a browser keeps under a key; nothing where it does not answer."""
+    try:
+        return client.local_storage.get_item(key, timeout=_PATIENCE) or ""
+    except (RuntimeError, TimeoutError):
+        return ""
 
 
 class Window:
@@ -152,11 +163,11 @@ class Window:
     def __init__(self, client: ClientHandle, told: Callable[[Event], None]) -> None:
         self._client = client
         try:
-            stored = _Stored.model_validate_json(client.local_storage.get_item(KEY, timeout=_PATIENCE) or "{}")
-        except (RuntimeError, TimeoutError, ValidationError):
-            stored = _Stored()
-        self.dark = stored.dark
-        self.link = self._kept = read_link(stored.search)
+            kept = _Stored.model_validate_json(stored(client, KEY) or "{}")
+        except ValidationError:
+            kept = _Stored()
+        self.dark = kept.dark
+        self.link = self._kept = read_link(kept.search)
         self._told = told
         self._seen = 0
         self._lock = Lock()
@@ -165,13 +176,8 @@ class Window:
 
     def _happened(self) -> None:
         """Pass on the events since the last time; the script sends the last few events together."""
-        try:
-            events = json.loads(self._event.value[:_LONGEST])
-        except (TypeError, ValueError, RecursionError):
-            return
-        for value in events if isinstance(events, list) else ():
-            with suppress(ValidationError):
-                event = Event.model_validate(value)
+        with suppress(TypeError, ValueError):
+            for event in _EVENTS.validate_json(self._event.value[:_LONGEST]):
                 if self._is_new(event.number):
                     self._told(event)
 

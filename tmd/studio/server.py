@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.studio import page
 from tmd.studio.guard import TOKEN, Guard, guarding, kept_token
+from tmd.studio.panels import furnish
 from tmd.studio.studio import Studio
 from tmd.studio.visitor import KEY, Visitor
 
@@ -30,10 +31,7 @@ _TRIES = 8
 _WINDOWS = 8
 # Seconds between two looks at learning that is under way.
 _LOOK = 0.5
-# Seconds that a browser may take to say who it is.
-_PATIENCE = 5.0
 _CHANGED = "Files of the domain have changed on disk: start tmd studio again to use them."
-
 # Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded.
 _WARMING = 5.0
 
@@ -80,10 +78,13 @@ class Server:
 
     def _arrive(self, client: ClientHandle) -> None:
         visitor = Visitor(self.studio, client, self._identity(client))
+        furnish(visitor)
         with self._lock:
             self._visitors[client.client_id] = visitor
             if self.studio.teacher.learning:
-                visitor.learning(on=True)
+                visitor.learning(True)
+        if client.client_id not in self._viser.get_clients():  # it was closed meanwhile
+            self._leave(client)
         visitor.guarded(visitor.come_back)(None)
 
     def _identity(self, client: ClientHandle) -> str:
@@ -91,11 +92,7 @@ class Server:
 
         A window takes a name of the browser that no other window has now, rather one with something that was not saved.
         """
-        try:
-            said = client.local_storage.get_item(KEY, timeout=_PATIENCE) or ""
-        except (RuntimeError, TimeoutError):
-            said = ""
-        drafts = self.studio.drafts
+        said, drafts = page.stored(client, KEY), self.studio.drafts
         names = list(dict.fromkeys(said.split(",")[:_WINDOWS])) if said else []
         kept = [name for name in names if drafts.kept(name)]
         for known in (kept, [name for name in names if name not in kept]):
@@ -119,14 +116,15 @@ class Server:
 
     def _follow(self) -> None:
         """Tell every visitor when learning begins and when it ends, and when files of the domain change."""
-        told, files = False, self._files()
+        teacher, files = self.studio.teacher, self._files()
+        told: tuple[bool, Exception | None] = False, None
         while not self._ended.wait(_LOOK):
-            learning, now = self.studio.teacher.learning, self._files()
+            learning, now = (teacher.learning, teacher.error), self._files()
             with self._lock:
                 visitors = list(self._visitors.values())
             for visitor in visitors:
                 if learning != told:
-                    visitor.learning(on=learning)
+                    visitor.learning(*learning)
                 if now != files:
                     visitor.tell(_CHANGED, "What was not saved is kept.", aloud=True)
             told, files = learning, now

@@ -9,20 +9,17 @@ from threading import RLock
 
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.reading.syntax import nearest, read_text
-from tmd.studio.applicable_actions import Offers
 from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
-from tmd.studio.demonstrations.session import Session
+from tmd.studio.demonstrations.session import EditedSteps, Session
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.meshes import Figure
 from tmd.studio.view3d.performance import RobotRun
-from tmd.world.compile import compile_problem
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
 from tmd.world.environment import load_environment
-from tmd.world.world import make_world
 
 
 class Studio:
@@ -31,8 +28,8 @@ class Studio:
     Args:
         corpus: The domain, with its demonstrations.
         teacher: What was learned of it.
-        start: The environment that visitors come to first.
-        extra: An environment file that is not among those of the domain.
+        start: The environment that visitors come to first, or its file, which need not be among those of the domain;
+            the first one by default.
 
     Attributes:
         archive: Where demonstrations are saved.
@@ -43,7 +40,7 @@ class Studio:
         TmdError: There is no such environment, or it is wrong.
     """
 
-    def __init__(self, corpus: Corpus, teacher: Teacher, start: str | None = None, extra: Path | None = None) -> None:
+    def __init__(self, corpus: Corpus, teacher: Teacher, start: str | Path | None = None) -> None:
         self.corpus = corpus
         self.teacher = teacher
         self.archive = Archive(corpus)
@@ -52,11 +49,12 @@ class Studio:
         self._texts = example_texts(corpus)
         self._lock = RLock()
         self._settings: dict[str, Setting] = {}
-        self._offers: dict[str, Offers] = {}
         self._extra: dict[str, Path] = {}
-        if extra is not None:
-            start = load_environment(extra).name
-            self._extra[start] = extra
+        if isinstance(start, Path) and start.parent == corpus.directory / "environments":
+            start = start.stem
+        elif isinstance(start, Path):
+            name = load_environment(start).name
+            self._extra[name], start = start, name
         names = self.environments()
         if not names:
             raise TmdError(
@@ -79,22 +77,9 @@ class Studio:
         """
         with self._lock:
             if name not in self._settings:
-                self._settings[name] = self._open(name)
+                place = self._extra.get(name, name)
+                self._settings[name] = open_setting(self.corpus, self.corpus.world(place), self.corpus.file(place))
             return self._settings[name]
-
-    def _open(self, name: str) -> Setting:
-        path = self._extra.get(name)
-        if path is None:
-            return open_setting(self.corpus, self.corpus.world(name), self.corpus.file(name))
-        problem = compile_problem(load_environment(path), self.corpus.folder)
-        return open_setting(self.corpus, make_world(name, problem, self.corpus.lexicon), path)
-
-    def offers(self, name: str) -> Offers:
-        """Return the instructions of an environment."""
-        with self._lock:
-            if name not in self._offers:
-                self._offers[name] = Offers(self.setting(name).world)
-            return self._offers[name]
 
     def figure(self) -> Figure | None:
         """Return the robot; ``None`` where its model is not installed."""
@@ -110,7 +95,7 @@ class Studio:
         self.archive.refuse(setting.world)
         return Session(setting.world, text, self.corpus.lexicon, habits=self.teacher.habits)
 
-    def save(self, session: Session, task: str, goal: str | None = None) -> Demonstration:
+    def save(self, session: EditedSteps, task: str, goal: str | None = None) -> Demonstration:
         """Save a demonstration: the next text is grounded with it, and the rest is learned in the background.
 
         Args:
@@ -170,20 +155,3 @@ def _figure() -> Figure | None:
         return Figure()
     except MissingToolError:
         return None
-
-
-def open_studio(corpus: Corpus, environment: Path | None = None, learned: Path | None = None) -> Studio:
-    """Return the studio of a domain, with what its demonstrations teach.
-
-    Args:
-        corpus: The domain.
-        environment: The file of the environment that visitors come to first; the first one by default.
-        learned: Where ``tmd learn --out`` saved.
-
-    Raises:
-        TmdError: The environment or a demonstration is wrong.
-    """
-    teacher = Teacher(corpus, learned)
-    if environment is not None and environment.parent == corpus.directory / "environments":
-        return Studio(corpus, teacher, environment.stem)
-    return Studio(corpus, teacher, extra=environment)

@@ -57,6 +57,7 @@ class Teacher:
         knowledge: The current knowledge.
         habits: The instructions carried out for each verb, for proposals of clauses.
         learning: Whether the files teach more than is known, and that is being learned.
+        error: Why learning failed the last time; ``None`` if it did not.
 
     Raises:
         TmdError: A demonstration is wrong.
@@ -70,7 +71,7 @@ class Teacher:
         self.habits = Habits.of(self.knowledge.library)
         self._guard = threading.RLock()
         self.learning = False
-        self._error: Exception | None = None
+        self.error: Exception | None = None
         self._thread: threading.Thread | None = None
         self._process: BaseProcess | None = None
         self._closed = False
@@ -107,7 +108,7 @@ class Teacher:
         """
         with self._guard:
             if not self.learning:
-                self.learning, self._error = True, None
+                self.learning, self.error = True, None
                 self._thread = threading.Thread(target=self._train, daemon=True)
                 self._thread.start()
 
@@ -120,8 +121,8 @@ class Teacher:
         """
         if self._thread is not None:
             self._thread.join(timeout)
-        if self._error is not None:
-            raise self._error
+        if self.error is not None:
+            raise self.error
         return not self.learning
 
     def _train(self) -> None:
@@ -132,7 +133,7 @@ class Teacher:
                 self._become(self._trained(), made_from)
         except (TmdError, OSError) as error:
             with self._guard:
-                self._error, self.learning = error, False
+                self.error, self.learning = error, False
 
     def _trained(self) -> Knowledge:
         corpus = self.corpus

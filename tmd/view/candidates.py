@@ -25,6 +25,7 @@ def candidates(
     refusals: Sequence[RejectedProposal] = (),
     *,
     narrow: bool = False,
+    corrected: bool = False,
 ) -> str:
     """Render ranked plans as a fragment of HTML: a table of energies, then each clause's, then the refusals.
 
@@ -33,6 +34,7 @@ def candidates(
         verdicts: For each plan why it does not work, empty for one that does.
         refusals: Templates that could not be used.
         narrow: Whether the fragment must fit into a panel of the studio: a column for each plan instead of each factor.
+        corrected: Whether the first plan is first because somebody corrected a plan so, whatever its energy.
     """
     names = factors_of(plans)
     return (
@@ -45,6 +47,7 @@ def candidates(
             meanings={name: meaning(name) for name in names},
             title_of=title,
             refused=grouped(refusals),
+            corrected=corrected,
         )
     )
 

@@ -18,7 +18,7 @@ from tmd.records.run import RecordedRun, RunRecord
 from tmd.short_repr import html_of
 from tmd.view.markup import macro
 from tmd.view.page import render
-from tmd.view.subject import text_subject
+from tmd.view.subject import planned_steps, text_subject
 from tmd.world.world import World
 
 # Pixels of a page in a notebook.
@@ -35,8 +35,8 @@ def _grounded(grounded: Grounded) -> str:
 @html_of.register
 def _plan(plan: RankedPlan) -> str:
     rows = [
-        (number, step.instruction, f"clause {step.clause + 1}{', latent' if step.latent else ''}")
-        for number, step in enumerate(plan.steps, start=1)
+        (number, step.instruction, f"{step.origin}{', latent' if step.latent else ''}")
+        for number, step in enumerate(planned_steps(plan), start=1)
     ]
     goals = "; ".join(goal.words for goal in plan.goals if goal.words)
     return _table(f"{goals or 'plan'}: energy {plan.energy:.4f}", ("", "instruction", "for"), rows)

@@ -6,7 +6,6 @@ Colours are those of Okabe and Ito, which colour-blind people can tell apart; ea
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import NamedTuple
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
@@ -16,17 +15,10 @@ from tmd.pddl.task import Bits
 from tmd.readers.interface import Usage
 from tmd.view.goals import ShownGoal
 from tmd.view.markup import data, macro
+from tmd.view.subject import PlannedStep
 from tmd.world.world import PART_OF, World
 
 _TEMPLATE = "studio.html.j2"
-
-
-class StepLine(NamedTuple):
-    """A step of a list: its instruction, its purpose, and whether it is latent."""
-
-    instruction: Instruction
-    purpose: str
-    latent: bool = False
 
 
 def fragment(content: str) -> str:
@@ -40,7 +32,7 @@ def notice(message: str, hint: str | None = None, *, fault: bool = False) -> str
 
 
 def step_list(
-    lines: Iterable[StepLine],
+    steps: Iterable[PlannedStep],
     current: int,
     gains: Sequence[str] = (),
     faults: Mapping[int, Sequence[str]] | None = None,
@@ -51,7 +43,7 @@ def step_list(
     """Render numbered steps in words; the instruction shows on hover, and below the step that was taken last.
 
     Args:
-        lines: The steps.
+        steps: The steps.
         current: The step that was taken last, from 1; 0 is the beginning.
         gains: The facts that it changed, as HTML; shown below it.
         faults: The faults of steps, by number.
@@ -59,17 +51,11 @@ def step_list(
         of: The panel whose steps they are; it is sent each click on a step.
     """
     wrong = faults or {}
-    steps = [
-        {
-            **line._asdict(),
-            "number": number,
-            "words": in_words(line.instruction),
-            "faults": wrong.get(number, ()),
-            "gains": gains if number == current else (),
-        }
-        for number, line in enumerate(lines, start=1)
+    rows = [
+        (number, step, in_words(step.instruction), wrong.get(number, ()), gains if number == current else ())
+        for number, step in enumerate(steps, start=1)
     ]
-    return fragment(macro(_TEMPLATE, "step_list", steps, current, of))
+    return fragment(macro(_TEMPLATE, "step_list", rows, current, of))
 
 
 def judgement(outcome: str, lines: Iterable[str]) -> str:

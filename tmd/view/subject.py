@@ -111,6 +111,14 @@ class Subject:
         return self.plans[0].goals if self.plans else ()
 
 
+def planned_steps(plan: RankedPlan, words: Sequence[str] = ()) -> list[PlannedStep]:
+    """Return the steps of a plan, each with its clause; ``words`` are those of each clause."""
+    return [
+        PlannedStep(step.instruction, f"clause {step.clause + 1}", words[step.clause] if words else "", step.latent)
+        for step in plan.steps
+    ]
+
+
 def title_of(text: str, environment: str) -> str:
     """Return the title of a page about a text."""
     flat = " ".join(text.split())
@@ -151,10 +159,7 @@ def grounded_subject(
     problem = world.task.problem
     meant = meanings(parsed, plans[0], world) if plans else meanings_in(parsed.clauses, (), world)
     words = [" ".join(clause.text.split()) for clause in parsed.clauses]
-    steps = [
-        PlannedStep(step.instruction, f"clause {step.clause + 1}", words[step.clause], step.latent)
-        for step in (plans[0].steps if plans else ())
-    ]
+    steps = planned_steps(plans[0], words) if plans else []
     return Subject(
         title,
         problem,

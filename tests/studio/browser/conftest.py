@@ -34,6 +34,7 @@ class Served:
 
     arguments: list[str]
     environ: dict[str, str]
+    errors: Path
     process: subprocess.Popen[str] | None = None
     url: str = ""
     said: list[str] = field(default_factory=list)
@@ -41,7 +42,7 @@ class Served:
     def start(self) -> None:
         self.process = subprocess.Popen(
             [sys.executable, "-m", "tmd", *self.arguments], env=self.environ, text=True, stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL, cwd=ROOT,
+            stderr=self.errors.open("a"), cwd=ROOT,
         )  # fmt: skip
         assert self.process.stdout is not None
         for line in self.process.stdout:
@@ -85,7 +86,7 @@ def serve(directory: Path, domain: str, *more: str, learned: Path | None = None)
         shutil.copytree(learned / domain, directory / "learned" / domain)
     environ = {**os.environ, "TMD_STUDIO_STATE": str(directory / "drafts"), "OMP_NUM_THREADS": "1"}
     arguments = ["--problems", str(directory / "problems"), "studio", "--domain", domain, "--port", "0", *saved, *more]
-    return Served(arguments, environ)
+    return Served(arguments, environ, directory / "errors.txt")
 
 
 @pytest.fixture(scope="module")

@@ -84,13 +84,14 @@ def studio(
     objects; show how a thing is done, and save it beside the domain's demonstrations. Ctrl-C ends it.
     """
     from tmd.studio.server import Server, free_port, need_viser
-    from tmd.studio.studio import open_studio
+    from tmd.studio.studio import Studio
+    from tmd.studio.teaching import Teacher
 
     need_viser()
     free_port(host, port)  # before anything that takes time
     corpus, path = _opened(roots, domain_name, environment)
     emit(f"Looking at what the demonstrations of {corpus.folder.name} teach …\n", error=True)
-    server = Server(open_studio(corpus, path, learned), host, port)
+    server = Server(Studio(corpus, Teacher(corpus, learned), path), host, port)
     try:
         emit(f"The studio of {corpus.folder.name} is open: {server.url}\n")
         emit(f"Demonstrations are saved below {corpus.directory}.\n")

@@ -1,17 +1,16 @@
 """Corrections of a proposed plan: edits, the first broken step after each, and repair by a planner.
 
 Steps are counted from 1, clauses from 0, as in a session. Between two edits a plan may be one that cannot be carried
-out; it becomes a session when it can.
+out; it can be saved when it can.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import accumulate
 
 from tmd.diagnostics import TmdError
-from tmd.goals.wording import Wording
 from tmd.grounded import Grounded
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.language.clause import Clause
@@ -21,29 +20,15 @@ from tmd.pddl.semantics import bind, get_constraints
 from tmd.pddl.task import Bits
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
-from tmd.planning.result import Filled, Planner, Unreachable
-from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
+from tmd.planning.result import Filled, Unreachable
 from tmd.studio.demonstrations.clause_spans import clean, cut
-from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, History, Session
+from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, EditedSteps
 from tmd.view.panels import require_object
-from tmd.world.demonstration import Demonstration
+from tmd.world.demonstration import Demonstration, Segment
 from tmd.world.world import World
 
 
-@dataclass(frozen=True, slots=True)
-class Break:
-    """The first step that does not apply.
-
-    Attributes:
-        step: Its number, from 1.
-        why: The broken precondition in words.
-    """
-
-    step: int
-    why: str
-
-
-class Correction:
+class Correction(EditedSteps):
     """A plan under correction.
 
     Args:
@@ -55,7 +40,6 @@ class Correction:
 
     Attributes:
         proposed: The plan as it was proposed.
-        history: The edits, to undo and to redo.
 
     Raises:
         TmdError: The environment has no such instruction as one of ``steps``.
@@ -69,22 +53,12 @@ class Correction:
         lexicon: Lexicon | None = None,
         steps: Sequence[DemonstratedStep] | None = None,
     ) -> None:
-        self.world = world
-        self.text = clean(text)
-        self.proposed = tuple(proposed)
-        self._lexicon = lexicon
-        self._planner: Planner | None = None
-        self._wording = Wording(world.task.problem)
-        self.history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
+        self.proposed: tuple[DemonstratedStep, ...] = tuple(proposed)
+        super().__init__(world, text, lexicon, self.proposed)
         if steps is not None:
             for step in steps:
                 bind(world.task.problem, step.instruction)
-            self.history.add(tuple(steps))
-
-    @property
-    def steps(self) -> tuple[DemonstratedStep, ...]:
-        """The plan as it is now."""
-        return self.history.current
+            self._add(tuple(steps))
 
     def delete(self, step: int) -> None:
         """Leave a step out.
@@ -93,7 +67,7 @@ class Correction:
             TmdError: There is no such step.
         """
         self._known(step)
-        self.history.add(self.steps[: step - 1] + self.steps[step:])
+        self._add(self.steps[: step - 1] + self.steps[step:])
 
     def insert(self, step: int, instruction: Instruction) -> None:
         """Put an instruction in, so that it becomes the step of that number, for the clause of the step behind it.
@@ -122,7 +96,7 @@ class Correction:
         self._known(to)
         kept = [*self.steps[: step - 1], *self.steps[step:]]
         kept.insert(to - 1, self.steps[step - 1])
-        self.history.add(tuple(kept))
+        self._add(tuple(kept))
 
     def swap(self, old: str, new: str, step: int | None = None) -> int:
         """Take another object instead of ``old``, and its parts instead of those of ``old``.
@@ -147,12 +121,12 @@ class Correction:
         for other in changed.values():
             bind(self.world.task.problem, other.instruction)
         if changed:
-            self.history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
+            self._add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
         return len(changed)
 
-    def broken(self) -> Break | None:
-        """Return the first step that does not apply; ``None`` where all do."""
-        return self._played(self.steps)[1]
+    def broken(self) -> tuple[int, str] | None:
+        """Return the number of the first step that does not apply, from 1, and why; ``None`` where all do."""
+        return self._played()[1]
 
     def repair(self) -> tuple[Instruction, ...]:
         """Let the planner put in what is missing before the first step that does not apply.
@@ -163,53 +137,40 @@ class Correction:
         Raises:
             TmdError: Nothing leads there, or nothing was found; nothing was put in.
         """
-        state, found = self._played(self.steps)
+        state, found = self._played()
         if found is None:
             return ()
-        if self._planner is None:
-            self._planner = make(IN_PROCESS, self.world.task)
-        needed = what_it_needs(self.steps[found.step - 1].instruction, state, self.world, self._planner)
-        self._put_in(found.step, needed)
+        needed = what_it_needs(self.instructions[found[0] - 1], state, self.world)
+        self._put_in(found[0], needed)
         return needed
 
-    def session(self, habits: Habits = NO_HABITS) -> Session:
-        """Return the corrected plan as a session, with the plan that was proposed.
+    def segments(self) -> tuple[Segment, ...]:
+        """Return the pieces of the text with the corrected steps of each.
 
         Raises:
             TmdError: A step does not apply.
         """
-        steps = self.steps
-        highest = 0
-        pins: dict[int, int] = {}
-        for number, step in enumerate(steps, start=1):
-            highest = pins[number] = max(highest, step.clause)
-        return Session(
-            self.world,
-            self.text,
-            self._lexicon,
-            instructions=[step.instruction for step in steps],
-            pins=pins,
-            proposed=self.proposed,
-            habits=habits,
-        )
+        broken = self.broken()
+        if broken is not None:
+            step, why = broken
+            raise TmdError(f"step {step}, {self.instructions[step - 1]}, does not apply: {why}")
+        return super().segments()
 
     def _put_in(self, step: int, instructions: Sequence[Instruction]) -> None:
         """Insert instructions before the step of that number, for its clause, or for the last one at the end."""
         beside = self.steps[step - 1 : step] or self.steps[-1:]
         owner = beside[0].clause if beside else 0
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
-        self.history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
+        self._add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
-    def _played(self, steps: Sequence[DemonstratedStep]) -> tuple[Bits, Break | None]:
-        """Return the state before the first step that does not apply, and that step; or the last state."""
-        task = self.world.task
-        state = task.init
-        for number, step in enumerate(steps, start=1):
-            operator = task.by_instruction.get(step.instruction)
-            if operator is None or not operator.applicable(state):
-                why = self._wording.broken(step.instruction, task.decode(state)) or "it can never be done here"
-                return state, Break(number, why)
-            state = operator.apply(state)
+    def _played(self) -> tuple[Bits, tuple[int, str] | None]:
+        """Return the state before the first step that does not apply, its number and why; or the last state."""
+        state = self.world.task.init
+        for number, step in enumerate(self.steps, start=1):
+            after = self._after(step.instruction, state)
+            if isinstance(after, str):
+                return state, (number, after)
+            state = after
         return state, None
 
     def _replaced(self, old: str, new: str) -> Mapping[str, str]:
@@ -220,12 +181,8 @@ class Correction:
         theirs = dict(parts.get(new, ()))
         return {old: new} | {part: theirs[short] for short, part in parts.get(old, ()) if short in theirs}
 
-    def _known(self, step: int) -> None:
-        if not 0 < step <= len(self.steps):
-            raise TmdError(f"there is no step {step}", hint=f"the plan has {len(self.steps)} steps")
 
-
-def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: Planner) -> tuple[Instruction, ...]:
+def what_it_needs(instruction: Instruction, state: Bits, world: World) -> tuple[Instruction, ...]:
     """Return the instructions that the planner needs in ``state`` so that ``instruction`` applies.
 
     Raises:
@@ -234,7 +191,7 @@ def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: 
     operator = world.task.by_instruction.get(instruction)
     if operator is None:
         raise TmdError(f"{instruction} can never be done here", hint="take another object")
-    answer = planner.fill(state, get_constraints([operator])[0])
+    answer = make(IN_PROCESS, world.task).fill(state, get_constraints([operator])[0])
     if not isinstance(answer, Filled):
         why = answer.reason if isinstance(answer, Unreachable) else f"the planner gave up at {answer.limit}"
         raise TmdError(f"nothing makes {instruction} possible: {why}")
@@ -251,12 +208,24 @@ def steps_of(
     return [DemonstratedStep(step.instruction, owners[step.clause]) for step in plan.steps]
 
 
-def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded:
-    """Return the plans for the text of a saved correction, the corrected one first, if it works."""
-    problem, task = grounded.world.task.problem, grounded.world.task
-    verdict = validate(problem, saved.instructions)
+def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded | None:
+    """Return the plans for the text of a saved correction, the corrected one first; ``None`` if it does not work.
+
+    It has an energy only if inference found it as well.
+    """
+    verdict = validate(grounded.world.task.problem, saved.instructions)
     if not verdict.valid:
-        return grounded
+        return None
+    pairs = list(zip(grounded.plans, grounded.verdicts, strict=True))
+    others = [pair for pair in pairs if pair[0].instructions != saved.instructions]
+    same = (plan for plan in grounded.plans if plan.instructions == saved.instructions)
+    plans, verdicts = zip((next(same, None) or _by_hand(grounded, saved), verdict), *others, strict=True)
+    return replace(grounded, plans=plans, verdicts=verdicts)
+
+
+def _by_hand(grounded: Grounded, saved: Demonstration) -> RankedPlan:
+    """Return a saved correction as a plan without energy, for the goals of the best plan."""
+    task = grounded.world.task
     starts = [clause.span.start for clause in grounded.parsed.clauses] or [0]
     steps: list[list[PlanStep]] = [[] for _ in starts]
     for segment in saved.segments:
@@ -268,13 +237,7 @@ def as_corrected(grounded: Grounded, saved: Demonstration) -> Grounded:
         replace(each, first=ends[each.clause] - len(steps[each.clause]), last=ends[each.clause]) for each in goals
     )
     choices = tuple(Choice(saved.id, tuple(each), {}, {}) for each in steps)
-    *_, state = task.trace(task.init, saved.instructions)
-    kept = [n for n, plan in enumerate(grounded.plans) if plan.instructions != saved.instructions]
-    return replace(
-        grounded,
-        plans=(RankedPlan(choices, state, goals=placed), *(grounded.plans[n] for n in kept)),
-        verdicts=(verdict, *(grounded.verdicts[n] for n in kept)),
-    )
+    return RankedPlan(choices, task.trace(task.init, saved.instructions)[-1], goals=placed)
 
 
 def _renamed(step: DemonstratedStep, names: Mapping[str, str]) -> DemonstratedStep:

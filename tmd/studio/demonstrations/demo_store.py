@@ -13,12 +13,10 @@ from tmd.diagnostics import TmdError
 from tmd.files import locked, make_directory, write_bytes
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
-from tmd.studio.demonstrations.session import Session
-from tmd.view.meaning import after
+from tmd.studio.demonstrations.session import EditedSteps
 from tmd.world.corpus import Corpus, check_executable, final_state
 from tmd.world.demonstration import (
     Demonstration,
-    Segment,
     check_goal,
     demonstration_line,
     read_demonstration,
@@ -35,7 +33,7 @@ _WAIT = 10.0
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,59}")
 _NUMBER = re.compile(r"[0-9]{1,9}")
 _TAKEN = frozenset({"environments", "learned"})
-# Characters that a name may have.
+# Characters of a name that are shown.
 _LONGEST = 200
 
 
@@ -59,9 +57,7 @@ class Archive:
         """
         if not _NAME.fullmatch(task) or task in _TAKEN:
             hint = "a name begins with a lower-case letter and has lower-case letters, digits and _, at most 60"
-            raise TmdError(
-                f"a task cannot be called {task!r}" if len(task) <= _LONGEST else "too long a name", hint=hint
-            )
+            raise TmdError(f"a task cannot be called {task[:_LONGEST]!r}", hint=hint)
         return self.corpus.directory / task / FILE
 
     def refuse(self, world: World) -> None:
@@ -82,11 +78,11 @@ class Archive:
                 hint="give it another name, and copy its file there",
             )
 
-    def save(self, session: Session, task: str = SHOWN, *, goal: str | None = None) -> Demonstration:
+    def save(self, session: EditedSteps, task: str = SHOWN, *, goal: str | None = None) -> Demonstration:
         """Append a demonstration to the file of its task.
 
         Args:
-            session: The demonstration; all its steps, wherever it is looked at.
+            session: The demonstration, or the correction; all its steps, wherever it is looked at.
             task: The task it is an example of.
             goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
@@ -108,7 +104,10 @@ class Archive:
         with locked(file.with_name(_LOCK), wait=self.wait):
             before = read_demonstrations(file) if file.exists() else []
             name = _next_id(f"{task}-{session.world.name}", before)
-            found = demonstration(session, segments, name, task, goal)
+            ends = _end_state(session)
+            proposed = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
+            where, text = session.world.name, session.text
+            found = Demonstration(name, task, where, text, segments, ends, proposed, goal=goal)
             line = demonstration_line(found)
             self._check(found, line, file, len(before) + 1)
             old = file.read_bytes() if file.exists() else b""
@@ -129,28 +128,14 @@ class Archive:
         check_goal(found, world.task.problem, final_state(found, world))
 
 
-def demonstration(
-    session: Session,
-    segments: tuple[Segment, ...],
-    name: str,
-    task: str,
-    goal: str | None = None,
-) -> Demonstration:
-    """Return a session as a demonstration."""
-    world = session.world
-    end = after((i for segment in segments for i in segment.instructions), world, world.task.init)
-    whole = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
-    ends = _end_state(world, end)
-    return Demonstration(name, task, world.name, session.text, segments, ends, whole, goal=goal)
-
-
-def _end_state(world: World, end: Bits) -> tuple[str, ...]:
+def _end_state(session: EditedSteps) -> tuple[str, ...]:
     """Return the facts that changed, without those whose first argument is a constant, such as the robot."""
+    world, init = session.world, session.world.task.init
+    end = world.task.trace(init, session.instructions)[-1]
 
     def own(bits: Bits) -> list[GroundAtom]:
         return [a for a in world.task.names(bits) if a.args and a.args[0] not in world.profiles.constants]
 
-    init = world.task.init
     return (*map(str, own(end & ~init)), *(f"(not {atom})" for atom in own(init & ~end)))
 
 

@@ -6,15 +6,13 @@ Steps are counted from 1, so that ``goto(0)`` is the beginning; clauses from 0, 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
-from types import MappingProxyType
-from typing import Generic, TypeVar
+from dataclasses import dataclass
+from itertools import accumulate
 
 from tmd.diagnostics import TmdError
 from tmd.goals.wording import Wording
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction
-from tmd.pddl.semantics import bind
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
 from tmd.studio.demonstrations.clause_spans import ClauseSpan, clean, cut
@@ -23,49 +21,6 @@ from tmd.world.world import World
 
 # Longer demonstrations are refused: the longest of the bundled ones has about thirty steps.
 MAX_STEPS = 500
-
-
-_T = TypeVar("_T")
-
-
-class History(Generic[_T]):
-    """The versions of an immutable value, one of them current."""
-
-    def __init__(self, first: _T) -> None:
-        self._versions = [first]
-        self._at = 0
-
-    @property
-    def current(self) -> _T:
-        """The current version."""
-        return self._versions[self._at]
-
-    def add(self, version: _T) -> None:
-        """Make a new version current, in place of all that were undone."""
-        self._versions[self._at + 1 :] = [version]
-        self._at += 1
-
-    @property
-    def before(self) -> bool:
-        """Return whether there is a version to go back to."""
-        return self._at > 0
-
-    @property
-    def after(self) -> bool:
-        """Return whether there is a version that was undone."""
-        return self._at + 1 < len(self._versions)
-
-    def undo(self) -> bool:
-        """Go back to the version before; return false if there is none."""
-        moved = self.before
-        self._at -= moved
-        return moved
-
-    def redo(self) -> bool:
-        """Go to the version after; return false if there is none."""
-        moved = self.after
-        self._at += moved
-        return moved
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,16 +38,102 @@ class DemonstratedStep:
     marked: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class _Version:
-    """Version of a session: its steps, the states before and after each, and the marked clauses."""
+class EditedSteps:
+    """Steps for a text, with undo and redo.
 
-    steps: tuple[DemonstratedStep, ...]
-    states: tuple[Bits, ...]
-    pins: Mapping[int, int] = field(default_factory=lambda: MappingProxyType({}))
+    Args:
+        world: The environment they begin in.
+        text: What is to be done.
+        lexicon: The words of the domain.
+        steps: The steps.
+
+    Attributes:
+        world: The environment.
+        text: The text, without control characters.
+        clauses: The pieces of the text that steps serve, at least one.
+        proposed: The plan that is corrected, if one is.
+
+    Raises:
+        TmdError: The text is empty or too long.
+    """
+
+    proposed: tuple[DemonstratedStep, ...] | None = None
+
+    def __init__(
+        self, world: World, text: str, lexicon: Lexicon | None, steps: tuple[DemonstratedStep, ...] = ()
+    ) -> None:
+        self.world = world
+        self.text = clean(text)
+        self.clauses: tuple[ClauseSpan, ...] = cut(self.text, lexicon)
+        self._versions, self._at = [steps], 0
+        self._wording = Wording(world.task.problem)
+
+    @property
+    def steps(self) -> tuple[DemonstratedStep, ...]:
+        """All steps that were not undone."""
+        return self._versions[self._at]
+
+    @property
+    def undoable(self) -> bool:
+        """Return whether there is a change to take back."""
+        return self._at > 0
+
+    @property
+    def redoable(self) -> bool:
+        """Return whether there is a change that was taken back."""
+        return self._at + 1 < len(self._versions)
+
+    def undo(self) -> bool:
+        """Take the last change back; false where there is none."""
+        return self.undoable and self._go(-1)
+
+    def redo(self) -> bool:
+        """Make the change again that was taken back last; false where there is none."""
+        return self.redoable and self._go(1)
+
+    def _go(self, by: int) -> bool:
+        self._at += by
+        return True
+
+    def _add(self, steps: tuple[DemonstratedStep, ...]) -> None:
+        """Make steps current, in place of all that were undone."""
+        self._versions[self._at + 1 :] = [steps]
+        self._at += 1
+
+    @property
+    def instructions(self) -> tuple[Instruction, ...]:
+        """The steps without the clauses."""
+        return tuple(step.instruction for step in self.steps)
+
+    def segments(self) -> tuple[Segment, ...]:
+        """Return the pieces of the text with what serves each, as a demonstration has them."""
+        last = len(self.clauses) - 1
+        owners = list(accumulate((min(step.clause, last) for step in self.steps), max))
+        return tuple(
+            Segment(
+                piece.start, piece.end, tuple(i for i, n in zip(self.instructions, owners, strict=True) if n == number)
+            )
+            for number, piece in enumerate(self.clauses)
+        )
+
+    def _known(self, step: int, least: int = 1) -> None:
+        if not least <= step <= len(self.steps):
+            raise TmdError(f"there is no step {step}", hint=f"there are {len(self.steps)} steps")
+
+    def _after(self, instruction: Instruction, state: Bits) -> Bits | str:
+        """Return the state after an instruction, or why it does not apply.
+
+        Raises:
+            TmdError: There is no such instruction.
+        """
+        task = self.world.task
+        operator = task.by_instruction.get(instruction)
+        if operator is not None and operator.applicable(state):
+            return operator.apply(state)
+        return self._wording.broken(instruction, task.decode(state)) or "nothing can bring it about here"
 
 
-class Session:
+class Session(EditedSteps):
     """A demonstration under way.
 
     Args:
@@ -101,14 +142,10 @@ class Session:
         lexicon: The words of the domain.
         instructions: What was done already.
         pins: The clauses that the person chose, from 0, by the number of the step, from 1.
-        proposed: The plan that is corrected, if one is.
         habits: What was done for verbs before; proposals of clauses are better with it.
 
     Attributes:
-        world: The environment.
-        text: The text, without control characters.
-        clauses: The pieces of the text that steps serve, at least one.
-        history: What was done, and undone.
+        cursor: After how many steps the state is that is looked at.
 
     Raises:
         TmdError: The text is empty or too long, an instruction does not apply, or there is no step or clause of a pin.
@@ -122,51 +159,30 @@ class Session:
         *,
         instructions: Iterable[Instruction] = (),
         pins: Mapping[int, int] | None = None,
-        proposed: tuple[DemonstratedStep, ...] | None = None,
         habits: Habits = NO_HABITS,
     ) -> None:
-        self.world = world
-        self.text = clean(text)
-        self.clauses: tuple[ClauseSpan, ...] = cut(self.text, lexicon)
-        self.proposed = None if proposed is None else _in_order(proposed, len(self.clauses))
+        super().__init__(world, text, lexicon)
         self._habits = habits
-        self._wording = Wording(world.task.problem)
-        self._cursor = 0
-        self.history = History(_Version((), (world.task.init,)))
+        self.cursor = 0
         for instruction in instructions:
             self.do(instruction)
         for step, clause in sorted((pins or {}).items()):
             self.mark(step, clause)
 
     @property
-    def steps(self) -> tuple[DemonstratedStep, ...]:
-        """All that was done and not undone."""
-        return self.history.current.steps
-
-    @property
-    def instructions(self) -> tuple[Instruction, ...]:
-        """The same without the clauses."""
-        return tuple(step.instruction for step in self.steps)
-
-    @property
     def pins(self) -> dict[int, int]:
         """Numbers of the clauses that the person marked, from 0, by the number of the step, from 1."""
-        return {number + 1: clause for number, clause in sorted(self.history.current.pins.items())}
-
-    @property
-    def cursor(self) -> int:
-        """After how many steps the state is that is looked at."""
-        return self._cursor
+        return {number: step.clause for number, step in enumerate(self.steps, start=1) if step.marked}
 
     @property
     def state(self) -> Bits:
         """The state that is looked at, as bits of the environment's task."""
-        return self.history.current.states[self._cursor]
+        return self.states[self.cursor]
 
     @property
     def states(self) -> tuple[Bits, ...]:
         """The states before the first step and after each, as bits of the environment's task."""
-        return self.history.current.states
+        return tuple(self.world.task.trace(self.world.task.init, self.instructions))
 
     def do(self, instruction: Instruction) -> DemonstratedStep:
         """Carry out ``instruction`` in the state that is looked at; steps behind it go, until this is undone.
@@ -174,26 +190,20 @@ class Session:
         Raises:
             TmdError: It does not apply, with the broken precondition; or the demonstration is too long.
         """
-        now, at = self.history.current, self._cursor
+        at = self.cursor
         if at >= MAX_STEPS:
             raise TmdError(f"a demonstration has at most {MAX_STEPS} steps", hint="save it, and begin another")
-        after = self._applied(instruction, now.states[at], at + 1)
-        done = (*(step.instruction for step in now.steps[:at]), instruction)
-        pins = {number: clause for number, clause in now.pins.items() if number < at}
-        self._become(self._version(done, (*now.states[: at + 1], after), pins))
+        after = self._after(instruction, self.state)
+        if isinstance(after, str):
+            raise TmdError(f"step {at + 1}, {instruction}, does not apply: {after}")
+        self._become((*self.instructions[:at], instruction), {n: c for n, c in self.pins.items() if n <= at})
+        self.cursor = at + 1
         return self.steps[-1]
 
-    def undo(self) -> bool:
-        """Take the last change back (a step, a mark); false where there is none."""
-        moved = self.history.undo()
-        self._cursor = len(self.steps) if moved else self._cursor
-        return moved
-
-    def redo(self) -> bool:
-        """Make the change again that was taken back last; false where there is none."""
-        moved = self.history.redo()
-        self._cursor = len(self.steps) if moved else self._cursor
-        return moved
+    def _go(self, by: int) -> bool:
+        super()._go(by)
+        self.cursor = len(self.steps)
+        return True
 
     def goto(self, step: int) -> None:
         """Look at the state after that many steps; 0 is the beginning. Nothing is undone.
@@ -201,9 +211,8 @@ class Session:
         Raises:
             TmdError: There are not so many.
         """
-        if not 0 <= step <= len(self.steps):
-            raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
-        self._cursor = step
+        self._known(step, 0)
+        self.cursor = step
 
     def mark(self, step: int, clause: int) -> None:
         """Mark the clause that a step serves.
@@ -218,55 +227,15 @@ class Session:
         Raises:
             TmdError: There is no such step or clause.
         """
-        now = self.history.current
-        if not 0 < step <= len(self.steps):
-            raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
+        self._known(step)
         if not 0 <= clause < len(self.clauses):
             raise TmdError(f"there is no clause {clause + 1}", hint=f"the text has {len(self.clauses)}")
-        pins = {n: c for n, c in now.pins.items() if (n < step - 1 and c <= clause) or (n > step - 1 and c >= clause)}
-        done = tuple(s.instruction for s in now.steps)
-        at = self._cursor
-        self._become(self._version(done, now.states, {**pins, step - 1: clause}))
-        self._cursor = at
+        pins = {n: c for n, c in self.pins.items() if (n < step and c <= clause) or (n > step and c >= clause)}
+        self._become(self.instructions, {**pins, step: clause})
 
-    def segments(self) -> tuple[Segment, ...]:
-        """Return the pieces of the text with what serves each, as a demonstration has them."""
-        steps = self.steps
-        return tuple(Segment(piece.start, piece.end, _own(steps, n)) for n, piece in enumerate(self.clauses))
-
-    def _become(self, version: _Version) -> None:
-        self.history.add(version)
-        self._cursor = len(version.steps)
-
-    def _version(self, done: tuple[Instruction, ...], states: tuple[Bits, ...], pins: Mapping[int, int]) -> _Version:
-        clauses = propose([piece.clause for piece in self.clauses], done, self.world, pins, self._habits)
+    def _become(self, done: tuple[Instruction, ...], pins: Mapping[int, int]) -> None:
+        """Make instructions, and the clauses that the person chose for some of them, the current steps."""
+        chosen = {number - 1: clause for number, clause in pins.items()}
+        clauses = propose([piece.clause for piece in self.clauses], done, self.world, chosen, self._habits)
         pairs = enumerate(zip(done, clauses, strict=True))
-        steps = tuple(DemonstratedStep(instruction, clause, number in pins) for number, (instruction, clause) in pairs)
-        return _Version(steps, states, MappingProxyType(dict(pins)))
-
-    def _applied(self, instruction: Instruction, state: Bits, step: int) -> Bits:
-        """Return the state after ``instruction``.
-
-        Raises:
-            TmdError: It does not apply.
-        """
-        task = self.world.task
-        operator = task.by_instruction.get(instruction)
-        if operator is not None and operator.applicable(state):
-            return operator.apply(state)
-        bind(task.problem, instruction)
-        why = self._wording.broken(instruction, task.decode(state)) or "nothing can bring it about here"
-        raise TmdError(f"step {step}, {instruction}, does not apply: {why}")
-
-
-def _in_order(steps: Iterable[DemonstratedStep], clauses: int) -> tuple[DemonstratedStep, ...]:
-    """Return the steps with clauses that there are, never falling."""
-    found: list[DemonstratedStep] = []
-    for step in steps:
-        clause = min(max(step.clause, found[-1].clause if found else 0), clauses - 1)
-        found.append(DemonstratedStep(step.instruction, clause, step.marked))
-    return tuple(found)
-
-
-def _own(steps: Iterable[DemonstratedStep], clause: int) -> tuple[Instruction, ...]:
-    return tuple(step.instruction for step in steps if step.clause == clause)
+        self._add(tuple(DemonstratedStep(each, clause, n in chosen) for n, (each, clause) in pairs))

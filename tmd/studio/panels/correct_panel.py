@@ -12,9 +12,10 @@ from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.drafts import CorrectionDraft
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.environment_view import Reel
-from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.panels.demonstrate_panel import GOAL_HINT
-from tmd.view.panels import StepLine, fragment, step_list
+from tmd.studio.panels.demonstrate_panel import GOAL_HINT, DraftPanel
+from tmd.studio.visitor import Visitor, chosen, put
+from tmd.view.panels import fragment, step_list
+from tmd.view.subject import PlannedStep
 
 EVERYWHERE = "in every step"
 HERE = "in this step"
@@ -23,18 +24,19 @@ PLAN_FIRST = "<p>Plan something under Say, and press 'Correct this plan'.</p>"
 NO_STEPS = "No step is left: that nothing is to be done is a correction as well."
 
 
-class CorrectPanel:
+class CorrectPanel(DraftPanel[Correction, CorrectionDraft]):
     """Panel that edits a proposed plan, and saves it."""
 
-    def __init__(self, visitor: PanelContext) -> None:
-        self._visitor = visitor
-        self._correction: Correction | None = None
-        self._insertable: dict[str, Instruction] = {}
-        self._at = 0
-        self._reel = Reel(visitor.setting)
+    name = "correct"
+    form = CorrectionDraft
+    idle = "nothing is corrected", "plan something under Say, and press 'Correct this plan'"
+
+    def __init__(self, visitor: Visitor) -> None:
         gui = visitor.client.gui
         self._text = gui.add_html(fragment(PLAN_FIRST))
-        self._resume = visitor.button("Go on with the correction", self.resume, visible=False)
+        super().__init__(visitor, "Go on with the correction")
+        self._insertable: dict[str, Instruction] = {}
+        self._at = 0
         self._all = gui.add_folder("Edit", visible=False)
         with self._all:
             self._delete = visitor.button("Delete", self._leave_out)
@@ -52,16 +54,13 @@ class CorrectPanel:
             self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
             self._goal.on_update(visitor.guarded(self._keep))
             visitor.button("Save the correction", self._save, color="blue")
-        visitor.guarded(self._look_for_draft)(None)
 
-    def entered(self) -> None:
-        """Close the correction in another environment; an unfinished one is kept."""
-        self._correction = None
+    def _close(self) -> None:
         self._all.visible = False
         self._text.content = fragment(PLAN_FIRST)
-        self._look_for_draft()
+        super()._close()
 
-    def open(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
+    def correct(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text; what was corrected before and is not saved is asked for."""
         visitor = self._visitor
 
@@ -81,40 +80,23 @@ class CorrectPanel:
     def _open(self, correction: Correction, goal: str = "") -> None:
         visitor = self._visitor
         visitor.stop()
-        self._correction = correction
+        self._work = correction
         self._reel, self._at = Reel(visitor.setting), 1 if correction.steps else 0
         self._new.options = self._with.options = (NOTHING, *visitor.setting.names())
         self._all.visible, self._resume.visible = True, False
         put(self._goal, goal)
-        self._refresh()
+        self.refresh()
 
     # what is not saved yet
 
-    def _draft(self) -> CorrectionDraft | None:
-        return self._visitor.studio.drafts.of(self._visitor.identity, CorrectionDraft)
-
-    def _look_for_draft(self) -> None:
-        self._resume.visible = self._draft() is not None
-
-    def resume(self) -> None:
-        """Go on with the correction that is not saved."""
+    def _take_up(self, draft: CorrectionDraft) -> None:
         visitor = self._visitor
-        draft = self._draft()
-        if draft is None:
-            raise TmdError("there is no correction that is not saved")
-        if draft.environment != visitor.setting.name:
-            visitor.enter(draft.environment)
         self._open(draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon), draft.goal)
         visitor.tell("Here is the correction that is not saved.")
 
-    def come_back(self) -> None:
-        """Resume the correction after the page was loaded again, if there is one."""
-        if self._correction is None and self._draft() is not None:
-            self.resume()
-
     def _keep(self) -> None:
         """Keep the correction as a draft, if it changes anything."""
-        visitor, correction = self._visitor, self._correction
+        visitor, correction = self._visitor, self._work
         if correction is None:
             return
         goal = self._goal.value.strip()
@@ -123,24 +105,19 @@ class CorrectPanel:
         else:
             visitor.studio.drafts.discard(visitor.identity, CorrectionDraft)
 
-    def _going(self) -> Correction:
-        if self._correction is None:
-            raise TmdError("nothing is corrected", hint="plan something under Say, and press 'Correct this plan'")
-        return self._correction
-
     # edits
 
     def goto(self, step: int) -> None:
         """Choose a step, and look at what it leads to."""
         self._at = min(max(step, 0), len(self._going().steps))
-        self._refresh()
+        self.refresh()
 
     def _able(self) -> None:
         """Disable the buttons that would do nothing."""
         correction, at = self._going(), self._at
         self._delete.disabled = not at
         self._earlier.disabled, self._later.disabled = at < 2, not 0 < at < len(correction.steps)
-        self._undo.disabled, self._redo.disabled = not correction.history.before, not correction.history.after
+        self._undo.disabled, self._redo.disabled = not correction.undoable, not correction.redoable
         self._repair.disabled = correction.broken() is None
         self._put_in.disabled = self._what.value == NOTHING
         for button in self._swaps:
@@ -148,31 +125,26 @@ class CorrectPanel:
 
     def _leave_out(self) -> None:
         self._going().delete(self._at)
-        self._refresh()
+        self.refresh()
 
     def _move(self, by: int) -> None:
         self._going().move(self._at, self._at + by)
         self._at += by
-        self._refresh()
-
-    def _go_back(self, forward: bool) -> None:
-        history = self._going().history
-        history.redo() if forward else history.undo()
-        self._refresh()
+        self.refresh()
 
     def _swap(self, where: str) -> None:
         correction, old, new = self._going(), chosen(self._old), chosen(self._new)
         if NOTHING in (old, new):
             raise TmdError("choose the two objects first")
         count = correction.swap(old, new, self._at if where == HERE else None)
-        self._refresh()
+        self.refresh()
         self._visitor.tell(f"{count} step{'' if count == 1 else 's'} changed.")
 
     def _instructions(self) -> None:
         """Offer the instructions with an object; the planner may make possible those that do not apply."""
         name = chosen(self._with)
-        operators = self._visitor.studio.offers(self._visitor.setting.name).of(None if name == NOTHING else name)
-        self._insertable = self._visitor.wording.by_words(operator.instruction for operator in operators)
+        operators = self._visitor.setting.offers(None if name == NOTHING else name)
+        self._insertable = self._visitor.setting.wording.by_words(operator.instruction for operator in operators)
         self._what.options = (NOTHING, *self._insertable)
         self._able()
 
@@ -182,26 +154,21 @@ class CorrectPanel:
             raise TmdError("choose an instruction first")
         self._going().insert(self._at + 1, instruction)
         self._at += 1
-        self._refresh()
+        self.refresh()
 
     def _mend(self) -> None:
         added = self._going().repair()
-        self._refresh()
-        said = "; ".join(map(self._visitor.wording.instruction, added))
+        self.refresh()
+        said = "; ".join(map(self._visitor.setting.wording.instruction, added))
         self._visitor.tell(f"Put in: {said}." if added else "Nothing is missing.")
 
     def _save(self) -> None:
         """Save the corrected plan as a demonstration of the text, and learn from it."""
-        visitor = self._visitor
-        session = self._going().session(visitor.studio.teacher.habits)
-        saved = visitor.studio.save(session, SHOWN, self._goal.value.strip() or None)
-        visitor.studio.drafts.discard(visitor.identity, CorrectionDraft)
-        self.entered()
-        visitor.saved(saved)
+        self._store(self._going(), SHOWN, self._goal.value)
 
     # showing
 
-    def _refresh(self) -> None:
+    def refresh(self) -> None:
         """Show the plan as it is now, and the state after the chosen step, or the last one that is reached."""
         visitor, correction = self._visitor, self._going()
         self._keep()
@@ -209,15 +176,14 @@ class CorrectPanel:
         self._at = min(self._at, len(steps))
         used = sorted(set(steps[self._at - 1].instruction.args)) if self._at else []
         self._old.options = (NOTHING, *used)
-        works = broken.step - 1 if broken else len(steps)
-        self._reel.follow(step.instruction for step in steps[:works])
-        states = self._reel.states
+        works = broken[0] - 1 if broken else len(steps)
+        states = Reel(visitor.setting, [step.instruction for step in steps[:works]]).states
         self._reel.become([*states, *[states[-1]] * (len(steps) - works)])
         visitor.watch(self._reel, self._at, self, [step.instruction for step in steps])
-        lines = [StepLine(step.instruction, f"clause {step.clause + 1}") for step in steps]
-        faults = {broken.step: [f"✗ {broken.why}"]} if broken else {}
-        state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
-        in_words = visitor.wording.instruction
+        lines = [PlannedStep(step.instruction, f"clause {step.clause + 1}") for step in steps]
+        faults = {broken[0]: [f"✗ {broken[1]}"]} if broken else {}
+        state = f"Step {broken[0]} does not apply." if broken else "Every step applies." if steps else NO_STEPS
+        in_words = visitor.setting.wording.instruction
         listed = step_list(lines, self._at, (), faults, in_words=in_words, of="correct")
         self._text.content = fragment(f"<p role='status'>{state}</p>") + listed
         self._able()

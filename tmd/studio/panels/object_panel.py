@@ -2,37 +2,36 @@
 
 from __future__ import annotations
 
-from tmd.studio.panels.context import PanelContext, chosen, put
+from tmd.studio.visitor import Panel, Visitor, put
 from tmd.view.panels import changed, fragment, object_facts
 
 NOTHING = "(nothing)"
 
 
-class ObjectPanel:
+class ObjectPanel(Panel):
     """Panel of one object of the state that is shown."""
 
-    def __init__(self, visitor: PanelContext) -> None:
-        self._visitor = visitor
-        self._which = visitor.dropdown("Object", (NOTHING,), self._chosen)
+    def __init__(self, visitor: Visitor) -> None:
+        super().__init__(visitor)
+        self._which = visitor.dropdown("Object", (NOTHING,), lambda: visitor.point(self._which))
         self._facts = visitor.client.gui.add_html("")
         self.entered()
-
-    def _chosen(self) -> None:
-        name = None if self._which.value == NOTHING else chosen(self._which)
-        if name != self._visitor.selected:
-            self._visitor.select(name)
 
     def entered(self) -> None:
         """Show the objects of another environment."""
         self._which.options = (NOTHING, *self._visitor.setting.names())
         put(self._which, NOTHING)
-        self.refresh()
+        self.seen()
 
-    def refresh(self) -> None:
+    def pointed(self) -> None:
+        """Show the object that was pointed at."""
+        self.seen()
+
+    def seen(self) -> None:
         """Show the state that is seen now."""
         visitor = self._visitor
         name, reel, step, world = visitor.selected, visitor.reel, visitor.cursor, visitor.setting.world
-        said = visitor.wording.fact
+        said = visitor.setting.wording.fact
         if name is None:
             hint = "<p>Click on an object, or choose one: its parts and states are shown.</p>"
             self._facts.content = fragment(hint)

@@ -6,23 +6,17 @@ import threading
 import time
 from html import escape
 
-from tmd.pddl.model import Instruction
-from tmd.studio.panels.context import PanelContext, chosen, put
 from tmd.studio.view3d.performance import RATE, RobotRun
+from tmd.studio.visitor import Panel, Visitor, chosen, put
 
 BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
 
 
-class PlayerPanel:
-    """Panel that steps through, and plays, the plan of another panel.
+class PlayerPanel(Panel):
+    """Panel that steps through, and plays, the plan of another panel."""
 
-    Attributes:
-        instructions: The steps of the panel that is looked at.
-    """
-
-    def __init__(self, visitor: PanelContext) -> None:
-        self._visitor = visitor
-        self.instructions: tuple[Instruction, ...] = ()
+    def __init__(self, visitor: Visitor) -> None:
+        super().__init__(visitor)
         self._last, self._shown = 0, 0.0
         gui = visitor.client.gui
         self._caption = gui.add_html("")
@@ -30,35 +24,38 @@ class PlayerPanel:
         self._slider.on_update(visitor.guarded(self._slid))
         self._buttons = visitor.buttons("Steps", BUTTONS, self._pressed, visible=False)
         self._seconds = gui.add_slider("Second of run", 0.0, 1.0, 0.1, 0.0, visible=False)
-        self._seconds.on_update(visitor.guarded(lambda: self._sought()))
+        self._seconds.on_update(visitor.guarded(self._sought))
+        with visitor.view:
+            self._speed = gui.add_slider("Steps a second", 1, 10, 1, 2)
+        visitor.command("Next step", "N", lambda: self._move(1))
+        visitor.command("Step back", "B", lambda: self._move(-1))
+        visitor.command("Play or pause", "P", self._toggle)
 
-    def settings(self) -> None:
-        """Add the input of the speed."""
-        self._speed = self._visitor.client.gui.add_slider("Steps a second", 1, 10, 1, 2)
-
-    def show(self, instructions: tuple[Instruction, ...]) -> None:
+    def seen(self) -> None:
         """Show the place in the steps of the panel that is looked at; nothing where there are none."""
-        visitor, step = self._visitor, self._visitor.cursor
-        self.instructions, self._last = instructions, len(visitor.reel.states) - 1
+        visitor, step, instructions = self._visitor, self._visitor.cursor, self._visitor.instructions
+        self._last = len(visitor.reel.states) - 1
         found = visitor.owner is not None and bool(instructions)
         run = visitor.reel if isinstance(visitor.reel, RobotRun) else None
         for handle, seen in ((self._slider, found), (self._buttons, found), (self._seconds, run is not None)):
             if handle.visible != seen:
                 handle.visible = seen
         if run is not None:
-            self.time(run)
+            self.moved(run)
         if found and self._last:
             self._slider.max = self._last
             put(self._slider, step)
-        done = visitor.wording.instruction(instructions[step - 1]) if 0 < step <= self._last else "the beginning"
+        done = (
+            visitor.setting.wording.instruction(instructions[step - 1]) if 0 < step <= self._last else "the beginning"
+        )
         now = run.now if run is not None and visitor.live else None
         if now is not None:
-            said = ("repair: " if now.repair else "") + visitor.wording.instruction(now.instruction)
-            self.say(f"The robot, step {now.number} of {now.of}: {said}")
+            said = ("repair: " if now.repair else "") + visitor.setting.wording.instruction(now.instruction)
+            self._say(f"The robot, step {now.number} of {now.of}: {said}")
         else:
-            self.say(f"{step} / {self._last} {done}" if found else "")
+            self._say(f"{step} / {self._last} {done}" if found else "")
 
-    def time(self, run: RobotRun) -> None:
+    def moved(self, run: RobotRun) -> None:
         """Show how long a run is, and the moment that is looked at."""
         last = max(len(run.moments) - 1, 1) / RATE
         if not run.ended.is_set():
@@ -69,10 +66,16 @@ class PlayerPanel:
         put(self._seconds, self._shown)
 
     def _sought(self) -> None:
-        if self._seconds.value != self._shown:
-            self._visitor.seek(float(self._seconds.value))
+        """Look at a moment of the run that is looked at."""
+        visitor, run = self._visitor, self._visitor.reel
+        if self._seconds.value == self._shown or not isinstance(run, RobotRun) or not run.moments:
+            return
+        moment = min(max(round(self._seconds.value * RATE), 0), len(run.moments) - 1)
+        self._goto(run.moments[moment].step)
+        visitor.moment, visitor.live = moment, moment == len(run.moments) - 1
+        visitor.draw()
 
-    def say(self, words: str) -> None:
+    def _say(self, words: str) -> None:
         """Put a caption over the picture."""
         content = f'<p class="tmd-caption" hidden>{escape(words)}</p>'
         if self._caption.content != content:
@@ -80,16 +83,14 @@ class PlayerPanel:
 
     def _slid(self) -> None:
         if self._slider.value != self._visitor.cursor:
-            self.goto(int(self._slider.value))
+            self._goto(int(self._slider.value))
 
-    def goto(self, step: int) -> None:
-        """Look at the state after so many steps; playing ends."""
+    def _goto(self, step: int) -> None:
         self._visitor.stop()
         self._go(step)
 
-    def move(self, by: int) -> None:
-        """Go some steps on, or back."""
-        self.goto(self._visitor.cursor + by)
+    def _move(self, by: int) -> None:
+        self._goto(self._visitor.cursor + by)
 
     def _go(self, step: int) -> None:
         visitor = self._visitor
@@ -102,11 +103,11 @@ class PlayerPanel:
         to = {"|◀": 0, "◀": step - 1, "▶": step + 1, "▶|": self._last}
         pressed = chosen(self._buttons)
         if pressed in to:
-            self.goto(to[pressed])
+            self._goto(to[pressed])
         else:
-            self.toggle()
+            self._toggle()
 
-    def toggle(self) -> None:
+    def _toggle(self) -> None:
         """Play, or pause."""
         visitor = self._visitor
         if visitor.owner is None:

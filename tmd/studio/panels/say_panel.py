@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import os
 import time
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import partial
 from html import escape
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import RefusalKind, TmdError
 from tmd.grounded import Grounded, why_refused
-from tmd.inference.ranking import PlanStep
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.plan_file import format_plan
 from tmd.pddl.semantics import holds
@@ -23,20 +23,20 @@ from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.correction import as_corrected, steps_of
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
-from tmd.studio.panels.context import PanelContext, chosen, put
-from tmd.studio.view3d.performance import RobotRun, plan_lines
+from tmd.studio.view3d.performance import RobotRun
+from tmd.studio.visitor import Panel, Visitor, chosen, put
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
 from tmd.view.object_rows import object_rows
-from tmd.view.panels import StepLine, changed, effort, fragment, goal_list, judgement, step_list
+from tmd.view.panels import changed, effort, fragment, goal_list, judgement, step_list
+from tmd.view.subject import planned_steps
 from tmd.world.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import GuiButtonHandle
-
 
 # How many plans are ranked.
 TOP = 3
@@ -68,11 +68,13 @@ class Request:
         return None if formula is None or formula not in formulas else formulas.index(formula)
 
 
-class SayPanel:
+class SayPanel(Panel):
     """Panel that plans a text, and shows the plans."""
 
-    def __init__(self, visitor: PanelContext) -> None:
-        self._visitor = visitor
+    name = "say"
+
+    def __init__(self, visitor: Visitor) -> None:
+        super().__init__(visitor)
         self._grounded: Grounded | None = None
         self._request: Request | None = None
         self._waiting: PageLink | None = None
@@ -181,7 +183,8 @@ class SayPanel:
         visitor = self._visitor
         begun = time.perf_counter()
         try:
-            grounded = self._ground(request)
+            world, teacher = visitor.setting.world, visitor.studio.teacher
+            grounded = teacher.ground(request.text, world, top=TOP, reader=request.reader, ask=request.answer)
         except TmdError:
             if self._waiting is not link:
                 return
@@ -200,11 +203,6 @@ class SayPanel:
             if free or request.reader is not None:
                 self._tell(self._grounded or grounded, took)
         visitor.keep_link()
-
-    def _ground(self, request: Request) -> Grounded:
-        visitor = self._visitor
-        world, teacher = visitor.setting.world, visitor.studio.teacher
-        return teacher.ground(request.text, world, top=TOP, reader=request.reader, ask=request.answer)
 
     def _chosen_reader(self) -> Reader | None:
         """Return the reader that asks a language model; ``None`` for grammar and lexicon.
@@ -236,16 +234,17 @@ class SayPanel:
 
     def come_back(self, link: PageLink) -> None:
         """Plan what the address of the window says, in the background."""
-        put(self._text, link.say)
-        self._plan(Request(clean(link.say)), link)
+        if link.say:
+            put(self._text, link.say)
+            self._plan(Request(clean(link.say)), link)
 
-    def looked_at(self) -> tuple[int, int, str]:
-        """Return the number of the plan that is shown, the step, and the sentence, for the window's address."""
+    def address(self) -> Mapping[str, Any]:
+        """Return the number of the plan that is shown, the step, and the sentence."""
         if self._waiting is not None:
-            return self._waiting.plan, self._waiting.step, self._waiting.say
+            return self._waiting.model_dump(include={"plan", "step", "say"})
         if self._grounded is None:
-            return 1, 0, ""
-        return (self._number() + 1 if self._reels else 1), self._step, self._grounded.parsed.text
+            return {}
+        return {"plan": self._number() + 1 if self._reels else 1, "step": self._step, "say": self._grounded.parsed.text}
 
     def saved(self, demonstration: Demonstration) -> None:
         """Plan the text of what was saved again, show that, and say whether it is what was shown."""
@@ -277,7 +276,7 @@ class SayPanel:
     def _whether_used(self, saved: Demonstration, grounded: Grounded) -> str:
         if self._corrected and saved.proposed is not None:
             return "This sentence now gives it here, as it was corrected."
-        return whether_used(saved.instructions, grounded, self._visitor.wording.instruction)
+        return whether_used(saved.instructions, grounded, self._visitor.setting.wording.instruction)
 
     def _again(self, saved: Demonstration) -> Grounded:
         """Return the text of a demonstration, planned where it was shown; a language model is not asked."""
@@ -288,58 +287,51 @@ class SayPanel:
         """Report the number of plans, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            more = _ASKED if grounded.question is not None else f"{self._run.over} {_BACK}" if self._run else None
+            more = (
+                _ASKED
+                if grounded.question is not None
+                else f"{self._run.over or _STOPPING} {_BACK}"
+                if self._run
+                else None
+            )
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
             return
         example = get_close_matches(parsed.text, visitor.studio.examples(visitor.setting.name), n=1, cutoff=0)
         tried = f"try: {' '.join(example[0].split())}" if example else None
+        why, hint, unseen = grounded.reason, None, bool(grounded.unseen)
         if grounded.refused is not None:
             clause, refused = grounded.refused
-            shown = "show it under Demonstrate" if refused.kind is RefusalKind.UNKNOWN_VERB else None
-            hint = "; or ".join(filter(None, (refused.hint, shown, tried)))
-            message = why_refused(clause, refused.message.removesuffix("."), None)
-            visitor.tell(f"No plan: {message}.", hint, fault=True)
+            why, hint = why_refused(clause, refused.message.removesuffix("."), None), refused.hint
+            unseen = refused.kind is RefusalKind.UNKNOWN_VERB
         elif not parsed.clauses and parsed.text.rstrip().endswith("?"):
-            visitor.tell(f"No plan: this is a question; {grounded.reason}.", tried, fault=True)
-        else:
-            shown = "show it under Demonstrate" if grounded.unseen else None
-            hint = "; or ".join(filter(None, (shown, tried)))
-            visitor.tell(f"No plan: {grounded.reason}.", hint, fault=True)
-
-    def _played(self, plan: Sequence[PlanStep]) -> Reel:
-        """Return the states that a plan leads through."""
-        reel = Reel(self._visitor.setting)
-        reel.follow(step.instruction for step in plan)
-        return reel
+            why = f"this is a question; {why}"
+        shown = "show it under Demonstrate" if unseen else None
+        visitor.tell(f"No plan: {why}.", "; or ".join(filter(None, (hint, shown, tried))), fault=True)
 
     def _show(
-        self,
-        grounded: Grounded,
-        place: int = 0,
-        step: int = 0,
-        *,
-        watch: bool = True,
-        request: Request | None = None,
+        self, grounded: Grounded, place: int = 0, step: int = 0, *, watch: bool = True, request: Request | None = None
     ) -> None:
         """Show what a text was grounded to: the plan at ``place``, after ``step`` steps, and its picture if wanted."""
         self._waiting = None
         self._request = request or Request(grounded.parsed.text)
-        energies = grounded.plans
-        lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         self._grounded = grounded = self._with_correction(grounded, self._request)
         self._button.disabled = False
         self._put_question(grounded, self._request)
-        self._reels = [self._played(plan.steps) for plan in grounded.plans]
+        self._reels = [Reel(self._visitor.setting, plan.instructions) for plan in grounded.plans]
         found = bool(grounded.plans)
         self._found(found=found)
         self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
-        self._energies.content = fragment(
-            candidates(energies, lines, grounded.rejected, narrow=True) + effort(grounded.usage)
-        )
+        lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
+        energies = candidates(grounded.plans, lines, grounded.rejected, narrow=True, corrected=self._corrected)
+        self._energies.content = fragment(energies + effort(grounded.usage))
         if not found:
-            self._show_refused(grounded, watch=watch)
+            unseen = () if grounded.refused is not None else grounded.unseen
+            self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
+            self._judged.content = self._steps.content = ""
+            if watch:
+                self._visitor.watch(Reel(self._visitor.setting), 0)
             return
         self._offer(grounded)
         self._step = step
@@ -349,19 +341,11 @@ class SayPanel:
     def _with_correction(self, grounded: Grounded, request: Request) -> Grounded:
         """Return what a text was grounded to, with the plan to which somebody corrected it first."""
         corrected = self._visitor.studio.corrected(grounded.parsed.text, self._visitor.setting.name)
-        self._corrected = False
+        found = None
         if corrected is not None and request == Request(grounded.parsed.text):
-            grounded = as_corrected(grounded, corrected)
-            self._corrected = bool(grounded.plans) and grounded.plans[0].instructions == corrected.instructions
-        return grounded
-
-    def _show_refused(self, grounded: Grounded, *, watch: bool) -> None:
-        """Show a text that has no plan."""
-        unseen = () if grounded.refused is not None else grounded.unseen
-        self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
-        self._judged.content = self._steps.content = ""
-        if watch:
-            self._visitor.watch(Reel(self._visitor.setting), 0)
+            found = as_corrected(grounded, corrected)
+        self._corrected = found is not None
+        return found or grounded
 
     def _offer(self, grounded: Grounded) -> None:
         """Offer the plans to look at, and what the robot did."""
@@ -432,9 +416,10 @@ class SayPanel:
         over = run.ended.is_set() and bool(run.over)
         self._robot.disabled, self._stop.disabled = not over, over
         if over:
-            self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
+            explain = _EXPLAIN.format(run.setting.path, run.setting.name) if run.failed else ""
+            self._visitor.tell(run.over, f"{_BACK if run.done else ''} {explain}".strip() or None, aloud=True)
         elif run.now is not None:
-            said = self._visitor.wording.instruction(run.now.instruction)
+            said = self._visitor.setting.wording.instruction(run.now.instruction)
             self._visitor.tell(f"The robot, step {run.now.number} of {run.now.of}: {said}")
         if self._running() is not None:
             if self._visitor.live:
@@ -449,51 +434,43 @@ class SayPanel:
         return len(self._reel().states) - 1 if self._reels else 0
 
     def _look(self, *, watch: bool = True) -> None:
-        if not self._reels:
+        """Show the step that is looked at: in the picture, in the list, what it changed, and the goals that hold."""
+        if self._grounded is None or not self._reels:
             return
-        reel, lines = self._reel(), self._lines()
+        visitor, run, reel = self._visitor, self._running(), self._reel()
+        lines = run.lines if run else planned_steps(self._grounded.plans[self._number()])
+        instructions = [line.instruction for line in lines]
         if watch:
-            self._visitor.watch(reel, self._step, self, [line.instruction for line in lines])
-        problem = self._visitor.setting.world.task.problem
+            visitor.watch(reel, self._step, self, instructions)
+        wording, problem = visitor.setting.wording, visitor.setting.world.task.problem
         facts, shown = reel.facts(self._step), [goal for goal in self._asked if goal.asked]
         true = sum(holds(goal.goal.formula, facts, problem) for goal in shown if goal.goal.formula is not None)
         self._reached.label = f"Goals: {true} of {len(shown)} hold now"
         self._goals.content = goal_list(self._asked, facts, problem)
-        self._list(lines)
-        self._visitor.keep_link()
-
-    def _lines(self) -> list[StepLine]:
-        """Return the steps of the plan or the run that is looked at; none where there is neither."""
-        if self._grounded is None or not self._reels:
-            return []
-        run = self._running()
-        return run.lines if run else plan_lines(self._grounded.plans[self._number()])
-
-    def _list(self, lines: list[StepLine]) -> None:
-        """List the steps, with what the one that is looked at changed."""
-        wording, run, reel = self._visitor.wording, self._running(), self._reel()
-        doing = run is not None and run.now is not None and self._visitor.live
+        doing = run is not None and run.now is not None and visitor.live
         gains = () if doing else changed(*reel.changes(self._step), wording.fact)
         faults, current = run.faults if run else None, self._step + doing
         self._steps.content = step_list(lines, current, gains, faults, in_words=wording.instruction, of="say")
-        instructions = [line.instruction for line in lines]
-        problem = self._visitor.setting.world.task.problem
         self._chart.content = _styled(object_rows(instructions, problem, current, wording))
+        visitor.keep_link()
 
     # what next
 
+    def _planned(self) -> Grounded:
+        if self._grounded is None or not self._grounded.plans:
+            raise TmdError("there is no plan", hint="plan something first")
+        return self._grounded
+
     def _correct(self) -> None:
-        grounded = self._grounded
-        if grounded is not None and grounded.plans:
-            parsed, plan = grounded.parsed, grounded.plans[self._number()]
-            steps = steps_of(plan, parsed.clauses, parsed.text, self._visitor.studio.corpus.lexicon)
-            self._visitor.open_correction(parsed.text, steps)
+        grounded = self._planned()
+        parsed, plan = grounded.parsed, grounded.plans[self._number()]
+        steps = steps_of(plan, parsed.clauses, parsed.text, self._visitor.studio.corpus.lexicon)
+        for panel in self._visitor.panels:
+            panel.correct(parsed.text, steps)
 
     def _download(self) -> None:
         """Send the plan, or the page of `tmd view`, as a file."""
-        grounded = self._grounded
-        if grounded is None or not grounded.plans:
-            raise TmdError("there is no plan to download", hint="plan something first")
+        grounded = self._planned()
         number, kind = self._number(), chosen(self._files)
         plans = (grounded.plans[number], *(p for n, p in enumerate(grounded.plans) if n != number))
         verdicts = (grounded.verdicts[number], *(v for n, v in enumerate(grounded.verdicts) if n != number))
@@ -509,9 +486,7 @@ class SayPanel:
         self._visitor.client.send_file_download(file, content.encode(), save_immediately=True)
 
     def _execute(self) -> None:
-        grounded = self._grounded
-        if grounded is None or not grounded.plans:
-            raise TmdError("there is no plan to carry out", hint="plan something first")
+        grounded = self._planned()
         visitor, number = self._visitor, self._number()
         visitor.stop()
         self._run, self._ran, self._step = visitor.execute(grounded.plans[number]), number, 0
@@ -525,6 +500,8 @@ class SayPanel:
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
 _BACK = "It is under Plan, to look back."
+_EXPLAIN = "Why: download the plan; tmd run {} --plan {}.plan --explain why.html draws what was tried in vain."
+_STOPPING = "The robot is being stopped."
 _ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."
@@ -540,24 +517,14 @@ def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callabl
     if not plans:
         return f"The same sentence has no plan yet: {grounded.reason}."
     for place, plan in enumerate(plans, start=1):
-        more = _beside(shown, plan)
-        if more is None:
+        rest = iter(plan)
+        if not all(instruction in rest for instruction in shown):
             continue
-        also = f", and does more: {'; '.join(map(said, more))}" if more else ""
+        more = "; ".join(map(said, (Counter(plan) - Counter(shown)).elements()))
+        also = f", and does more: {more}" if more else ""
         so = f"as plan {place} of {len(plans)}" if place > 1 else ""
         return f"The same sentence {'' if so else 'now '}gives what you showed{so and ' '}{so}{also}."
     return "The same sentence still gives another plan."
-
-
-def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[Instruction] | None:
-    """Return the other instructions of a plan that has all of ``shown`` in order; ``None`` where it has not."""
-    rest, more = list(shown), []
-    for instruction in plan:
-        if rest and rest[0] == instruction:
-            rest.pop(0)
-        else:
-            more.append(instruction)
-    return None if rest else more
 
 
 def _styled(content: str) -> str:

@@ -68,6 +68,8 @@ def pieces(
     Returns:
         One for every link that moves, or is ``apart``, and has something to show; in the order of the file.
     """
+    import trimesh
+
     tree = Tree(root) if root.find("joint") is not None else None
     links = {link.get("name", ""): link for link in root.findall("link")}
     materials = {m.get("name", ""): m for m in root.findall("material")}
@@ -79,7 +81,8 @@ def pieces(
             if mesh is not None:
                 mesh.apply_transform(frame @ origin(visual.find("origin")))
                 groups.setdefault(carrier, []).append(mesh)
-    return [MeshPiece(name, _together(groups[name])) for name in links if name in groups]
+    together: Any = trimesh.util.concatenate
+    return [MeshPiece(name, together(groups[name])) for name in links if name in groups]
 
 
 def _carrier(tree: Tree | None, name: str, apart: Collection[str]) -> tuple[str, Array]:
@@ -125,13 +128,6 @@ def _colour(visual: ET.Element, materials: Mapping[str, ET.Element]) -> tuple[fl
     if colour is None and material.get("name") in materials:
         colour = materials[material.get("name", "")].find("color")
     return _GREY if colour is None else tuple(float(word) for word in colour.get("rgba", "").split())
-
-
-def _together(meshes: list[trimesh.Trimesh]) -> trimesh.Trimesh:
-    import trimesh
-
-    whole: Any = trimesh.util.concatenate(meshes)
-    return whole  # type: ignore[no-any-return]  # it is a mesh where all of its parts are
 
 
 class Figure:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -252,7 +253,8 @@ class Scenery:
                 continue
             least, most = (high - _FILL * half).max(), (high + _FILL * half).min()
             if least <= most:
-                shift = (least + most) / 2
+                shifts = np.linspace(least, most, 50)  # as far from the upper edge as from the lower one
+                shift = shifts[np.abs((high - shifts[:, None]) / half).max(axis=1).argmin()]
                 break
         eye = middle - distance * forward + shift * up
         return _vector(eye), _vector(eye + distance * forward)
@@ -260,8 +262,7 @@ class Scenery:
     def _corners(self, name: str, pose: Pose) -> NDArray[np.float64]:
         """Return the corners of an object's box in the world, where the object has a pose."""
         model = self._look.still.blueprints[name].model
-        box = [(model.low[i], model.high[i]) for i in range(3)]
-        return np.array([pose.apply((x, y, z)) for x in box[0] for y in box[1] for z in box[2]])
+        return np.array([pose.apply(corner) for corner in product(*zip(model.low, model.high, strict=True))])
 
 
 def _vector(values: NDArray[np.float64]) -> Vector:
