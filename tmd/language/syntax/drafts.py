@@ -408,7 +408,7 @@ class Attachment:
         return name in section("static") and not going
 
     def _with_hosted(self, stem: str, targets: list[Phrase]) -> bool:
-        if self.draft.verb.form == EXISTS:
+        if self.draft.verb.form == EXISTS and not any(p.name in section("one_words") for p in self.host):
             return False  # "there should be a glass on the table with juice in it"
         if self._tells_one():
             return True
