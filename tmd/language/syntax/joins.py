@@ -314,6 +314,8 @@ class _Particles(Words):
             token = self.tokens[place]
             if token.kind not in (K.P, K.ADV):
                 continue
+            if place > at + 1 and self.kind(place - 1) is K.CC:
+                return False  # "turn it to two and then down a bit"
             if not behind and self._parted(verb, token):
                 return True
             if keeps and place > at + 1 and self.among(place, "end_states"):
