@@ -459,6 +459,8 @@ def test_a_state_without_places_is_a_graph(browser: Browser, tmp_path: Path, scr
 
 
 def test_what_visitors_type_is_text(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
+    from playwright.sync_api import expect
+
     with visiting(browser, kitchen_studio, 400, 820) as page:
         page.screenshot(path=screens / "11-narrow.png")
         for text, answer in (
@@ -473,7 +475,8 @@ def test_what_visitors_type_is_text(kitchen_studio: Served, browser: Browser, sc
         page.locator("[role=status]").filter(has_text="plan").first.wait_for()
         assert page.title() != "1" and page.locator("img[src=x]").count() == 0
         begin(page, "Fill the pot.")
-        assert page.get_by_role("button", name="Save (K)", exact=True).is_disabled()  # nothing was demonstrated yet
+        # nothing was demonstrated yet
+        expect(page.get_by_role("button", name="Save (K)", exact=True)).to_be_disabled()
         page.screenshot(path=screens / "12-narrow-fault.png")
 
 
