@@ -15,7 +15,7 @@ from tmd.language.clause import BE, OF, PERSONS, TO, Clause, Condition, Mood, Re
 from tmd.language.lexicon.lexicon import pairs, section, sections_of
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
-from tmd.language.syntax.reading import TextReading
+from tmd.language.syntax.reading import TextReading, denies
 from tmd.language.syntax.tokens import IMPLIED
 
 _REACH = 5
@@ -95,8 +95,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
 
 def _missing_state(clause: Clause) -> Clause:
     """Return what "do it" asks for behind a condition: the state that it denies, "if the gate isn't shut, do it"."""
-    denied = (c for c in clause.conditions if c.negated != (c.word in section("excepting")))
-    missing = [said for condition in denied for said in condition.clauses]
+    missing = [said for condition in filter(denies, clause.conditions) for said in condition.clauses]
     vague = clause.verb in section("pro_verbs") and not clause.relations and all(map(is_pronoun, clause.direct))
     if not vague or len(missing) != 1:
         return clause

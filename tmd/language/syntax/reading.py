@@ -247,7 +247,7 @@ class TextReading:
         condition, before = self._condition(node), self.conditioned
         said = condition.clauses
         if before is not None and node.data == "condition" and said and all(map(_says_nothing, said)):
-            if _denies(before) != _denies(condition):
+            if denies(before) != denies(condition):
                 draft.verb.otherwise, draft.spans = True, [*draft.spans, *spans([node])]
                 return
             condition = replace(condition, clauses=before.clauses)
@@ -710,7 +710,7 @@ def _denied_apart(draft: ClauseDraft) -> list[ClauseDraft]:
     return [draft]
 
 
-def _denies(condition: Condition) -> bool:
+def denies(condition: Condition) -> bool:
     """Return whether a condition asks that something is not so; "unless it is not" asks that it is."""
     return condition.negated != (condition.word in section("excepting"))
 
