@@ -985,3 +985,9 @@ def test_how_people_say_what_shall_be_so(room: str, text: str, held: set[str], g
     facts = end(said("living_room", room, text))
     assert {f"({fact})" for fact in held} <= facts
     assert facts.isdisjoint({f"({fact})" for fact in gone})
+
+
+@pytest.mark.parametrize("text", ["Close the fridge but leave it open.", "Turn the lamp on, but leave it off."])
+def test_what_is_left_otherwise_than_it_is_done_is_a_contradiction(text: str) -> None:
+    grounded = said("living_room", "room5", text)
+    assert grounded.refusal is not None and "contradicts" in str(grounded.refusal)

@@ -183,7 +183,8 @@ class GoalPass(ForwardPass):
     def _to_candidate(self, step: Step, way: Way, goal: CandidateGoal) -> list[Way] | Refusal:
         """Return the ways to one candidate goal."""
         if step.jointly and goal.formula != TRUE:
-            way = replace(way, kept=tuple(replace(k, hard=True) if k.clause == step.number else k for k in way.kept))
+            beside = (step.number, step.number - step.main)
+            way = replace(way, kept=tuple(replace(k, hard=k.hard or k.clause in beside) for k in way.kept))
         target = self._target(step, way, goal)
         if isinstance(target, Refusal):
             return target

@@ -31,7 +31,8 @@ class Step:
         main: Whether the step is that clause itself. Templates and policy propose sequences only for main steps, not
             for what the clause presupposes or is followed by: *after taking the cup out*.
         direct: The language-objects that the verb acts on.
-        jointly: Whether the goal must hold together with the other goals of the same clause.
+        jointly: Whether the goal must hold together with the other goals of the same clause; that of a main step with
+            those of the clause before: *close it, but leave it open* is refused.
         continued: Whether the next clause goes on with what this step acts on.
     """
 

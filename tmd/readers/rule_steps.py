@@ -197,7 +197,7 @@ def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleSte
         step = _step(clause, number, clause)
         if clause.result and clause.result not in words_of("outcomes", "alone"):
             verb = clause.verb if all(map(is_pronoun, clause.direct)) else BE
-            yield replace(step, clause=replace(clause, verb=verb, mood=Mood.DO))
+            yield replace(step, clause=replace(clause, verb=verb, mood=Mood.DO), jointly=True)
         elif step.guards:
             yield step  # "if it is there, leave it, otherwise …"
         return
