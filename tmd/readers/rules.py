@@ -37,7 +37,7 @@ from tmd.readers.interface import (
     Step,
     StepGoals,
 )
-from tmd.readers.rule_steps import USE, RuleStep, about_things, steps_of, with_unwanted_states
+from tmd.readers.rule_steps import USE, RuleStep, about_things, in_text_order, steps_of, with_unwanted_states
 from tmd.world.world import World
 
 
@@ -154,10 +154,10 @@ class RuleDialogue(Dialogue):
         # "the fridge is open, close it" gives a reason
         stated = [said for said in parsed.stated if taken_up.isdisjoint(said.resolved())] if parsed.clauses else []
         untrue = [said for said in stated if _tells_state(said) and self._is_untrue(said, state)]
-        clauses = sorted((*parsed.clauses, *untrue), key=lambda clause: clause.span)
+        clauses = in_text_order(parsed.clauses, untrue)
         told = [clause.span for clause in untrue]
         skipped = tuple(s for s in parsed.skipped if not any(s.span.start <= t.start < s.span.end for t in told))
-        return replace(parsed, clauses=tuple(clauses), skipped=skipped)
+        return replace(parsed, clauses=clauses, skipped=skipped)
 
     def _is_untrue(self, said: Clause, state: Bits) -> bool:
         """Return whether a statement is understood, and not so."""
@@ -342,7 +342,7 @@ def _of_any(clause: Clause) -> bool:
 
 def _means_nothing(step: RuleStep, refusal: Refusal) -> bool:
     """Return whether an optional step may be left out for a reason."""
-    if step.loose:
+    if step.loose or _is_order(step.clause):
         return True
     unread = {RefusalKind.UNKNOWN_VERB, RefusalKind.NOT_UNDERSTOOD, RefusalKind.CONTRADICTION}
     if is_verb(step.clause.verb, "parting"):
