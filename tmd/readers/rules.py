@@ -188,6 +188,7 @@ class RuleDialogue(Dialogue):
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return StepGoals((), progress, note)
         clause = step.clause
+        progress = replace(progress, memory=self._with_named_before(step, state, progress.memory))
         if clause.mood is Mood.KEEP:
             if clause.result or not self._goals.goes_elsewhere(clause, state, progress.memory):
                 return self._kept(step, state, progress)
@@ -197,6 +198,17 @@ class RuleDialogue(Dialogue):
             idle = (step.optional and _means_nothing(step, found)) or self._is_aside(step, found)
             return StepGoals((), progress, "" if _is_order(clause) else found.message) if idle else found
         return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
+
+    def _with_named_before(self, step: RuleStep, state: Bits, memory: Memory) -> Memory:
+        """Return the memory with what the text names before a step and what is done to it later.
+
+        *Before you shut the fridge, put the milk in*: in the fridge.
+        """
+        place = next(at for at, other in enumerate(self.steps) if other is step)
+        later = [other.clause for other in self.steps[place + 1 :] if isinstance(other, RuleStep)]
+        ahead = (noun for clause in later if clause.span.end < step.clause.span.end for noun in clause.direct)
+        named = (n for noun in ahead if not is_pronoun(noun) for n in self._goals.nouns.things(noun, state)[:1])
+        return replace(memory, recent=tuple(dict.fromkeys((*named, *memory.recent))))
 
     def _kept(self, step: RuleStep, state: Bits, progress: _Progress) -> StepGoals | Refusal:
         """Return what a step keeps as it is."""
