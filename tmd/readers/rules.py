@@ -227,7 +227,7 @@ class RuleDialogue(Dialogue):
         named = (noun for noun in clause.objects if not (referents.points_back(noun) or noun in PERSONS))
         nothing = refusal.kind is RefusalKind.NO_SUCH_THING and not any(map(self._goals.knows_of, named))
         others = (other for other in self.steps if isinstance(other, RuleStep) and other is not step)
-        asked = any(other.main and not (other.optional or other.clause.told) for other in others)
+        asked = any(o.main and o.clause.objects and not (o.optional or o.clause.told) for o in others)
         bare = not clause.objects and is_verb(clause.verb, "parting")  # "time to go home"
         wished = not (section("wishing") - section("liking")).isdisjoint(clause.text.lower().split()[:1])
         return asked and (clause.told or bare or (clause.implied and nothing and not wished))

@@ -53,7 +53,8 @@ class ClauseEnds(Words):
             free = self.kind(end - 1) not in (K.AUX, K.TO, K.NEG) and (finite or self.kind(end - 1) is not K.SUBJECT)
             if (deed and free) or self.follows(end, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)"):
                 break
-            if finite and self.follows(end, "SUB|PURP|SUBJECT IDLE* AUX"):
+            said = self.kind(end - 1) in (K.N, K.ADJ, K.FINITE, K.PARTICIPLE) and self.follows(end, "PRON IDLE* AUX")
+            if finite and (said or self.follows(end, "SUB|PURP|SUBJECT IDLE* AUX")):
                 break
             if self.among(end, "by_words") and self.kind(end + 1) is K.ING:
                 break

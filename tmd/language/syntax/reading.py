@@ -53,6 +53,7 @@ class TextReading:
         alone: The text has one unit.
         polite: The text asks politely.
         conditioned: The last condition.
+        told: The relations of the last statement.
     """
 
     text: str
@@ -63,6 +64,7 @@ class TextReading:
     alone: bool = False
     polite: bool = False
     conditioned: Condition | None = None
+    told: list[Relation] = field(default_factory=list)
 
     def read(self, tree: Tree[Leaf]) -> TextReading:
         """Read the tree of a text."""
@@ -424,14 +426,28 @@ class TextReading:
     ) -> None:
         """Ask for the states that a statement demands."""
         for draft in drafts:
+            self._take_up(draft)
             nobody = any(t.text in section("nobodies") for t in leaves(node) if t.kind is not Kind.NEG)
             demand(draft, denied=denied or nobody)
             draft.verb.otherwise = any(t.otherwise for t in leaves(node))
             draft.spans += spans([node])
             self._demanded(draft, conditions)
 
+    def _take_up(self, draft: ClauseDraft) -> None:
+        """Give "it should be" the state, or the place, that a statement before speaks of."""
+        said = self.statements[-1][1] if self.statements else None
+        named = draft.result or draft.landmarks or not all(p.pronoun for p in draft.direct)
+        if said is None or named or not draft.verb.stem == said.verb.stem == BE:
+            return
+        draft.result, draft.verb.participle = said.result, said.verb.participle
+        draft.landmarks = list(said.landmarks)
+        subjects, pronouns = {p.name for p in said.direct}, [p.name for p in draft.direct]
+        moved = [r for r in self.told if r.source in subjects]
+        draft.relations += [r._replace(source=name) for r in moved for name in pronouns]
+
     def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft], before: int, note: str) -> None:
         """Set a statement aside; pronouns may mean what it mentions."""
+        self.told = [relation for draft in drafts for relation in draft.relations]
         if any(t.kind is Kind.NEG or t.text in section("not_forms") for t in leaves(part)):
             for draft in drafts:  # "it has not been in the oven yet" does not say where it is
                 draft.relations.clear()
