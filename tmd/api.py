@@ -36,7 +36,6 @@ from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.check.report import CheckReport as CheckReport
-    from tmd.datasets.veil500.report import check_veil500 as check_veil500
     from tmd.evaluation.runs.config import ExperimentConfig as ExperimentConfig
     from tmd.format.files import format_file as format_file
     from tmd.readers.llm.client import ModelError as ModelError
@@ -58,7 +57,6 @@ _LATER = {
     "RecordedRun": "tmd.records.run",
     "RunRecord": "tmd.records.run",
     "carry_out_predictions": "tmd.robot_trials.experiment",
-    "check_veil500": "tmd.datasets.veil500.report",
     "format_file": "tmd.format.files",
     "grounded_text": "tmd.view.answer_text",
     "read_sentences": "tmd.world.sentence_file",
@@ -82,7 +80,6 @@ __all__ = [
     "asked_problem",
     "carry_out_predictions",
     "check_files",
-    "check_veil500",
     "compile_domain",
     "export_plan",
     "file_page",

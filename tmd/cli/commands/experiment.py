@@ -1,4 +1,4 @@
-"""``tmd experiment`` and ``tmd data``: train, predict, score, print the table; and look into data sets."""
+"""``tmd experiment``: train, predict, score, print the table."""
 
 from __future__ import annotations
 
@@ -179,20 +179,3 @@ def _trials(config: ExperimentConfig, mode: str) -> None:
     for trial in trials.found:
         why = f": {trial.reason}" if trial.reason else ""
         emit(f"robot in {trial.asked.environment}: {trial.status.replace('_', ' ')}{why}\n")
-
-
-@click.group("data", no_args_is_help=False)
-def data() -> None:
-    """Look into data sets."""
-
-
-@data.command("check")
-@click.argument("directory", metavar="DIR", type=PATH)
-def check(directory: Path) -> None:
-    """Read a copy of VEIL-500 and count what was found and dropped.
-
-    Ends with 33 where the copy is missing or damaged.
-    """
-    from tmd.datasets.veil500.report import check_veil500
-
-    emit(check_veil500(directory).text())

@@ -1,7 +1,7 @@
 """Loading the VEIL-500 data set from a directory the user has; none of it is part of this project.
 
 The set is free for academic and research use with citation; see ``docs/veil500.md``. Anything that is odd but
-usable is kept and counted by :mod:`tmd.datasets.veil500.report`; anything that cannot be used is a
+usable is kept and counted by ``experiments/veil500_report.py``; anything that cannot be used is a
 :class:`~tmd.diagnostics.DataError` that says where.
 """
 
