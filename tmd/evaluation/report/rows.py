@@ -1,4 +1,4 @@
-"""The rows and columns of the table: their names and order, the paper's numbers, and the reference row.
+"""The rows and columns of the table: their names and order, the paper's numbers, the reference row, the main result.
 
 The paper's numbers (Table II, RSS 2014) were measured on VEIL-200, which was not released: they show what kind of
 number each row gave there, and compare with no other data.
@@ -143,3 +143,35 @@ def differing(pairs: Iterable[Pair], against: str) -> frozenset[tuple[str, str]]
     own = [pair.seen_from(against) for pair in pairs if against in (pair.a, pair.b)]
     tested = [(pair.b, metric, found) for pair in own for metric in TESTED if (found := pair.of(metric)) is not None]
     return frozenset((other, metric) for other, metric, found in tested if found.p_holm < ALPHA)
+
+
+def headline(metrics: Metrics) -> str:
+    """Return the row that leads, by how much, and whether that is significant."""
+    rows = [model for model in by_merit(metrics) if model != EMPTY]
+    if not rows:
+        return "No row predicts anything."
+    first, *others = rows
+    column = metrics.columns[0]
+    mean = metrics.models[first].mean(column) or 0.0
+    score = f"{mean:.1f} % success" if column == SUCCESS else f"{LABELS[column]} {mean:.1f}"
+    if not others:
+        return f"{title(first)}: {score}."
+    second = others[0]
+    ahead = mean - (metrics.models[second].mean(column) or 0.0)
+    told = f"{title(first)}: {score}, {ahead:.1f} more than {title(second)}{_sure(metrics, first, second, column)}."
+    best = best_of(metrics.models, TESTED if column == SUCCESS else TESTED[1:])
+    also = [LABELS[metric] for metric in TESTED if metric != column and (first, metric) in best]
+    return f"{told} It is also the best in {_listed(also)}." if also else told
+
+
+def _sure(metrics: Metrics, first: str, second: str, column: str) -> str:
+    """Return the corrected p of the difference of two rows: *(p = 0.002)*, *(not significant, p = 0.310)*."""
+    found = difference(metrics, first, second, column)
+    if found is None:
+        return ""
+    p = "p < 0.001" if found.p_holm < 0.001 else f"p = {found.p_holm:.3f}"
+    return f" ({p})" if found.p_holm < ALPHA else f" (not significant, {p})"
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
