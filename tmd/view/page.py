@@ -21,8 +21,7 @@ from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
-from tmd.view.object_rows import object_rows
-from tmd.view.state_graph import StateGraph
+from tmd.view.state_graph import StateGraph, object_rows
 from tmd.view.subject import PlannedStep, Subject
 
 # A plan with more steps than this has them folded.

@@ -30,8 +30,8 @@ from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import style
-from tmd.view.object_rows import object_rows
 from tmd.view.panels import changed, effort, fragment, goal_list, judgement, step_list
+from tmd.view.state_graph import object_rows
 from tmd.view.subject import planned_steps
 from tmd.world.demonstration import Demonstration
 
