@@ -106,12 +106,7 @@ _MAPPINGS = frozenset({"dict_type", "mapping_type", "model_type", "model_attribu
 
 
 def expectation(fault: ErrorDetails, mapping: str) -> str:
-    """Return the fault that pydantic found in a value, in words of the file format instead of Python's.
-
-    Args:
-        fault: The fault.
-        mapping: The name of a mapping in the format.
-    """
+    """Return the fault that pydantic found in a value, in words of the file format instead of Python's."""
     if fault["type"] in _MAPPINGS:
         return f"should be {mapping}"
     plain = " ".join(fault["msg"].removeprefix("Value error, ").split()).replace("valid tuple", "list")

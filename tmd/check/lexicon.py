@@ -190,11 +190,7 @@ def check_goals(
 
 
 class Written:
-    """The text of a lexicon, to point into its patterns and conditions.
-
-    Args:
-        path: The file.
-    """
+    """The text of a lexicon, to point into its patterns and conditions."""
 
     def __init__(self, path: Path) -> None:
         self.path = path

@@ -33,11 +33,8 @@ class SentenceResult:
     """A sentence test with what came out.
 
     Attributes:
-        test: The test.
-        outcome: What became of it.
         plan: The instructions of the first plan, as PDDL.
         goals: The goals of its steps, as PDDL.
-        warnings: What the plan comes with.
         reason: Why there is no plan, or why it is wrong.
         usage: The effort of the language model; ``None`` where none was asked.
     """

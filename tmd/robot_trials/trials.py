@@ -71,11 +71,7 @@ class Job:
     """One trial that is to be made; it can be sent to another process.
 
     Attributes:
-        asked: The request.
         line: The prediction; ``None`` if none is executable under PDDL.
-        domain: The domain's folder.
-        problems: The directory of its problems.
-        out: Destination of record and films.
     """
 
     asked: TrialRequest

@@ -166,12 +166,7 @@ def _head(begin: Point, end: Point) -> str:
 
 
 def placed(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> Places:
-    """Place nodes: each connected part by itself, the largest first, from left to right in rows.
-
-    Args:
-        sizes: The width and the height of each node.
-        pairs: The nodes that edges join.
-    """
+    """Place nodes: each connected part by itself, the largest first, from left to right in rows."""
     import networkx
 
     graph = networkx.DiGraph()

@@ -83,10 +83,7 @@ class LearnedWeights:
     """Weights that one row learned.
 
     Attributes:
-        model: The row.
-        sets: The number of its training sets.
         losses: The mean loss of the first and of the last epoch; ``None`` if no curve was kept.
-        worlds: The kinds of world.
         weights: The largest weights, by factor: a cell for each kind of world.
         smaller: How many are left out.
     """

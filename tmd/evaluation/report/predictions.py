@@ -25,7 +25,6 @@ class AlignedStep:
     """One line of an alignment.
 
     Attributes:
-        mark: What became of it.
         predicted: The place of the predicted instruction in its sequence; ``None`` where one is missing.
         gold: The place of the recorded instruction in its sequence; ``None`` where the predicted one is superfluous.
     """
@@ -133,8 +132,6 @@ class ExampleStep:
     """Line of an alignment as it is shown.
 
     Attributes:
-        mark: The kind of the step.
-        symbol: Its sign.
         predicted: The predicted instruction, empty if one is missing.
         gold: The recorded instruction, empty if the predicted one is superfluous.
         clause: The number of the clause it was predicted for, from 1; ``None`` where it is not known.

@@ -35,9 +35,7 @@ class PaperRow:
     """A row of Table II.
 
     Attributes:
-        title: What the paper calls it.
         scores: IED and EED for each of :data:`TASKS`.
-        average: IED and EED, as printed under *Average*.
     """
 
     title: str

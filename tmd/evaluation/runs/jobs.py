@@ -108,9 +108,6 @@ class EvaluationJob:
     """One unit of work.
 
     Attributes:
-        model: The model's name.
-        training_set: The training set's name.
-        folds: The names of the folds to test.
         saved: What was learned when the unit was done before, if it was.
     """
 

@@ -44,10 +44,8 @@ class Prompt:
 
     Attributes:
         system: Rules and domain: the same for all requests of a domain.
-        user: Environment and request.
         domain: The part of ``system`` about the domain alone.
         environment: The part of ``user`` about the environment alone.
-        notes: What was left out.
     """
 
     system: str
