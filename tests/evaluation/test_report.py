@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
@@ -13,6 +14,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
+from urllib.parse import unquote
 
 import pytest
 from rich.console import Console
@@ -259,6 +261,36 @@ def test_rows_are_tested_against_the_default_model(tmp_path: Path) -> None:
     assert reference(["nearest", "full", "paper"]) == "full"
     assert reference(["nearest", "paper", "empty"]) == "paper"
     assert reference(["empty"]) is None
+
+
+def test_the_table_can_be_downloaded(directory: Path, page: str) -> None:
+    links = {a["download"]: str(a["href"]) for tag, a in Reader(page).tags if "download" in a}
+    assert set(links) == {"table.csv", "table.tex"}
+    texts = {name: unquote(address.partition(",")[2]) for name, address in links.items()}
+    lines = list(csv.DictReader(io.StringIO(texts["table.csv"])))
+    metrics = read_run(directory).metrics
+    assert [(line["model"], line["task"]) for line in lines[:3]] == [
+        ("full", "all"), ("full", f"coffee {EVIL}"), ("full", "ramen")
+    ]  # fmt: skip
+    assert float(lines[0]["IED_se"]) == metrics.models["full"].IED_se
+    latex = texts["table.tex"]
+    assert r"Our full model & 30 & \textbf{67.0} $\pm$ 0.8 & " in latex
+    assert r"executable \%" in latex
+    columns = latex.partition("{tabular}{")[2].partition("}")[0]
+    assert {line.count(" & ") + 1 for line in latex.splitlines() if line.endswith(r"\\")} == {len(columns)}
+
+
+def test_the_order_of_the_papers_rows_is_compared(tmp_path: Path) -> None:
+    levels = {"templates": 50.0, "full": 40.0, "nearest": 20.0, "paper": 30.0}
+    run = finished(tmp_path / "other", tuple(levels), ("ramen",), levels)
+    page = Reader(write_report(run).read_text(encoding="utf-8")).said()
+    assert "2 of the 3 pairs of the paper's rows stand in another order" in page
+    assert "Predefined Templates Nearest Environment Instantiation +30.0" in page
+    assert "Predefined Templates Our full model +10.0" in page
+    assert "53 % of what Predefined Templates predicts can be, and 53 % of what Our full model predicts" in page
+    assert "Learning the weights instead of setting them by hand changes IED by +10.0 (p = 0.047)" in page
+    same = Reader(write_report(finished(tmp_path / "same", tasks=("ramen",))).read_text(encoding="utf-8")).said()
+    assert "the paper's rows stand in the order of the paper's average" in same
 
 
 def test_the_provenance_is_shown_where_it_was_kept(tmp_path: Path) -> None:

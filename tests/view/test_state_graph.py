@@ -7,6 +7,8 @@ from itertools import combinations
 from pathlib import Path
 from xml.etree import ElementTree
 
+import pytest
+
 from tests.bundled import corpus
 from tmd.diagnostics import ExitCode
 from tmd.goals.wording import Wording
@@ -14,7 +16,8 @@ from tmd.pddl.model import GroundAtom, Problem, State, TypedName
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import validate
-from tmd.view.state_graph import MOST, Places, Point, StateGraph, object_rows, placed
+from tmd.view import state_graph
+from tmd.view.state_graph import MOST, Layout, Places, Point, StateGraph, by_graphviz, by_networkx, object_rows, placed
 
 PLAN = [parse_instruction(line) for line in ("pick_up(red_block)", "stack(red_block, green_block)")]
 
@@ -36,13 +39,22 @@ def overlapping(places: Places, sizes: dict[str, Point]) -> list[tuple[str, str]
     ]
 
 
-def test_nodes_do_not_overlap() -> None:
+@pytest.mark.parametrize("layout", [by_graphviz, by_networkx])
+def test_nodes_do_not_overlap(layout: Layout) -> None:
     sizes: dict[str, Point] = {f"object{n}": (60.0 + 7 * (n % 5), 23.0 + 15 * (n % 3)) for n in range(40)}
     names = list(sizes)
     pairs = [(names[n], names[n * n % 20]) for n in range(1, 20) if n != n * n % 20]
-    found = placed(sizes, pairs)
+    found = placed(sizes, pairs, layout)
     assert set(found) == set(sizes) and overlapping(found, sizes) == []
-    assert found == placed(sizes, pairs)
+    assert found == placed(sizes, pairs, layout)
+
+
+def test_a_machine_without_graphviz_uses_networkx(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PATH", "")
+    sizes: dict[str, Point] = {name: (60.0, 23.0) for name in "abc"}
+    pairs = [("a", "b"), ("b", "c")]
+    assert by_graphviz(sizes, pairs) == by_networkx(sizes, pairs)
+    assert placed(sizes, pairs) == placed(sizes, pairs, by_networkx)
 
 
 def test_a_state_is_drawn_with_what_the_last_step_changed() -> None:
@@ -69,11 +81,13 @@ def test_of_many_objects_some_are_drawn() -> None:
     assert f"{1_000 - MOST} more objects are not drawn." in svg
 
 
-def test_names_are_text() -> None:
+def test_names_are_text(monkeypatch: pytest.MonkeyPatch) -> None:
     problem, _ = blocks()
     odd = '<b>"&'
     strange = Problem("odd", problem.domain, (TypedName(odd),), frozenset({GroundAtom("clear", (odd,))}))
     assert odd not in StateGraph(strange, [strange.init]).svg(strange.init)
+    monkeypatch.setattr(state_graph, "_PATIENCE", 0.0)  # a layout that takes too long
+    assert StateGraph(strange, [strange.init]).svg(strange.init)
 
 
 def test_a_row_for_each_object_of_a_plan() -> None:

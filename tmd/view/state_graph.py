@@ -6,7 +6,10 @@ The nodes keep their places while a plan goes on: they are laid out once, for al
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import re
+import shutil
+import subprocess
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2, cos, sin
 
@@ -20,6 +23,10 @@ MOST = 80
 _FEW = 150
 # Pixels: of a character, of a line, and around the words of a node.
 _CHARACTER, _LINE, _MARGIN = 7.6, 15, 8
+# Pixels of an inch, in which Graphviz measures.
+_INCH = 72
+# Seconds that Graphviz may take.
+_PATIENCE = 10
 # Pixels: the width of a row of parts of a graph, and between two parts.
 _WIDTH, _GAP = 760, 26
 # Pixels: the length of the head of an arrow.
@@ -27,9 +34,11 @@ _HEAD = 9
 # Lines of facts in a node.
 _LINES = 4
 _KINDS = 6
+_WORDS = re.compile(r'"[^"]*"|\S+')
 
 Point = tuple[float, float]
 Places = dict[str, Point]
+Layout = Callable[[Mapping[str, Point], Iterable[tuple[str, str]]], Places]
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,8 +174,14 @@ def _head(begin: Point, end: Point) -> str:
     return " ".join(f"{a:.1f},{b:.1f}" for a, b in (end, *corners))
 
 
-def placed(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> Places:
-    """Place nodes: each connected part by itself, the largest first, from left to right in rows."""
+def placed(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]], layout: Layout | None = None) -> Places:
+    """Place nodes: each connected part by itself, the largest first, from left to right in rows.
+
+    Args:
+        sizes: The width and the height of each node.
+        pairs: The nodes that edges join.
+        layout: Places the nodes of one part; Graphviz where it is installed, else networkx.
+    """
     import networkx
 
     graph = networkx.DiGraph()
@@ -174,12 +189,13 @@ def placed(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> Plac
     graph.add_edges_from(pairs)
     parts = sorted(networkx.weakly_connected_components(graph), key=len, reverse=True)
     order = {name: number for number, name in enumerate(sizes)}
+    lay_out = layout or (by_graphviz if shutil.which("dot") else by_networkx)
     found: Places = {}
     left = top = high = 0.0
     for part in parts:
         part_sizes = {name: sizes[name] for name in sorted(part, key=order.__getitem__)}
         own = [pair for pair in graph.edges if pair[0] in part]
-        places = _sprung(part_sizes, own) if own else dict.fromkeys(part_sizes, (0.0, 0.0))
+        places = lay_out(part_sizes, own) if own else dict.fromkeys(part_sizes, (0.0, 0.0))
         (low_x, high_x), (low_y, high_y) = (_extent(places, sizes, axis) for axis in (0, 1))
         if left and left + high_x - low_x > _WIDTH:
             left, top, high = 0.0, top + high + _GAP, 0.0
@@ -195,7 +211,24 @@ def _extent(places: Places, sizes: Mapping[str, Point], axis: int) -> Point:
     return min(ends), max(ends)
 
 
-def _sprung(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> Places:
+def by_graphviz(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> Places:
+    """Place nodes by ``dot`` of Graphviz, or by networkx where that fails."""
+    numbers = {name: number for number, name in enumerate(sizes)}
+    nodes = (f"{numbers[n]} [width={w / _INCH:.3f}, height={h / _INCH:.3f}]" for n, (w, h) in sizes.items())
+    arrows = (f"{numbers[one]} -> {numbers[other]}" for one, other in pairs)
+    text = "\n".join(("digraph {", "nodesep=0.45 ranksep=0.6 node [shape=box fixedsize=true]", *nodes, *arrows, "}"))
+    try:
+        done = subprocess.run(
+            ["dot", "-Tplain"], input=text, capture_output=True, text=True, timeout=_PATIENCE, check=True
+        )
+    except (OSError, subprocess.SubprocessError):
+        return by_networkx(sizes, pairs)
+    lines = [_WORDS.findall(line) for line in done.stdout.splitlines()]
+    found = {int(line[1]): (float(line[2]) * _INCH, -float(line[3]) * _INCH) for line in lines if line[0] == "node"}
+    return {name: found[number] for name, number in numbers.items()}
+
+
+def by_networkx(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> Places:
     """Place nodes as if the edges were springs, as far apart as their sizes need."""
     import networkx
 

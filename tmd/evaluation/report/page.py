@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from tmd import __version__
+from tmd.evaluation.report.downloads import csv_table, data_address, latex_table
 from tmd.evaluation.report.predictions import NOTHING, SHOWN, SYMBOLS, Mark, best_and_worst, by_instruction
 from tmd.evaluation.report.rows import (
     ALPHA,
@@ -20,6 +21,8 @@ from tmd.evaluation.report.rows import (
     differing,
     headline,
     in_order,
+    other_order,
+    reasons,
     reference,
     tasks_of,
 )
@@ -138,6 +141,7 @@ def render(run: Run, trials: Trials | None = None) -> str:
     order, chief, tasks = by_merit(metrics), reference(metrics.models), tasks_of(metrics)
     shown = [model for model in order if model != EMPTY]
     paper = in_order(metrics.models)
+    otherwise, pairs = other_order(metrics)
     page = templates().get_template("report.html.j2")
     return page.render(
         version=__version__,
@@ -149,6 +153,10 @@ def render(run: Run, trials: Trials | None = None) -> str:
         headline=headline(metrics),
         provenance=run.provenance,
         duration=_duration,
+        downloads={
+            "CSV": ("table.csv", data_address(csv_table(metrics, order), "csv")),
+            "LaTeX": ("table.tex", data_address(latex_table(metrics, order), "x-tex")),
+        },
         order=order,
         reference=chief,
         marked=differing(metrics.significance.pairs, chief) if chief else frozenset(),
@@ -164,6 +172,9 @@ def render(run: Run, trials: Trials | None = None) -> str:
         average={model: row.average for model, row in metrics.models.items()},
         by_task={task: {m: r.tasks[task] for m, r in metrics.models.items() if task in r.tasks} for task in tasks},
         table_2=table_2(metrics, paper),
+        otherwise=otherwise,
+        pairs=pairs,
+        reasons=reasons(metrics) if otherwise else [],
         learned=[learned(fits, model) for model in order if any(fit.model == model for fit in fits)],
         errors=[errors(run, model) for model in shown],
         examples=[(model, *best_and_worst(run.of(model))) for model in shown],
