@@ -159,7 +159,7 @@ def experiment(
 
 def _run(config: ExperimentConfig, step: str, robot: str) -> None:
     from tmd.evaluation.report.report import REPORT, print_table
-    from tmd.robot_trials.experiment import run_experiment
+    from tmd.evaluation.runs.experiment import run_experiment
 
     with warnings_shown(), progress_bar(f"{config.task}, {config.data} data") as progress:
         metrics = run_experiment(config, collect_only=step != "all", progress=progress)
@@ -170,7 +170,7 @@ def _run(config: ExperimentConfig, step: str, robot: str) -> None:
 
 
 def _trials(config: ExperimentConfig, mode: str) -> None:
-    from tmd.robot_trials.experiment import carry_out_predictions
+    from tmd.robot_trials.trials import carry_out_predictions
 
     with progress_bar(f"the robot, {mode}") as progress:
         trials = carry_out_predictions(config, "physics" if mode == "physics" else "kinematic", progress=progress)
