@@ -11,7 +11,6 @@ from tmd.grounded import Grounded
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.semantics import holds
-from tmd.pddl.writer import format_formula
 from tmd.readers.interface import Usage
 from tmd.records.grounding import ModelUse
 from tmd.records.sentence_test import (
@@ -68,7 +67,7 @@ def judge(test: SentenceTest, grounded: Grounded, problem: Problem) -> SentenceR
         return SentenceResult(test, outcome, (), (), grounded.warnings, grounded.reason, grounded.usage)
     plan = valid[0][0]
     steps = tuple(i.pddl() for i in plan.instructions)
-    goals = tuple(" ".join(format_formula(g.formula).split()) for g in plan.goals if g.formula is not None)
+    goals = tuple(str(goal) for goal in plan.goals if goal.formula is not None)
     if wanted is None:
         outcome, reason = Outcome.IMPOSSIBLE_PLANNED, "it must be refused"
     elif holds(wanted, grounded.world.task.decode(plan.state), problem):
@@ -114,8 +113,5 @@ def report(results: Sequence[SentenceResult], reader: str) -> SentenceReport:
 
 
 def _case(result: SentenceResult) -> SentenceCase:
-    keys = ("outcome", "plan", "goals", "warnings", "reason")
-    values = {key: getattr(result, key) for key in keys}
-    if result.usage is not None:
-        values["model"] = ModelUse.of(result.usage)
-    return SentenceCase(id=result.test.id, **values)
+    model = {} if result.usage is None else {"model": ModelUse.copied(result.usage)}
+    return SentenceCase.copied(result, id=result.test.id, **model)

@@ -273,7 +273,7 @@ class ReplyChecker:
                 continue
             if isinstance(part, Atom):
                 return why_never(GroundAtom(part.predicate, part.terms), self.task)
-            return f"no action of the domain can bring about {' '.join(format_formula(part).split())}"
+            return f"no action of the domain can bring about {format_formula(part)}"
         return "its parts exclude each other"
 
     # ------------------------------------------------------------------ words

@@ -141,7 +141,7 @@ def _action(action: ActionSchema) -> str:
     head = f"({' '.join([action.name, _typed(action.parameters)]).strip()})"
     if action.comment:
         return f"{head} ; {one_line(action.comment)}"
-    needs = " ".join(format_formula(action.precondition).split())
+    needs = format_formula(action.precondition)
     effects = " ".join(" ".join(format_effect(effect).split()) for effect in action.effects)
     return f"{head} needs {needs} makes {effects}"
 
