@@ -241,9 +241,13 @@ def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
     names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
     places = [name for name in clause.objects if is_pronoun(name)]
     telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
-    told = sorted(names, key=lambda name: name not in telling)
-    kinds = list(dict.fromkeys(name.rpartition("_")[2] for name in told))
-    ranked = {name: (told if name in section("one_words") else kinds) if is_one(name) else names for name in places}
+    ranked = {}
+    for pronoun in places:
+        behind = {r.relation for r in clause.relations if r.target == pronoun}
+        alike = {r.target for c in before for r in c.relations if r.relation in behind}  # "into the mug, not … the other"
+        told = sorted(names, key=lambda name: (name not in alike, name not in telling))
+        kinds = list(dict.fromkeys(name.rpartition("_")[2] for name in told))
+        ranked[pronoun] = (told if pronoun in section("one_words") else kinds) if is_one(pronoun) else names
     antecedents = {name: tuple(found) for name, found in ranked.items() if found}
     return replace(clause, antecedents=antecedents, together=dict.fromkeys(antecedents, 1))
 

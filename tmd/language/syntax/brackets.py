@@ -582,11 +582,22 @@ class Bracketer(ClauseEnds):
             token.kind = K.LET
             return self._let(at) if self.kind(at + 1) is not K.V else at + 1
         token.told = token.told or self._is_told(at)
+        self._go_there(at)
         self.out.append(token)
         self._verb = token
         if self.kind(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1
+
+    def _go_there(self, at: int) -> None:
+        """Begin a unit behind what goes somewhere without a verb: "the mug to the sink, wash it"."""
+        named = self.out[self._subject :]
+        if self._last() is not K.COMMA or self._verb is not None or not self.follows(at + 1, "IDLE* NP"):
+            return
+        goes = any(t.kind is K.P and t.text in section("arrivals") - section("static") for t in named[1:])
+        if goes and named[0].kind is not K.P and not any(t.kind is K.COMMA for t in named[:-1]):
+            named[-1].kind = K.SEP
+            self._begin()
 
     def _has_done(self, at: int) -> bool:
         """Return whether a verb of getting asks for what shall be done to a thing: "have the egg boiled"."""
@@ -721,7 +732,7 @@ class Bracketer(ClauseEnds):
 
     def _deny_ahead(self, at: int) -> None:
         """Put "not" before what is denied: "take the red cup, the blue one not"."""
-        if self._verb is not None and self.follows(at + 1, "IDLE* NP+ NEG BREAK"):
+        if self._verb is not None and self.follows(at + 1, "IDLE* NP+ (P NP+)* NEG BREAK"):
             end = self.first(at + 1, "NEG")
             self.tokens[at + 1 : end + 1] = [self.tokens[end], *self.tokens[at + 1 : end]]
 

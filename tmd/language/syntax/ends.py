@@ -32,7 +32,7 @@ class ClauseEnds(Words):
             return True
         if self.kind(at) not in LINKS:
             return False
-        if self.follows(at + 1, "IDLE* NP+ NEG BREAK"):
+        if self.follows(at + 1, "IDLE* NP+ (P NP+)* NEG BREAK"):
             return True  # "the red one should be washed, the blue one not"
         said = self.kind(at) is K.COMMA and self._statement_follows(at)
         also = self._too(at + 1 + (self.kind(at + 1) is K.CC))
