@@ -329,6 +329,7 @@ class Referents:
         nouns = list(clause.antecedents.get(noun, ()))
         if self.puts_back(reading):  # "pour some milk in the bowl and put it back in the fridge": it was in the fridge
             nouns.sort(key=lambda name: not self._were_there(name, noun, reading))
+        nouns.sort(key=self.nouns.is_only_told_of)  # "put the cover on the boat and move it": the boat
         seen = {n for name in nouns if name in memory.bound for n in memory.bound[name].names}
         return [*((name, False) for name in nouns), *((name, True) for name in memory.recent if name not in seen)]
 

@@ -38,10 +38,11 @@ class _Mention(NamedTuple):
 
 
 class _Scene(NamedTuple):
-    """The mentions of one clause, for later ones; ``together`` are its direct objects."""
+    """The mentions of one clause, for later ones; ``together`` are its direct objects; where it stands in the text."""
 
     mentions: tuple[_Mention, ...]
     together: tuple[str, ...]
+    at: int = 0
 
 
 def is_one(name: str) -> bool:
@@ -84,7 +85,9 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         scenes += [_alone(c) for condition in conditions if condition.word != TO for c in condition.clauses]
         hosts = [draft.host] if draft.host is not None else []
         hosts += [d for d in hosted.get(id(draft), ()) if d.verb.span < draft.verb.span]  # "before closing it"
-        clause = _resolved(clause, draft, [*scenes, *(_scene(host, host.clause(reading.text)) for host in hosts)])
+        # of "boil it (wash the pot first)" the pot is done first, and mentioned later
+        known = [scene for scene in scenes if scene.at <= draft.verb.span.start] or scenes
+        clause = _resolved(clause, draft, [*known, *(_scene(host, host.clause(reading.text)) for host in hosts)])
         clause = replace(clause, stated=(*clause.stated, *_stated(clause, facts)))
         clauses.append(_missing_state(clause))
         scenes.append(_scene(draft, clause))
@@ -292,7 +295,7 @@ def _alone(clause: Clause) -> _Scene:
     names = _named(clause)
     direct = [n for name in clause.direct for n in clause.meant(name)]
     mentions = tuple(_Mention(name, clause.phrase(name).plural, 0 if name in direct else _LANDMARK) for name in names)
-    return _Scene(mentions, tuple(n for n in names if n in direct))
+    return _Scene(mentions, tuple(n for n in names if n in direct), clause.span.start)
 
 
 def _rank(
@@ -362,7 +365,8 @@ def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
     mentions += [m for phrase in direct for m in _acted_on(phrase, clause, spread)]
     mentions += [m for landmark in draft.landmarks for m in _landmark(landmark, clause)]
     together = [*(name for phrase in direct for name in _meant(phrase, clause)), *elided]
-    return _Scene(tuple(m for m in mentions if _is_name(m.name)), tuple(dict.fromkeys(filter(_is_name, together))))
+    named = tuple(m for m in mentions if _is_name(m.name))
+    return _Scene(named, tuple(dict.fromkeys(filter(_is_name, together))), draft.verb.span.start)
 
 
 def _is_name(name: str) -> bool:

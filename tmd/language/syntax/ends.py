@@ -28,7 +28,7 @@ class ClauseEnds(Words):
 
     def _goes_on_behind(self, at: int) -> bool:
         """Return whether something else than a statement goes on behind a comma or a conjunction."""
-        if self.follows(at, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX"):
+        if self.follows(at, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX | LINKS+ IDLE* AUX SUBJECT"):
             return True
         if self.kind(at) not in LINKS:
             return False
