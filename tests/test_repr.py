@@ -14,7 +14,6 @@ import pytest
 
 import tmd
 from tests.bundled import kit
-from tmd.datasets.veil500.report import DataReport
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import Instruction
@@ -56,7 +55,7 @@ def results() -> list[object]:
         table.ground("Put the zebra " * 30, "corner2"), tmd.check_files("02_table"), tmd.parse(TEXT * 20),
         tmd.ModelSettings(), tmd.ExperimentConfig("tea", Path("run"), models=("empty",) * 100),
         *table.run_sentence_tests(),
-        Scaffold(Path("x"), Path("y"), paths, (), ""), DataReport("veil", {"a": {"b": 1}}, ("remark " * 20,) * 20),
+        Scaffold(Path("x"), Path("y"), paths, (), ""),
         Refusal(RefusalKind.UNSAFE, "word " * 200),
     ]  # fmt: skip
 

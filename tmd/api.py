@@ -36,15 +36,14 @@ from tmd.world.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.check.report import CheckReport as CheckReport
-    from tmd.datasets.veil500.report import check_veil500 as check_veil500
     from tmd.evaluation.runs.config import ExperimentConfig as ExperimentConfig
+    from tmd.evaluation.runs.experiment import run_experiment as run_experiment
     from tmd.format.files import format_file as format_file
     from tmd.readers.llm.client import ModelError as ModelError
     from tmd.readers.llm.client import ModelSettings as ModelSettings
     from tmd.records.run import RecordedRun as RecordedRun
     from tmd.records.run import RunRecord as RunRecord
-    from tmd.robot_trials.experiment import carry_out_predictions as carry_out_predictions
-    from tmd.robot_trials.experiment import run_experiment as run_experiment
+    from tmd.robot_trials.trials import carry_out_predictions as carry_out_predictions
     from tmd.view.answer_text import grounded_text as grounded_text
     from tmd.world.scaffold import Scaffold
     from tmd.world.sentence_file import read_sentences as read_sentences
@@ -57,12 +56,11 @@ _LATER = {
     "ModelSettings": "tmd.readers.llm.client",
     "RecordedRun": "tmd.records.run",
     "RunRecord": "tmd.records.run",
-    "carry_out_predictions": "tmd.robot_trials.experiment",
-    "check_veil500": "tmd.datasets.veil500.report",
+    "carry_out_predictions": "tmd.robot_trials.trials",
     "format_file": "tmd.format.files",
     "grounded_text": "tmd.view.answer_text",
     "read_sentences": "tmd.world.sentence_file",
-    "run_experiment": "tmd.robot_trials.experiment",
+    "run_experiment": "tmd.evaluation.runs.experiment",
 }
 
 __all__ = [
@@ -82,7 +80,6 @@ __all__ = [
     "asked_problem",
     "carry_out_predictions",
     "check_files",
-    "check_veil500",
     "compile_domain",
     "export_plan",
     "file_page",

@@ -35,14 +35,9 @@ class Grounded:
     """A grounded request.
 
     Attributes:
-        dialogue: The request as it was read.
         plans: The plans, cheapest first; empty where nothing could be grounded.
-        verdicts: The validator's verdict on each plan.
         rejected: Proposals that cannot be executed here, and why.
         unseen: The verbs that no demonstration has, in order of mention.
-        world: The environment.
-        library: The templates.
-        config: The preset.
         refused: Why there is no plan, after the index of the clause that it is about; ``None`` for the whole request.
         question: A question to the user that was not answered; the plans are for the option that it says was taken.
     """

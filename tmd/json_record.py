@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from typing import Any, ClassVar, Self
+from typing import Annotated, Any, ClassVar, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, ValidationError
 from pydantic_core import ErrorDetails
 
 from tmd.diagnostics import Location, TmdError
@@ -35,6 +35,16 @@ class JsonRecord(BaseModel):
     def to_value(self) -> dict[str, Any]:
         """Return the record as JSON holds it."""
         return self.model_dump(mode="json", exclude_unset=True)
+
+    @classmethod
+    def copied(cls, source: object, **others: Any) -> Self:  # noqa: ANN401 - fields
+        """Return a record whose fields are the attributes of ``source`` of the same names, but for ``others``.
+
+        Attributes with the default of their field are left out.
+        """
+        found = {name: getattr(source, name) for name in cls.model_fields if hasattr(source, name)}
+        own = {name: value for name, value in found.items() if value != cls.model_fields[name].default}
+        return cls.model_validate({**own, **others})
 
     def given(self) -> dict[str, Any]:
         """Return the fields that :meth:`to_value` shows, as they are."""
@@ -106,12 +116,7 @@ _MAPPINGS = frozenset({"dict_type", "mapping_type", "model_type", "model_attribu
 
 
 def expectation(fault: ErrorDetails, mapping: str) -> str:
-    """Return the fault that pydantic found in a value, in words of the file format instead of Python's.
-
-    Args:
-        fault: The fault.
-        mapping: The name of a mapping in the format.
-    """
+    """Return the fault that pydantic found in a value, in words of the file format instead of Python's."""
     if fault["type"] in _MAPPINGS:
         return f"should be {mapping}"
     plain = " ".join(fault["msg"].removeprefix("Value error, ").split()).replace("valid tuple", "list")
@@ -146,3 +151,9 @@ def json_value(text: str, file: str, line: int | None = None, hint: str | None =
 def rounded(value: float) -> float:
     """Return a number as it is printed; there is no negative zero."""
     return round(value, DIGITS) + 0.0
+
+
+# A number as it is printed.
+Rounded = Annotated[float, AfterValidator(rounded)]
+# A text that is null where it is empty.
+TextOrNull = Annotated[str | None, BeforeValidator(lambda text: text or None)]

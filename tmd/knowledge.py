@@ -323,7 +323,6 @@ class Knowledge:
     """The knowledge learned of a domain.
 
     Attributes:
-        library: The templates.
         reward: What the policy was learned to be; ``None`` where there are no demonstrations.
         weights: Weights that were learned on the demonstrations, if any were.
         goals: What verbs were learned to mean; ``None`` where there are no demonstrations.

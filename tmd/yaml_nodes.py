@@ -50,10 +50,6 @@ Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(?:true|fal
 def compose(text: str, file: str) -> yaml.Node | None:
     """Return the root node of a text; ``None`` where it has nothing but comments.
 
-    Args:
-        text: The text.
-        file: Names it in errors.
-
     Raises:
         TmdError: It is not YAML of the accepted kind, or beyond the bounds; with its place.
     """

@@ -177,8 +177,6 @@ def of_veil(workspace: Workspace, choose: Random) -> Case:
     return Case(
         choose.choice(
             (
-                *10 * (("data", "check", "veil"),),
-                *10 * (("data", "check", "veil"),),
                 ("ground", "--environment", "veil/Environments/kitchen/kitchen2.xml", "--text", "Take the mug."),
                 (*experiment, "--models", "empty", "--jobs", "1"),
             )
@@ -284,7 +282,6 @@ def of_names(workspace: Workspace, choose: Random) -> Case:
                 ("test", "--cases", inside),
                 ("scene", "--environment", inside),
                 ("run", "--environment", "kitchen1", "--text", "Take the pot.", "--video", inside, "--log", inside),
-                ("data", "check", *mark, inside),
                 ("--domains", inside, "plan", "--planner", "in-process", "04_tea", PROBLEM),
                 ("--problems", inside, "ground", "--environment", "pantry1", "--text", "Heat the kettle."),
             )
@@ -407,7 +404,6 @@ def of_environment(workspace: Workspace, choose: Random) -> Case:
         ("new", "mine"),
         ("test", "01_blocks"),
         ("learn", "01_blocks", "--no-weights", "--out", "learned2"),
-        ("data", "check", "veil"),
         ("scene", "--environment", "study1"),
         (*EXPERIMENT[:-3], "run2", "--jobs", "1"),
         (*EXPERIMENT, "--step", "report"),

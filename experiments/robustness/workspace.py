@@ -116,7 +116,6 @@ class Workspace:
         self._run_once(Case(ground), "ground.json")
         self._run_once(Case(("view", "ground.json", "--out", "page.html")))
         self._run_once(Case(("test", "04_tea")))
-        self._run_once(Case(("data", "check", "veil")))
         if robot:
             take = ("--environment", "kitchen1", "--text", "Take the pot.", "--kinematic")
             self._run_once(Case(("run", *take, "--log", "log.jsonl")))

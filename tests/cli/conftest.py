@@ -23,7 +23,7 @@ from tests.cli.fork_server import PATIENCE, ask
 
 ROOT = Path(__file__).resolve().parents[2]
 BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"
-UNTAUGHT = ("compile", "data", "experiment", "lsp", "plan", "validate")
+UNTAUGHT = ("compile", "experiment", "lsp", "plan", "validate")
 """Commands that use nothing that was learned of a domain: they need not wait until it is."""
 
 

@@ -18,7 +18,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 WARM = ("ground", "--environment", "corner1", "--text", "Take the cup.")
-HEAVY = ("pybullet", "PIL.Image", "openai.resources.chat", "tmd.robot_trials.experiment")
+HEAVY = ("pybullet", "PIL.Image", "openai.resources.chat", "tmd.robot_trials.trials")
 """Modules that some commands import as well, and that take long."""
 PATIENCE = 240
 """Seconds that a command may take."""

@@ -55,7 +55,6 @@ def test_a_request_in_pddl_files(tmd: Tmd) -> None:
         (["run", "corner2", TEXT, "--goal", "(a)"], "give one of REQUEST, --text, "),
         (["scene"], "Missing argument 'ENVIRONMENT'"),
         (["scene", "a", "b", "c"], "name each file once"),
-        (["data"], "Missing command"),
     ],
 )
 def test_what_is_missing_or_named_twice(tmd: Tmd, arguments: list[str | Path], told: str) -> None:
@@ -105,7 +104,6 @@ def test_a_wrong_option_is_wrong_usage(command: str, capsys: pytest.CaptureFixtu
         (["ground", "--enviroment", "a"], "--environment"),
         (["run", "--kinematik"], "--kinematic"),
         (["experiment", "--ouptut", "a"], "--output"),
-        (["data", "chek"], "check"),
         (["exprot"], "export"),
         (["ground", "corner2", "b", "--model", "gols"], "goals"),
         (["plan", "01_blokcs", "p.pddl"], "01_blocks"),

@@ -150,8 +150,11 @@ CASES = {
         ["ground", DOMAIN, PROBLEM, "--environment", PROBLEM, "--text", "a"],
         r"error: name each file once: DOMAIN PROBLEM, or --domain and ENVIRONMENT; quote a request\n",
     ),
-    "no-data": (ExitCode.BAD_DATA, ["data", "check", "none"], r"error: none is not a directory\nhint: "),
-    "other-data": (ExitCode.BAD_DATA, ["data", "check", ROOT / "domains"], r"error: .*data.xml is missing\nhint: "),
+    "other-data": (
+        ExitCode.BAD_DATA,
+        ["experiment", "--task", "ramen", "--data", "veil500", "--veil500", ROOT / "domains", "--out", "o"],
+        r"error: .*data.xml is missing\nhint: ",
+    ),
     "no-data-for-experiment": (
         ExitCode.BAD_DATA,
         ["experiment", "--task", "ramen", "--data", "veil500", "--veil500", "none", "--out", "o"],

@@ -6,9 +6,9 @@ from statistics import mean, median
 
 import pytest
 
+from experiments.veil500_report import unknown_objects, words
 from tmd.datasets.veil500 import VeilData, load, mentioned
 from tmd.datasets.veil500.data import task_slug
-from tmd.datasets.veil500.report import unknown_objects, words
 from tmd.diagnostics import DataError
 from tmd.pddl.model import Instruction
 

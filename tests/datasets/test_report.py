@@ -2,7 +2,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tmd.datasets.veil500 import VeilData, check_veil500
+from experiments.veil500_report import check_veil500
+from tmd.datasets.veil500 import VeilData
 
 
 def test_small_report(small_directory: Path) -> None:

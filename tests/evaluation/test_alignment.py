@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.evaluation.metrics import levenshtein
-from tmd.evaluation.report.alignment import Mark, align, name, words
+from tmd.evaluation.report.predictions import Mark, align, name, words
 
 SEQUENCES = st.lists(st.sampled_from(["grasp(a)", "grasp(b)", "moveto(a)", "moveto(b)", "wait()"]), max_size=9)
 

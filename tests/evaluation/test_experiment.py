@@ -19,7 +19,7 @@ from tmd.evaluation.models import model
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs import experiment
 from tmd.evaluation.runs.config import ExperimentConfig
-from tmd.evaluation.runs.experiment import collect, run
+from tmd.evaluation.runs.experiment import run
 from tmd.evaluation.runs.provenance import read_provenance
 from tmd.evaluation.summary import summarise
 from tmd.pddl.plan_file import parse_instruction
@@ -85,7 +85,7 @@ def test_the_provenance_adds_up_the_time_of_what_was_done(tmp_path: Path) -> Non
     first = read_provenance(tmp_path)
     assert first is not None
     text = (tmp_path / "provenance.json").read_text()
-    collect(asked)
+    run(asked, collect_only=True)
     run(asked)
     assert (tmp_path / "provenance.json").read_text() == text, "nothing was left to do"
     (tmp_path / "provenance.json").write_text(json.dumps(first.to_value() | {"seconds": 1000.0}))
@@ -186,12 +186,12 @@ def test_the_report_is_made_again_from_the_parts(tmp_path: Path) -> None:
     (tmp_path / "metrics.json").unlink()
     (tmp_path / "predictions.jsonl").write_text("")
     parts = {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()}
-    collect(quick)
+    run(quick, collect_only=True)
     assert outcome(tmp_path) == before
     assert {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()} == parts
     next(iter(parts)).unlink()
     with pytest.raises(TmdError, match="1 of 20 parts are not done"):
-        collect(quick)
+        run(quick, collect_only=True)
 
 
 @pytest.mark.parametrize("kind", [errno.EROFS, errno.ENOSPC, errno.EACCES])

@@ -26,7 +26,7 @@ from tmd.evaluation.summary import summarise
 from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Trial
 from tmd.robot_trials import trials as performing
-from tmd.robot_trials.trials import choices, orders_of, run_trials
+from tmd.robot_trials.trials import carry_out_predictions, choices, orders_of
 
 ROOT = Path(__file__).parents[2]
 TEXT = "Find the <b>mug</b>."
@@ -66,7 +66,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[ExperimentConfig, Tr
     config = finished(
         out, [line("kitchen1", 1), line("kitchen2", 1, executable=False), line("kitchen2", 2, predicted=[])]
     )
-    return config, run_trials(config, "kinematic")
+    return config, carry_out_predictions(config, "kinematic")
 
 
 def test_a_trial_is_a_record_a_film_and_a_strip(made: tuple[ExperimentConfig, Trials]) -> None:
@@ -118,7 +118,7 @@ def counted(monkeypatch: pytest.MonkeyPatch) -> Counted:
 def test_what_is_done_is_kept(made: tuple[ExperimentConfig, Trials], counted: Counted) -> None:
     config, before = made
     told: list[tuple[int, int]] = []
-    assert run_trials(config, "kinematic", lambda done, of: told.append((done, of))) == before
+    assert carry_out_predictions(config, "kinematic", progress=lambda done, of: told.append((done, of))) == before
     assert (counted.environments, told) == ([], [(2, 2)])
 
 
@@ -126,7 +126,7 @@ def test_what_is_done_is_kept(made: tuple[ExperimentConfig, Trials], counted: Co
 def two(tmp_path: Path, counted: Counted) -> Iterator[ExperimentConfig]:
     """A run with two trials that were made."""
     config = finished(tmp_path / "run", [line("kitchen1", 1), line("kitchen2", 1)])
-    run_trials(config, "kinematic")
+    carry_out_predictions(config, "kinematic")
     assert counted.environments == ["kitchen1", "kitchen2"]
     counted.environments.clear()
     yield config
@@ -142,24 +142,24 @@ def test_what_is_missing_or_damaged_is_done_again(two: ExperimentConfig, counted
         TmdError, match=r"kitchen1\.json:\d+:\d+: this is not valid JSON: .*let the robot act again: --step robot"
     ):
         read_trials(two.out)
-    run_trials(two, "kinematic")
+    carry_out_predictions(two, "kinematic")
     assert counted.environments == ["kitchen1"]
     assert (folder / "kitchen1.json").read_text() == whole
     assert sorted(path.name for path in folder.iterdir()) == ["kitchen1.json", "kitchen2.json"]
 
 
 def test_another_mode_or_prediction_is_another_trial(two: ExperimentConfig, counted: Counted) -> None:
-    run_trials(two, "physics")
+    carry_out_predictions(two, "physics")
     assert counted.environments == ["kitchen1", "kitchen2"]
     counted.environments.clear()
     finished(two.out, [line("kitchen1", 1), line("kitchen2", 1, predicted=["find(bowl1)"])])
-    run_trials(two, "physics")
+    carry_out_predictions(two, "physics")
     assert counted.environments == ["kitchen2"]
 
 
 def test_a_scene_that_cannot_be_built_is_told(tmp_path: Path) -> None:
     config = finished(tmp_path / "run", [line("kitchen99", 1)])
-    (trial,) = run_trials(config, "kinematic").found
+    (trial,) = carry_out_predictions(config, "kinematic").found
     assert trial.status == "no_scene"
     assert "kitchen99" in trial.reason
 
@@ -174,7 +174,7 @@ def test_why_the_robot_does_nothing(
     config = replace(finished(tmp_path / "run", [line("kitchen1", 1)]), **changes)
     if not changes:
         monkeypatch.setitem(sys.modules, "pybullet", None)
-    trials = run_trials(config, "kinematic")
+    trials = carry_out_predictions(config, "kinematic")
     assert trials.found == ()
     assert reason in trials.skipped
     page = unescape(write_report(config.out).read_text(encoding="utf-8"))

@@ -17,8 +17,7 @@ from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import validate
 from tmd.view import state_graph
-from tmd.view.object_rows import object_rows
-from tmd.view.state_graph import MOST, Layout, Places, Point, StateGraph, by_graphviz, by_networkx, placed
+from tmd.view.state_graph import MOST, Layout, Places, Point, StateGraph, by_graphviz, by_networkx, object_rows, placed
 
 PLAN = [parse_instruction(line) for line in ("pick_up(red_block)", "stack(red_block, green_block)")]
 

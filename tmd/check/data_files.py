@@ -15,11 +15,11 @@ from tmd.files import real
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import BASES, read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
-from tmd.pddl.model import Problem
+from tmd.pddl.model import Predicate, Problem
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import Report, nearest, read_text
 from tmd.world.classes import SELF, Classes, ObjectsFile
-from tmd.world.compile import compile_domain, compile_problem, derive_rules
+from tmd.world.compile import compile_domain, compile_problem, derive_rules, predicate_of
 from tmd.world.corpus import replay
 from tmd.world.demonstration import Demonstration, in_line, read_demonstrations
 from tmd.world.environment import Environment, load_environment
@@ -75,11 +75,11 @@ def check_objects(folder: DomainFolder, report: Report) -> None:
     except TmdError:  # they are reported where that file is checked
         return
     classes = Classes(source, {t.name: t.parent for t in domain.types})
-    arities = {p.name: len(p.parameters) for p in domain.predicates}
+    predicates = {p.name: p for p in domain.predicates}
     constants = {c.name for c in domain.constants} | set(classes.entries.substances)
     for path, fact in _facts(classes):
         own = {SELF, *classes.get(str(path[1])).vertices} if path[0] == "classes" else set[str]()
-        _check_fact(source, path, fact, arities, constants | own)
+        _check_fact(source, path, fact, predicates, constants | own)
     folder.__dict__["classes"] = classes
     for _ in derive_rules(folder):
         pass
@@ -179,20 +179,14 @@ def _facts(classes: Classes) -> Iterator[tuple[tuple[str | int, ...], str]]:
 
 
 def _check_fact(
-    source: YamlSource, path: tuple[str | int, ...], fact: str, arities: dict[str, int], names: set[str]
+    source: YamlSource, path: tuple[str | int, ...], fact: str, predicates: dict[str, Predicate], names: set[str]
 ) -> None:
     """Check a fact: its predicate, the number of names, and names that differ by a letter from one of ``names``.
 
     Any other name may be that of an object, which each environment knows for itself.
     """
     words = fact.strip().strip("()").split()
-    name = words[0] if words else ""
-    if name not in arities:
-        hint = nearest(name, sorted(arities))
-        source.fault(source.error(path, f"'{fact}': the domain has no predicate '{name}'", hint, "unknown-predicate"))
-    elif len(words) - 1 != arities[name]:
-        message = f"'{fact}': '{name}' takes {arities[name]} argument(s), found {len(words) - 1}"
-        source.fault(source.error(path, message, None, "wrong-arity"))
+    source.recover(None, predicate_of, words, predicates, path, source)
     for term in words[1:] if "edges" not in path else ():  # classes report the names of edges
         meant = [] if term in names else get_close_matches(term, sorted(names), n=1, cutoff=_ONE_LETTER)
         if meant:

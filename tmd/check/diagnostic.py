@@ -57,11 +57,7 @@ class Diagnostic:
     """One problem.
 
     Attributes:
-        location: Where it is.
         code: Its kind, one of :data:`SEVERITY`.
-        message: What is wrong, in one line.
-        hint: What to do about it.
-        source: The source line.
         edits: The remedy, where it is mechanical.
     """
 

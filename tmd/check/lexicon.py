@@ -190,11 +190,7 @@ def check_goals(
 
 
 class Written:
-    """The text of a lexicon, to point into its patterns and conditions.
-
-    Args:
-        path: The file.
-    """
+    """The text of a lexicon, to point into its patterns and conditions."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
@@ -379,7 +375,7 @@ def _lacking(formula: Formula, scope: Scope, world: Possible) -> str | None:
     """Return an atom without which a condition cannot hold and that never holds; ``None`` where there is none."""
     match formula:
         case Atom():
-            return None if world.may_hold(formula, scope) else " ".join(format_formula(formula).split())
+            return None if world.may_hold(formula, scope) else format_formula(formula)
         case And(parts):
             return next((found for part in parts if (found := _lacking(part, scope, world))), None)
         case Or(parts):

@@ -91,9 +91,7 @@ class CheckReport:
     """Result of a check.
 
     Attributes:
-        files: The files that were checked.
         diagnostics: What is wrong with them, by file, line and column.
-        fixed: The files that were fixed.
     """
 
     files: tuple[Path, ...]

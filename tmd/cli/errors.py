@@ -28,15 +28,7 @@ _WIDTH = 100
 
 @dataclass(frozen=True, slots=True)
 class Fault:
-    """An error as the user sees it.
-
-    Attributes:
-        code: What the program ends with.
-        message: What is wrong, in one line.
-        location: Its place in a text, if it has one.
-        hint: What to do about it.
-        source: The source line.
-    """
+    """An error as the user sees it."""
 
     code: ExitCode
     message: str

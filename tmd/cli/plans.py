@@ -60,9 +60,7 @@ class Orders:
     """A plan, or why there is none.
 
     Attributes:
-        orders: The plan.
         code: ``OK``, or what the program ends with because there is none.
-        remarks: Lines for standard error.
         given: Fields of the run's record: what ``tmd ground --json`` prints of the text, or the goal.
     """
 

@@ -41,7 +41,6 @@ _MODULES = {
     "plan": "planning",
     "export": "planning",
     "compile": "domain",
-    "data": "experiment",
     "experiment": "experiment",
 }
 """The module below :mod:`tmd.cli.commands` that has each sub-command."""

@@ -163,9 +163,6 @@ class RunLog:
 
     Every line is written at once, so that the log of a run that was killed can be read.
 
-    Args:
-        path: Where it goes.
-
     Raises:
         OutputError: It cannot be written.
     """

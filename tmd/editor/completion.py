@@ -28,13 +28,7 @@ _FORMULAS = frozenset({":action", ":derived", ":init", ":goal"})
 
 
 def complete(project: Project, file: Path, text: str) -> dict[str, str]:
-    """Return the words that may follow, each with what it is.
-
-    Args:
-        project: The files.
-        file: The file that is edited.
-        text: Its text up to the cursor.
-    """
+    """Return the words that may follow ``text``, a file up to the cursor, each with what it is."""
     lines = split_lines(text)
     if file.suffix in YAML:
         return _in_yaml(project, file, lines)

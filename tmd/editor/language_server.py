@@ -88,11 +88,7 @@ def _is_on_disk(file: Path, text: str) -> bool:
 
 
 class DomainServer(LanguageServer):
-    """Server of one editor: its open files, and their diagnostics.
-
-    Args:
-        roots: The directories of domains and problems.
-    """
+    """Server of one editor: its open files, and their diagnostics."""
 
     def __init__(self, roots: Roots) -> None:
         super().__init__("tmd", tmd.__version__, text_document_sync_kind=lsp.TextDocumentSyncKind.Full)

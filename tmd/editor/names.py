@@ -41,10 +41,6 @@ class Occurrence:
     """One place of a name.
 
     Attributes:
-        name: The name, in lower case.
-        kind: What it names.
-        role: What the text does with it.
-        place: Where it stands.
         within: What it stands in, for people: ``action load``, ``goal``.
         types: Of a declaration, the types of the thing, or the parent of the type.
         group: Of the declaration of a predicate, function or action: the whole of it.

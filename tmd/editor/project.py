@@ -46,7 +46,6 @@ class Project:
     """The files that are open, and those on the disk that belong to them.
 
     Attributes:
-        roots: The directories of domains and problems.
         files: The files that are open, without links.
     """
 

@@ -22,7 +22,6 @@ class LearnedDomain:
     Attributes:
         knowledge: Library, policy, goals of verbs, and weights if they were learned.
         tuned: How the weights were learned; ``None`` where they were not.
-        directory: Where it was saved.
     """
 
     knowledge: Knowledge

@@ -11,7 +11,6 @@ from tmd.grounded import Grounded
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.semantics import holds
-from tmd.pddl.writer import format_formula
 from tmd.readers.interface import Usage
 from tmd.records.grounding import ModelUse
 from tmd.records.sentence_test import (
@@ -33,11 +32,8 @@ class SentenceResult:
     """A sentence test with what came out.
 
     Attributes:
-        test: The test.
-        outcome: What became of it.
         plan: The instructions of the first plan, as PDDL.
         goals: The goals of its steps, as PDDL.
-        warnings: What the plan comes with.
         reason: Why there is no plan, or why it is wrong.
         usage: The effort of the language model; ``None`` where none was asked.
     """
@@ -71,7 +67,7 @@ def judge(test: SentenceTest, grounded: Grounded, problem: Problem) -> SentenceR
         return SentenceResult(test, outcome, (), (), grounded.warnings, grounded.reason, grounded.usage)
     plan = valid[0][0]
     steps = tuple(i.pddl() for i in plan.instructions)
-    goals = tuple(" ".join(format_formula(g.formula).split()) for g in plan.goals if g.formula is not None)
+    goals = tuple(str(goal) for goal in plan.goals if goal.formula is not None)
     if wanted is None:
         outcome, reason = Outcome.IMPOSSIBLE_PLANNED, "it must be refused"
     elif holds(wanted, grounded.world.task.decode(plan.state), problem):
@@ -117,8 +113,5 @@ def report(results: Sequence[SentenceResult], reader: str) -> SentenceReport:
 
 
 def _case(result: SentenceResult) -> SentenceCase:
-    keys = ("outcome", "plan", "goals", "warnings", "reason")
-    values = {key: getattr(result, key) for key in keys}
-    if result.usage is not None:
-        values["model"] = ModelUse.of(result.usage)
-    return SentenceCase(id=result.test.id, **values)
+    model = {} if result.usage is None else {"model": ModelUse.copied(result.usage)}
+    return SentenceCase.copied(result, id=result.test.id, **model)

@@ -19,10 +19,6 @@ def end_goal(plan: RankedPlan, task: Task) -> Formula | None:
     A conjunct that does not hold at the end of ``plan`` was undone by a later step: *open the fridge, …, close it*. Of
     alternatives only those are left that hold at the end, if a later step speaks of what was chosen: in *fill a cup and
     put it in the microwave* the cup in the microwave must be full.
-
-    Args:
-        plan: A plan for the text.
-        task: The environment that the text was grounded in.
     """
     if not plan.goals:
         return None

@@ -20,9 +20,6 @@ class Planned:
     Make it with :func:`planned`, which executes the plan.
 
     Attributes:
-        problem: The problem.
-        plan: The instructions.
-        cost: What they cost.
         states: The states before, between and after them; one more than there are instructions.
     """
 

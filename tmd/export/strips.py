@@ -43,7 +43,6 @@ class Strips:
     """A plan-resolved problem.
 
     Attributes:
-        problem: The ground problem, in STRIPS.
         plan: The plan, in its actions; they have no arguments.
         instructions: The instruction that each of its actions was made of, by the action's name.
     """
@@ -91,9 +90,7 @@ class Checked:
     """An instruction of a plan between what is to be checked around it; literals are atoms that hold or do not.
 
     Attributes:
-        instruction: The instruction.
         before: Its precondition; of a disjunction the literal that holds.
-        after: What it changed.
     """
 
     instruction: Instruction

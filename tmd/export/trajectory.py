@@ -69,11 +69,7 @@ def recorders(session: SimulationSession, file: TrajectoryFile | None, rate: flo
 
 
 class TrajectoryFile:
-    """A recording that grows, as JSON Lines; a context that ends it. The file is made when the run begins.
-
-    Args:
-        path: Where it goes.
-    """
+    """A recording that grows, as JSON Lines; a context that ends it. The file is made when the run begins."""
 
     def __init__(self, path: Path) -> None:
         self._path = path

@@ -29,7 +29,6 @@ class Library:
     """Templates by verb. Verbs that the lexicon calls synonyms share their templates. Each is itself only.
 
     Attributes:
-        lexicon: The words of the domain.
         unaligned: Segments with instructions in which no verb clause was found, as (demonstration, text).
     """
 
@@ -149,13 +148,7 @@ def whole(library: Library) -> WholeLibrary:
 
 
 def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon) -> Library:
-    """Build the library of a corpus.
-
-    Args:
-        demonstrations: The corpus.
-        world_of: The world of an environment, by the environment's name.
-        lexicon: The words of the domain.
-    """
+    """Build the library of a corpus."""
     library = Library(lexicon)
     for demonstration in demonstrations:
         world = world_of(demonstration.environment)
@@ -183,7 +176,6 @@ class Lesson:
 
     Attributes:
         clause: The clause; ``None`` where none was found for the text.
-        text: The text of the segments.
         instructions: What was done, without detours; at least one instruction.
         states: The states before and after.
     """

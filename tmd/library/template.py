@@ -17,14 +17,10 @@ class Template:
     """One entry of the library, D_s = (C_s, E_s, I_s, ξ_s).
 
     Attributes:
-        source: The demonstration it comes from.
         clause: C_s, the clause it served.
-        environment: The name of the environment it was made in.
         instructions: I_s: instructions whose objects are variables ``?z1``, ``?z2`` …; constants of the domain
             (relations, settings) stay.
         grounding: ξ_s: the object that each variable stood for.
-        classes: The kind of each of those objects.
-        wanted: The types that the instructions want of each variable.
         profiles: E_s, as far as it matters: the states of each of those objects when the sequence began.
         links: For each two variables, the static relations between their objects.
         mentions: For each noun of the clause, the variable it meant.
@@ -55,17 +51,7 @@ def generalise(
     profiles: Profiles,
     mentions: Mentions,
 ) -> Template:
-    """Replace the objects of ``instructions`` by variables and record what they stood for.
-
-    Args:
-        source: Where the sequence comes from.
-        clause: The clause that it served.
-        environment: The name of the environment.
-        instructions: What was done for the clause.
-        states: The states in which the sequence began and ended.
-        profiles: The states of the environment's objects.
-        mentions: The nouns of the environment's objects.
-    """
+    """Replace the objects of ``instructions`` by variables and record what they stood for."""
     before, after = states
     names: dict[str, str] = {}
     for instruction in instructions:

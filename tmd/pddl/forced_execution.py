@@ -26,7 +26,6 @@ class Rollout:
     """A forced execution: the state at the start and after each instruction, as bits of ``task``.
 
     Attributes:
-        task: What the bits mean.
         states: One more than there are instructions.
         failures: The steps, from 0, that were not executable.
     """

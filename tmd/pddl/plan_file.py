@@ -260,7 +260,6 @@ class _Found:
     """A plan in a text.
 
     Attributes:
-        steps: Its steps.
         length: How many steps it has according to the text.
         closed: Whether all further steps belong to another plan.
         cut: Whether steps are missing at its end.
@@ -290,12 +289,7 @@ class _Line:
 
 
 class _Reader:
-    """Finds plans in text.
-
-    Args:
-        file: The file, for messages.
-        vocabulary: The names of actions and objects.
-    """
+    """Finds plans in text."""
 
     def __init__(self, file: str, vocabulary: _Vocabulary) -> None:
         self.file = file
@@ -475,10 +469,6 @@ class _JsonReader:
     """Finds plans in a JSON value: lists of steps, and texts that hold steps.
 
     A step is a text, a list of its words, or an object with the one or the other.
-
-    Args:
-        text: The text of the value, for places.
-        reader: The reader of texts.
     """
 
     def __init__(self, text: str, reader: _Reader) -> None:

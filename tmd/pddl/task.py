@@ -82,14 +82,9 @@ class Task:
     """A ground problem.
 
     Attributes:
-        problem: What was ground.
         atoms: The fluent atoms, sorted; an atom's bit is its index.
-        static: The atoms that hold always.
-        init: The initial state.
         goal: The goal as a disjunction of cubes; empty where no reachable state can satisfy it.
         operators: Every operator that relaxed reachability from ``init`` admits, sorted by instruction.
-        index: The bit number of each fluent atom.
-        by_instruction: The operator of each instruction.
     """
 
     problem: Problem

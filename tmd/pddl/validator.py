@@ -30,11 +30,9 @@ class Verdict:
         valid: Whether every instruction applies in turn and the goal holds at the end.
         status: How it ended.
         step: The number of the instruction that fails, from 1; ``None`` where none does.
-        instruction: The instruction that fails.
         broken: The first ground part of the precondition or goal that does not hold.
         reason: One line for people; empty for a valid plan.
         trace: The states before, between and after the instructions that were executed, if asked for.
-        cost: The cost of the instructions that were executed.
     """
 
     valid: bool

@@ -8,11 +8,10 @@ from pydantic import Field, field_validator, model_validator
 
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan, RejectedProposal, StepGoal
-from tmd.json_record import JsonRecord
+from tmd.json_record import JsonRecord, Rounded, TextOrNull
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.reading.formulas import read_only_condition
 from tmd.pddl.reading.syntax import parse
-from tmd.readers.interface import Usage
 from tmd.records.clauses import ParsedRecord
 
 
@@ -39,15 +38,15 @@ class ChoiceRecord(JsonRecord):
     """Choice for one goal, or for one clause where the model has no goals."""
 
     source: str | None = Field(description="The demonstration or proposer; null where nothing could be used.")
-    energy: float
-    factors: dict[str, float] = Field(description="What each factor adds to the energy.")
+    energy: Rounded
+    factors: dict[str, Rounded] = Field(description="What each factor adds to the energy.")
 
 
 class OtherGoal(JsonRecord):
     """Another candidate goal of a step, and why it was not taken."""
 
     pddl: str
-    row: str | None
+    row: TextOrNull
     why: str
 
 
@@ -57,11 +56,11 @@ class GoalRecord(JsonRecord):
     clause: int = Field(ge=0)
     text: str
     pddl: str | None = Field(description="Null where nothing is to be done, or where no goal is known.")
-    words: str | None
-    source: str | None = Field(description="Where its meaning comes from: declared, learned, actions or model.")
-    row: str | None
+    words: TextOrNull
+    source: TextOrNull = Field(description="Where its meaning comes from: declared, learned, actions or model.")
+    row: TextOrNull
     already: bool = Field(description="It held already, so nothing is done for it.")
-    note: str | None
+    note: TextOrNull
     first: int = Field(ge=0)
     last: int = Field(ge=0)
     others: tuple[OtherGoal, ...] = Field((), description="The other candidate goals of the step.")
@@ -96,11 +95,11 @@ class RankedPlanRecord(JsonRecord):
     """A plan with its energy, the validator's verdict on it, and what it is for."""
 
     steps: tuple[GroundedStep, ...]
-    energy: float
-    factors: dict[str, float]
+    energy: Rounded
+    factors: dict[str, Rounded]
     valid: bool
     cost: int
-    why_not_first: str | None = Field(description="Which factor speaks most against it; null for the first.")
+    why_not_first: TextOrNull = Field(description="Which factor speaks most against it; null for the first.")
     choices: tuple[ChoiceRecord, ...]
     goal: str | None = Field(description="What the text asks for, all in all, as PDDL; null without goals.")
     goals: tuple[GoalRecord, ...] = Field(description="Goals in the order of doing; empty for models without.")
@@ -156,11 +155,6 @@ class ModelUse(JsonRecord):
     corrections: int = Field(ge=0, description="How often a reply was sent back.")
     digests: tuple[str, ...] = Field(description="Of the replies; they name the files of the cache.")
     thoughts: str = Field(description="The model's own explanation of its reading.")
-
-    @classmethod
-    def of(cls, usage: Usage) -> Self:
-        """Return the effort as a record."""
-        return cls(**{name: getattr(usage, name) for name in cls.model_fields})
 
 
 class OptionRecord(JsonRecord):

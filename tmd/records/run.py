@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from pydantic import Field
 
 from tmd.diagnostics import Location, TmdError
-from tmd.json_record import JsonRecord, json_value
+from tmd.json_record import JsonRecord, TextOrNull, json_value
 from tmd.pddl.model import Instruction
 from tmd.records.grounding import GroundingRecord, InstructionRecord
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
@@ -37,7 +37,7 @@ class OrderRecord(InstructionRecord):
     def of(cls, order: Order) -> OrderRecord:
         """Return the instruction as a record."""
         action, args = order.instruction
-        return cls(action=action, args=args, clause=order.clause, latent=order.latent)
+        return cls.copied(order, action=action, args=args)
 
 
 class MismatchRecord(JsonRecord):
@@ -50,7 +50,7 @@ class MismatchRecord(JsonRecord):
     @classmethod
     def of(cls, mismatch: Mismatch) -> MismatchRecord:
         """Return the mismatch as a record."""
-        return cls(fact=str(mismatch.atom), expected=mismatch.expected, measured=mismatch.measured)
+        return cls.copied(mismatch, fact=str(mismatch.atom))
 
     def __str__(self) -> str:
         return f"{'' if self.expected else 'not '}{self.fact} was expected, but {self.measured}"
@@ -79,8 +79,8 @@ class RanStep(JsonRecord):
     args: tuple[str, ...]
     repair: bool = Field(description="The monitor put it in.")
     outcome: StepOutcome
-    failure: str | None = Field(description="Why the skill failed.")
-    evidence: str | None = Field(description="What showed that its event happened.")
+    failure: TextOrNull = Field(description="Why the skill failed.")
+    evidence: TextOrNull = Field(description="What showed that its event happened.")
     effects: tuple[EffectRecord, ...] = Field(description="What changed as predicted.")
     mismatches: tuple[MismatchRecord, ...]
     begin: int = Field(description="Tick of the simulation.")
@@ -90,20 +90,15 @@ class RanStep(JsonRecord):
     def of(cls, title: Title, step: ExecutedStep) -> RanStep:
         """Return a step that is over."""
         action, args = step.instruction
-        return cls(
+        return cls.copied(
+            step,
             number=title.number,
             action=action,
             args=args,
             repair=title.repair,
             outcome="failed" if step.failure else "mismatch" if step.mismatches else "ok",
-            failure=step.failure or None,
-            evidence=step.evidence or None,
-            effects=tuple(
-                EffectRecord(fact=str(e.atom), holds=e.holds, basis=e.basis.value, how=e.how) for e in step.effects
-            ),
+            effects=tuple(EffectRecord.copied(e, fact=str(e.atom), basis=e.basis.value) for e in step.effects),
             mismatches=tuple(map(MismatchRecord.of, step.mismatches)),
-            begin=step.begin,
-            end=step.end,
         )
 
     @property

@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 from pydantic import Field
 
-from tmd.json_record import JsonRecord, rounded
+from tmd.json_record import JsonRecord, Rounded, rounded
 from tmd.robot.sim.pose import Pose
 from tmd.robot.state_recorder import Recorded, Sample
 
@@ -48,28 +48,19 @@ class SampleLine(_TrajectoryLine):
     """The scene at one moment."""
 
     event: Literal["sample"]
-    time: float = Field(description="Seconds of simulated time.")
+    time: Rounded = Field(description="Seconds of simulated time.")
     number: int = Field(description="The place in the plan of the instruction that is being done, from 1; 0: none.")
     instruction: str
-    base: tuple[float, float, float] = Field(description="x, y in metres, theta in radians.")
-    joints: dict[str, float] = Field(description="Of the robot: radians or metres.")
+    base: tuple[Rounded, Rounded, Rounded] = Field(description="x, y in metres, theta in radians.")
+    joints: dict[str, Rounded] = Field(description="Of the robot: radians or metres.")
     objects: dict[str, PoseRecord] = Field(description="Position x, y, z in metres, quaternion x, y, z, w.")
-    object_joints: dict[str, float] = Field(description="Of doors, drawers, lids, knobs, buttons: radians or metres.")
+    object_joints: dict[str, Rounded] = Field(description="Of doors, drawers, lids, knobs, buttons: radians or metres.")
 
     @classmethod
     def of(cls, sample: Sample) -> SampleLine:
         """Return the line of a sample."""
-        x, y, theta = map(rounded, sample.base)
-        return cls(
-            event="sample",
-            time=rounded(sample.time),
-            number=sample.number,
-            instruction=sample.instruction,
-            base=(x, y, theta),
-            joints={name: rounded(value) for name, value in sample.joints.items()},
-            objects={name: pose_record(pose) for name, pose in sample.objects.items()},
-            object_joints={name: rounded(value) for name, value in sample.object_joints.items()},
-        )
+        poses = {name: pose_record(pose) for name, pose in sample.objects.items()}
+        return cls.copied(sample, event="sample", objects=poses)
 
 
 TrajectoryLine: TypeAlias = SceneLine | SampleLine

@@ -47,11 +47,7 @@ class _Failure:
 
 
 class Explanation:
-    """A listener that takes pictures of rejected ways as they are rejected.
-
-    Args:
-        session: A simulation that can take pictures.
-    """
+    """A listener that takes pictures of rejected ways as they are rejected."""
 
     def __init__(self, session: SimulationSession) -> None:
         self._cell, self._skills = session.cell, session.skills

@@ -101,12 +101,6 @@ class PlanRunner:
     def run(self, orders: Sequence[Order], prepare: Prepare, heading: str, text: str = "") -> PlanRun:
         """Carry out a plan.
 
-        Args:
-            orders: The plan.
-            prepare: Is given the simulation, and returns the listeners.
-            heading: Title of film and sheet.
-            text: The request.
-
         Raises:
             TmdError: The domain has no skills or no shapes, or the scene cannot be built.
         """

@@ -7,10 +7,11 @@ from contextlib import closing, nullcontext, suppress
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Literal
+from typing import Literal, get_args
 
 from tmd import __version__
-from tmd.diagnostics import MissingToolError, OutputError, TmdError, install_extra
+from tmd.diagnostics import MissingToolError, OptionError, OutputError, TmdError, install_extra
+from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.backends import in_processes
 from tmd.evaluation.runs.config import BUNDLED, ExperimentConfig
 from tmd.evaluation.runs.experiment import Progress
@@ -19,6 +20,7 @@ from tmd.evaluation.summary import EMPTY
 from tmd.files import make_directory, write_text
 from tmd.inference.config import DEFAULT
 from tmd.pddl.plan_file import parse_instruction
+from tmd.pddl.reading.syntax import nearest
 from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Skip, Trial, TrialRequest
 from tmd.robot.monitor.listeners import Order
@@ -71,11 +73,7 @@ class Job:
     """One trial that is to be made; it can be sent to another process.
 
     Attributes:
-        asked: The request.
         line: The prediction; ``None`` if none is executable under PDDL.
-        domain: The domain's folder.
-        problems: The directory of its problems.
-        out: Destination of record and films.
     """
 
     asked: TrialRequest
@@ -166,11 +164,25 @@ def orders_of(line: PredictionRecord) -> list[Order]:
 Mode = Literal["kinematic", "physics"]
 
 
-def run_trials(config: ExperimentConfig, mode: Mode, progress: Progress | None = None) -> Trials:
-    """Let the robot carry out one prediction for each environment of a finished run.
+def carry_out_predictions(config: ExperimentConfig, mode: Mode, *, progress: Progress | None = None) -> Trials:
+    """Let a simulated PR2 carry out one prediction for each environment of a finished run, and add it to the report.
 
-    The arguments, results and errors are those of :func:`tmd.robot_trials.experiment.carry_out_predictions`.
+    Args:
+        config: The run.
+        mode: Motion of the robot, ``kinematic`` or ``physics``.
+        progress: Called with the number of trials done and of all trials.
+
+    Returns:
+        The trials, or the reason why none could be made.
+
+    Raises:
+        OutputError: The run's directory cannot be written.
+        WorkerLostError: A process that simulated was killed.
+        OptionError: There is no such motion.
+        TmdError: The directory does not hold a finished run.
     """
+    if mode not in get_args(Mode):
+        raise OptionError(f"there is no mode '{mode}'", hint=nearest(mode, get_args(Mode), what="modes"))
     folder = make_directory(config.out / FOLDER)
     reason = _hindrance(config)
     if not reason:
@@ -184,7 +196,9 @@ def run_trials(config: ExperimentConfig, mode: Mode, progress: Progress | None =
             reason = f"{error.message}: {error.hint}"
     if reason:
         write_text(folder / SKIPPED, Skip(reason=reason).model_dump_json() + "\n")
-    return read_trials(config.out) or Trials(folder)
+    trials = read_trials(config.out) or Trials(folder)
+    write_report(config.out)
+    return trials
 
 
 def _hindrance(config: ExperimentConfig) -> str:

@@ -13,9 +13,10 @@ from tmd.json_record import rounded
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier, print_clause
 from tmd.pddl.model import Problem
 from tmd.pddl.validator import Verdict
+from tmd.pddl.writer import format_formula
 from tmd.readers.interface import Question, Usage
 from tmd.view.goals import ShownGoal, in_words
-from tmd.view.grounding_record import flat, option_texts
+from tmd.view.grounding_record import option_texts
 
 _MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
 
@@ -107,9 +108,9 @@ def _below(shown: ShownGoal, *, verbose: bool) -> list[str]:
     goal = shown.goal
     if goal.formula is None or not shown.asked:
         return []
-    pddl = flat(goal.formula) if verbose else shortened(flat(folded(goal.formula)))
+    pddl = format_formula(goal.formula) if verbose else shortened(format_formula(folded(goal.formula)))
     source = f"   {goal.origin}" if goal.source else ""
-    others = [f"not taken: {flat(other.formula)}   {other.why}" for other in goal.others if verbose]
+    others = [f"not taken: {format_formula(other.formula)}   {other.why}" for other in goal.others if verbose]
     if shown.rivals and not verbose:
         further = f", or {len(shown.rivals) - 1} more" if len(shown.rivals) > 1 else ""
         others = [f"taken so, not: {shortened(shown.rivals[0])}{further}"]

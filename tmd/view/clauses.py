@@ -24,7 +24,6 @@ class TextPhrase:
     """Words of a clause.
 
     Attributes:
-        span: Where they stand.
         kind: :data:`VERB` or :data:`OBJECT`.
         name: The stem, or the language-object, as the clause has it.
     """

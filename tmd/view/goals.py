@@ -24,7 +24,6 @@ class ShownGoal:
     """The goal of a step as it is shown.
 
     Attributes:
-        goal: The goal.
         words: The goal in words, at most 200 characters; empty without a goal.
         since: After how many steps of the plan it comes to hold, for good if it holds in the end; ``None`` for never.
         until: Where it was reached and does not hold in the end, the number of the step that undid it.

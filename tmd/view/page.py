@@ -21,8 +21,7 @@ from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
-from tmd.view.object_rows import object_rows
-from tmd.view.state_graph import StateGraph
+from tmd.view.state_graph import StateGraph, object_rows
 from tmd.view.subject import PlannedStep, Subject
 
 # A plan with more steps than this has them folded.
@@ -33,12 +32,7 @@ _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")
 
 @dataclass(frozen=True, slots=True)
 class Page:
-    """A page, and whether what it shows works.
-
-    Attributes:
-        html: The page.
-        verdict: What the validator says of the plan.
-    """
+    """A page, and whether what it shows works."""
 
     html: str
     verdict: Verdict
@@ -126,7 +120,6 @@ class ShownStep:
 
     Attributes:
         number: Its place in the plan, from 1.
-        planned: The step.
         added: The facts that hold after it and did not before, sorted.
         removed: The facts that held before it and do not after, sorted.
         broken: Why it cannot be done; empty where it can.

@@ -69,9 +69,6 @@ class FoundSubject:
     """Subject of a page, and its circumstances.
 
     Attributes:
-        subject: The subject of the page.
-        remarks: Lines for standard error.
-        locations: Where the steps of a plan file stand.
         of_text: Whether there is a text, or a problem, that should have a plan.
     """
 

@@ -1,5 +1,6 @@
-"""A PDDL state as a graph: objects are nodes, facts of two objects are edges, the other facts are in the nodes.
+"""Drawings of a plan: a PDDL state as a graph, and a row for each object with a mark at each step that names it.
 
+Objects are nodes, facts of two objects are edges, the other facts are in the nodes.
 The nodes keep their places while a plan goes on: they are laid out once, for all of its states.
 """
 
@@ -12,7 +13,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2, cos, sin
 
-from tmd.pddl.model import GroundAtom, Problem, State
+from tmd.goals.wording import Wording
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.view.markup import macro
 
 # Objects that are drawn at most: with more, nothing can be read.
@@ -241,3 +243,22 @@ def by_networkx(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) ->
             wide, high = ((sizes[one][axis] + sizes[other][axis]) / 2 + _MARGIN for axis in (0, 1))
             scale = max(scale, min(wide / max(abs(x - to_x), 1e-3), high / max(abs(y - to_y), 1e-3)))
     return {name: (scale * x, scale * y) for name, (x, y) in found.items()}
+
+
+def object_rows(plan: Sequence[Instruction], problem: Problem, current: int, wording: Wording, link: str = "") -> str:
+    """Render the objects of a plan as rows and its steps as columns; empty for an empty plan.
+
+    Args:
+        plan: The plan.
+        problem: Its problem; constants of the domain have no row.
+        current: The number of the step that is looked at, from 1; 0 for none.
+        wording: Puts instructions into words.
+        link: The beginning of the address of a step; without it a step is a mark of the studio's page.
+    """
+    constants = {each.name for each in problem.domain.constants}
+    rows: dict[str, dict[int, str]] = {}
+    for number, instruction in enumerate(plan, start=1):
+        for name in instruction.args:
+            if name not in constants:
+                rows.setdefault(name, {})[number] = wording.instruction(instruction)
+    return macro("state.html.j2", "object_rows", rows, len(plan), current, link) if rows else ""

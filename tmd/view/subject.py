@@ -23,9 +23,7 @@ class PlannedStep:
     """An instruction, and what it is for.
 
     Attributes:
-        instruction: What to do.
         origin: ``clause 2``; empty without a text.
-        words: The words of the text that it serves.
         latent: Whether they left it unsaid.
     """
 
@@ -40,10 +38,7 @@ class Said:
     """A text, and what was made of it.
 
     Attributes:
-        parsed: Its clauses.
         meant: For every clause what its nouns mean; ``None`` where that is not known.
-        unseen: The verbs that no demonstration has.
-        unknown: The nouns that name nothing in the environment.
     """
 
     parsed: Parsed
@@ -58,7 +53,6 @@ class Ran:
 
     Attributes:
         status: How it ended: ``done``, ``recovered``, ``stopped`` …; ``unfinished`` where its log has no end.
-        reason: Why it stopped.
         repairs: How often the executor replanned.
         seconds: Simulated time.
         steps: What was done, in order.
@@ -80,17 +74,11 @@ class Subject:
     """A plan to show.
 
     Attributes:
-        title: What the page is about, in a few words.
-        problem: Where the plan begins, and what its goal is.
-        steps: The plan.
         said: The text; ``None`` for a plan without a text.
         plans: All ranked plans, the one shown first; empty where nothing was ranked.
         refusals: Templates that could not be used.
-        ran: What a robot made of it.
         strip: The filmstrip of that, as a ``data:`` address; empty without one.
-        made: What decides all this, as names and values.
         refused: The reason why there is no plan for the text; empty where there is one, or where it is not known.
-        doubts: Reasons to doubt the plan.
     """
 
     title: str

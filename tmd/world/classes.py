@@ -85,7 +85,6 @@ class ObjectClass:
 
     Attributes:
         name: The class, a PDDL type.
-        parent: Its parent type.
         vertices: The parts by name, ``root`` first.
         edges: ``(predicate, tail, head, *more)``; acting on the tail changes the head.
     """

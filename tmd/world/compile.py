@@ -7,7 +7,7 @@ schemas quantify over, a state an atom. The compiled domain stays one readable t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from tmd.diagnostics import TmdError
@@ -17,6 +17,7 @@ from tmd.pddl.model import (
     ActionSchema,
     GroundAtom,
     Instruction,
+    Predicate,
     Problem,
     State,
     TypedName,
@@ -214,15 +215,7 @@ class _Compiler:
 
     def _add_checked(self, words: Sequence[str], path: Sequence[str | int], source: YamlSource) -> None:
         """Add one atom after checking predicate, arity, names and types."""
-        text = f"({' '.join(words)})"
-        predicate = self.predicates.get(words[0]) if words else None
-        if predicate is None:
-            hint = nearest(words[0], sorted(self.predicates)) if words else None
-            message = f"{text}: the domain has no predicate '{text}'"
-            raise source.error(path, message, hint, "unknown-predicate")
-        if len(predicate.parameters) != len(words) - 1:
-            message = f"{text}: '{words[0]}' takes {len(predicate.parameters)}, not {len(words) - 1}"
-            raise source.error(path, message, None, "wrong-arity")
+        text, predicate = f"({' '.join(words)})", predicate_of(words, self.predicates, path, source)
         for parameter, name in zip(predicate.parameters, words[1:], strict=True):
             if name in self.unclear:
                 return
@@ -234,6 +227,25 @@ class _Compiler:
                 message = f"{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}"
                 raise source.error(path, message, None, "wrong-type")
         self.init.add(GroundAtom(words[0], tuple(words[1:])))
+
+
+def predicate_of(
+    words: Sequence[str], predicates: Mapping[str, Predicate], path: Sequence[str | int], source: YamlSource
+) -> Predicate:
+    """Return the predicate of a fact.
+
+    Raises:
+        TmdError: There is no such predicate, or it takes another number of arguments.
+    """
+    text, name = " ".join(words), words[0] if words else ""
+    if name not in predicates:
+        hint = nearest(name, sorted(predicates))
+        raise source.error(path, f"({text}): the domain has no predicate '{name}'", hint, "unknown-predicate")
+    wanted = len(predicates[name].parameters)
+    if wanted != len(words) - 1:
+        message = f"({text}): '{name}' takes {wanted} argument(s), found {len(words) - 1}"
+        raise source.error(path, message, None, "wrong-arity")
+    return predicates[name]
 
 
 def derive(problem: Problem, folder: DomainFolder, state: State) -> State:

@@ -245,10 +245,6 @@ NOT_REACHED = "goal-not-reached"
 def read_goal(demonstration: Demonstration, problem: Problem) -> Formula | None:
     """Read the goal of a demonstration; ``None`` where it has none.
 
-    Args:
-        demonstration: The demonstration.
-        problem: Its environment.
-
     Raises:
         TmdError: It is not a condition, or speaks of what the environment does not have; with file, line and column.
     """

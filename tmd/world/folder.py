@@ -32,7 +32,6 @@ class DomainFolder:
     """A domain's folder, and what it holds, read when first asked for.
 
     Attributes:
-        path: The folder.
         file: The name of the domain's file, where it is another than the usual one.
     """
 

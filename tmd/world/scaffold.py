@@ -72,10 +72,7 @@ class Scaffold:
     """A new domain.
 
     Attributes:
-        folder: The domain's folder.
-        problems: The folder of its environments, problems and demonstrations.
         files: Every file, in the order of their names.
-        environments: The names of its environments.
         task: The name of the folder of its demonstrations; empty where there are none.
     """
 

@@ -42,11 +42,7 @@ class Possible:
     and over the objects that the initial state has at each place of each predicate. What is impossible here is
     impossible.
 
-    Args:
-        problem: A sound problem.
-
     Attributes:
-        objects: The objects of the problem by type.
         blocked: For each action that can never apply what it lacks: a type without objects, or an atom of its
             precondition.
     """

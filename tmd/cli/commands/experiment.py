@@ -1,4 +1,4 @@
-"""``tmd experiment`` and ``tmd data``: train, predict, score, print the table; and look into data sets."""
+"""``tmd experiment``: train, predict, score, print the table."""
 
 from __future__ import annotations
 
@@ -159,7 +159,7 @@ def experiment(
 
 def _run(config: ExperimentConfig, step: str, robot: str) -> None:
     from tmd.evaluation.report.report import REPORT, print_table
-    from tmd.robot_trials.experiment import run_experiment
+    from tmd.evaluation.runs.experiment import run_experiment
 
     with warnings_shown(), progress_bar(f"{config.task}, {config.data} data") as progress:
         metrics = run_experiment(config, collect_only=step != "all", progress=progress)
@@ -170,7 +170,7 @@ def _run(config: ExperimentConfig, step: str, robot: str) -> None:
 
 
 def _trials(config: ExperimentConfig, mode: str) -> None:
-    from tmd.robot_trials.experiment import carry_out_predictions
+    from tmd.robot_trials.trials import carry_out_predictions
 
     with progress_bar(f"the robot, {mode}") as progress:
         trials = carry_out_predictions(config, "physics" if mode == "physics" else "kinematic", progress=progress)
@@ -179,20 +179,3 @@ def _trials(config: ExperimentConfig, mode: str) -> None:
     for trial in trials.found:
         why = f": {trial.reason}" if trial.reason else ""
         emit(f"robot in {trial.asked.environment}: {trial.status.replace('_', ' ')}{why}\n")
-
-
-@click.group("data", no_args_is_help=False)
-def data() -> None:
-    """Look into data sets."""
-
-
-@data.command("check")
-@click.argument("directory", metavar="DIR", type=PATH)
-def check(directory: Path) -> None:
-    """Read a copy of VEIL-500 and count what was found and dropped.
-
-    Ends with 33 where the copy is missing or damaged.
-    """
-    from tmd.datasets.veil500.report import check_veil500
-
-    emit(check_veil500(directory).text())

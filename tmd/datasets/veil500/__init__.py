@@ -8,11 +8,9 @@ from tmd.datasets.veil500.compile import absent_types, compile_environment
 from tmd.datasets.veil500.data import Point, VeilData, VeilGroup, load
 from tmd.datasets.veil500.environment import VeilEnvironment, VeilObject
 from tmd.datasets.veil500.forms import from_veil, mentioned, to_veil, veil_domain
-from tmd.datasets.veil500.report import DataReport, check_veil500
 from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
 
 __all__ = [
-    "DataReport",
     "ForcedExecution",
     "Point",
     "Rollout",
@@ -21,7 +19,6 @@ __all__ = [
     "VeilGroup",
     "VeilObject",
     "absent_types",
-    "check_veil500",
     "compile_environment",
     "from_veil",
     "load",

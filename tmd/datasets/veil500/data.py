@@ -1,7 +1,7 @@
 """Loading the VEIL-500 data set from a directory the user has; none of it is part of this project.
 
 The set is free for academic and research use with citation; see ``docs/veil500.md``. Anything that is odd but
-usable is kept and counted by :mod:`tmd.datasets.veil500.report`; anything that cannot be used is a
+usable is kept and counted by ``experiments/veil500_report.py``; anything that cannot be used is a
 :class:`~tmd.diagnostics.DataError` that says where.
 """
 
@@ -112,15 +112,10 @@ class Point:
     Attributes:
         index: Its place in ``data.xml``, from 0.
         world: ``kitchen`` or ``living_room``.
-        environment: The number of the environment's file.
-        objective: What the person was asked for.
         task: The objective as a slug: ``ramen``, ``clean_room`` …
-        raw: The text as it stands in the file.
-        text: The cleaned text.
         segments: Its segments, in order; empty ones are kept, since groups are aligned by number.
         groups: The actions, aligned.
         repeats_removed: How many repeated runs of words were deleted from the text.
-        line: Where the point begins in the file.
     """
 
     index: int

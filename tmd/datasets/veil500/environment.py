@@ -132,12 +132,8 @@ class VeilObject:
     Attributes:
         name: As the data set writes it, with a capital.
         pddl: Its PDDL name.
-        kind: Its class.
         position: Where it is; a placeholder is replaced by the position of the whole.
-        states: Value of every state that the class declares.
-        affordances: What it is good for.
         placeholder: Whether the file held a placeholder instead of a position.
-        parent: The whole it is a part of.
     """
 
     name: str
@@ -156,12 +152,9 @@ class VeilEnvironment:
 
     Attributes:
         world: ``kitchen`` or ``living_room``.
-        number: The number of its file.
         objects: In file order.
         dropped: States of the file that no class declares, as (object, state).
         repeated: Objects that the file describes again; the first description counts.
-        path: The file.
-        by_name: The objects by VEIL name.
     """
 
     world: str

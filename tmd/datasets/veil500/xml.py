@@ -20,9 +20,6 @@ class Element:
     """An XML element.
 
     Attributes:
-        tag: Its name.
-        location: The place of its start tag.
-        text: All characters directly inside it.
         children: Its elements, in file order.
     """
 

@@ -22,8 +22,6 @@ class Served:
     """The instructions for one clause.
 
     Attributes:
-        text: The words of the clause.
-        verb: Its verb.
         latent: The instructions that were left unsaid (I_il); they come first.
         said: The instructions for the clause itself (I_i).
         source: The demonstration or template they were made from; ``None`` where nothing was.
@@ -43,7 +41,6 @@ class Prediction:
     """The answer of a model for one example.
 
     Attributes:
-        instructions: The whole sequence, as it is scored.
         served: For each clause what was done for it; empty for a model that does not work by clauses. Together
             they are ``instructions``, unless the model changes the sequence as a whole afterwards.
     """

@@ -60,7 +60,6 @@ class Candidates:
     """The candidate plans for one text.
 
     Attributes:
-        plans: The distinct candidates, C of them.
         proposed: For each of :data:`PROPOSERS` the numbers of its candidates, likeliest first.
         features: C × :data:`FEATURES`; each column has mean 0, as only differences between candidates count.
     """

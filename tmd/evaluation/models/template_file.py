@@ -42,7 +42,6 @@ class TemplateKind(BaseModel):
     """The objects that a variable may be.
 
     Attributes:
-        types: Types of the domain, any of which will do.
         called: Names, with or without their numbers, any of which will do; empty for all. VEIL-500 needs them: its
             classes are not types.
         words: Nouns for such objects, beside those that the environment and the lexicon know; they go before what
@@ -66,15 +65,10 @@ class PredefinedTemplate:
     """One entry of a library, as the module's docstring describes it.
 
     Attributes:
-        source: Where it stands: folder, file and line.
-        verbs: The verbs it serves.
-        objects: The variables that nouns name.
         relations: The ways in which the first of them may be related to the second; empty if it does not matter.
         says: Words of which the clause has one; empty if it does not matter.
         each: Whether it is used for all nouns that fit.
         variables: The kind of each variable, in the order in which those that no noun names are chosen.
-        where: Facts that hold of the objects.
-        instructions: The sequence.
     """
 
     source: str

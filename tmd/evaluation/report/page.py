@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, TypeAlias
 
 from tmd import __version__
-from tmd.evaluation.report.alignment import Mark
 from tmd.evaluation.report.downloads import csv_table, data_address, latex_table
-from tmd.evaluation.report.headline import headline, sure
-from tmd.evaluation.report.paper_order import other_order, reasons
-from tmd.evaluation.report.predictions import NOTHING, SHOWN, SYMBOLS, best_and_worst, by_instruction
+from tmd.evaluation.report.predictions import NOTHING, SHOWN, SYMBOLS, Mark, best_and_worst, by_instruction
 from tmd.evaluation.report.rows import (
     ALPHA,
     LABELS,
@@ -21,20 +19,27 @@ from tmd.evaluation.report.rows import (
     best_of,
     by_merit,
     differing,
+    headline,
     in_order,
+    other_order,
+    reasons,
     reference,
     tasks_of,
 )
 from tmd.evaluation.report.rows import title as row_title
-from tmd.evaluation.report.weights import learned
 from tmd.evaluation.runs.finished_run import Run, Trials, films
 from tmd.evaluation.summary import EMPTY, average
 from tmd.inference.energy import title
+from tmd.records.fit import Fit, WorldFit
 from tmd.records.metrics import SUCCESS, Means, Metrics, Pair
 from tmd.view.markup import data, templates
 
 # Data whose texts may not be passed on.
 _VEIL500 = "veil500"
+# How many weights are shown.
+_SHOWN = 40
+# Mean, least and largest weight over the training sets; ``None`` where no set has the factor.
+_Cell: TypeAlias = tuple[float, float, float] | None
 
 
 def differences(metrics: Metrics, row: str | None, order: Sequence[str]) -> list[Pair]:
@@ -74,6 +79,55 @@ def errors(run: Run, model: str) -> dict[str, Any]:
     totals = {gold: sum(counts[gold, mine] for mine in names) for gold in names}
     cells = {(gold, mine): (count, count / totals[gold]) for (gold, mine), count in counts.items()}
     return {"model": model, "names": names, "cells": cells}
+
+
+@dataclass(frozen=True, slots=True)
+class LearnedWeights:
+    """Weights that one row learned.
+
+    Attributes:
+        losses: The mean loss of the first and of the last epoch; ``None`` if no curve was kept.
+        weights: The largest weights, by factor: a cell for each kind of world.
+        smaller: How many are left out.
+    """
+
+    model: str
+    sets: int
+    losses: tuple[float, float] | None
+    worlds: tuple[str, ...]
+    weights: tuple[tuple[str, tuple[_Cell, ...]], ...]
+    smaller: int
+
+
+def learned(fits: Sequence[Fit], model: str) -> LearnedWeights:
+    """Return the weights that one row learned, and how its loss fell."""
+    own = [fit for fit in fits if fit.model == model]
+    found = [world for fit in own for world in fit.worlds.values()]
+    worlds = tuple(sorted({world for fit in own for world in fit.worlds}))
+    names = dict.fromkeys(name for world in found for name in world.weights)
+    weights = {name: tuple(_spread(own, world, name) for world in worlds) for name in names}
+    kept = set(sorted(weights, key=lambda name: -_size(weights[name]))[:_SHOWN])
+    shown = tuple((name, cells) for name, cells in weights.items() if name in kept)
+    return LearnedWeights(model, len(own), _losses(found), worlds, shown, len(weights) - len(shown))
+
+
+def _spread(fits: Sequence[Fit], world: str, name: str) -> _Cell:
+    found = [fit.worlds[world].weights for fit in fits if world in fit.worlds]
+    values = [weights[name] for weights in found if name in weights]
+    return (sum(values) / len(values), min(values), max(values)) if values else None
+
+
+def _size(cells: Sequence[_Cell]) -> float:
+    return max(abs(cell[0]) for cell in cells if cell)
+
+
+def _losses(worlds: Sequence[WorldFit]) -> tuple[float, float] | None:
+    """Return the mean loss of the first and of the last epoch."""
+    curves = [[point.loss for point in world.curve if point.loss is not None] for world in worlds]
+    ends = [(curve[0], curve[-1]) for curve in curves if curve]
+    if not ends:
+        return None
+    return sum(first for first, _ in ends) / len(ends), sum(last for _, last in ends) / len(ends)
 
 
 def render(run: Run, trials: Trials | None = None) -> str:
@@ -121,7 +175,6 @@ def render(run: Run, trials: Trials | None = None) -> str:
         otherwise=otherwise,
         pairs=pairs,
         reasons=reasons(metrics) if otherwise else [],
-        sure=sure,
         learned=[learned(fits, model) for model in order if any(fit.model == model for fit in fits)],
         errors=[errors(run, model) for model in shown],
         examples=[(model, *best_and_worst(run.of(model))) for model in shown],

@@ -1,4 +1,4 @@
-"""The rows and columns of the table: their names and order, the paper's numbers, and the reference row.
+"""The rows and columns of the table: their names and order, the paper's numbers, the reference row, the main result.
 
 The paper's numbers (Table II, RSS 2014) were measured on VEIL-200, which was not released: they show what kind of
 number each row gave there, and compare with no other data.
@@ -35,9 +35,7 @@ class PaperRow:
     """A row of Table II.
 
     Attributes:
-        title: What the paper calls it.
         scores: IED and EED for each of :data:`TASKS`.
-        average: IED and EED, as printed under *Average*.
     """
 
     title: str
@@ -143,3 +141,99 @@ def differing(pairs: Iterable[Pair], against: str) -> frozenset[tuple[str, str]]
     own = [pair.seen_from(against) for pair in pairs if against in (pair.a, pair.b)]
     tested = [(pair.b, metric, found) for pair in own for metric in TESTED if (found := pair.of(metric)) is not None]
     return frozenset((other, metric) for other, metric, found in tested if found.p_holm < ALPHA)
+
+
+def headline(metrics: Metrics) -> str:
+    """Return the row that leads, by how much, and whether that is significant."""
+    rows = [model for model in by_merit(metrics) if model != EMPTY]
+    if not rows:
+        return "No row predicts anything."
+    first, *others = rows
+    column = metrics.columns[0]
+    mean = metrics.models[first].mean(column) or 0.0
+    score = f"{mean:.1f} % success" if column == SUCCESS else f"{LABELS[column]} {mean:.1f}"
+    if not others:
+        return f"{title(first)}: {score}."
+    second = others[0]
+    ahead = mean - (metrics.models[second].mean(column) or 0.0)
+    told = f"{title(first)}: {score}, {ahead:.1f} more than {title(second)}{_sure(metrics, first, second, column)}."
+    best = best_of(metrics.models, TESTED if column == SUCCESS else TESTED[1:])
+    also = [LABELS[metric] for metric in TESTED if metric != column and (first, metric) in best]
+    return f"{told} It is also the best in {_listed(also)}." if also else told
+
+
+def _sure(metrics: Metrics, first: str, second: str, column: str) -> str:
+    found = difference(metrics, first, second, column)
+    return "" if found is None else f" ({_p(found)})"
+
+
+def _p(found: Difference) -> str:
+    """Return the corrected p of a difference: *p = 0.002*, *not significant, p = 0.310*."""
+    p = "p < 0.001" if found.p_holm < 0.001 else f"p = {found.p_holm:.3f}"
+    return p if found.p_holm < ALPHA else f"not significant, {p}"
+
+
+def _listed(words: list[str]) -> str:
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+
+
+# The rows that check nothing and are stronger than those of the paper.
+_STRONGER = ("templates", "tree")
+
+
+@dataclass(frozen=True, slots=True)
+class OtherOrder:
+    """Two rows of Table II that stand in another order here.
+
+    Attributes:
+        here: ``better`` minus ``worse`` in this run.
+        there: The same in the paper, below 0.
+    """
+
+    better: str
+    worse: str
+    here: Difference
+    there: float
+
+
+def other_order(metrics: Metrics) -> tuple[list[OtherOrder], int]:
+    """Return the pairs of the paper's rows whose order by IED is another here, and the number of all such pairs.
+
+    The paper's numbers are those of its average; the greatest differences of this run come first.
+    """
+    found, count = [], 0
+    for pair in metrics.significance.pairs:
+        if pair.a not in TABLE_2 or pair.b not in TABLE_2:
+            continue
+        count += 1
+        there = TABLE_2[pair.a].average[0] - TABLE_2[pair.b].average[0]
+        seen = pair if pair.IED.difference > 0 else pair.seen_from(pair.b)
+        if there * pair.IED.difference < 0:
+            found.append(OtherOrder(seen.a, seen.b, seen.IED, -abs(there)))
+    return sorted(found, key=lambda each: -each.here.difference), count
+
+
+def reasons(metrics: Metrics) -> list[str]:
+    """Return why the order may be another, as far as the rows of this run measure it."""
+    rows, found = metrics.models, []
+    stronger = [model for model in _STRONGER if model in rows]
+    if stronger:
+        shares = [f"{rows[model].executable:.0f} % of what {title(model)} predicts" for model in stronger]
+        chief = f", and {rows[FULL].executable:.0f} % of what {title(FULL)} predicts" if FULL in rows else ""
+        found.append(
+            "Predefined Templates and Instruction-Tree are not those of 2014. The library was written by people who "
+            "had seen environments of this domain; the tree chooses among well-formed instructions only. Neither is "
+            f"held to what can be executed: {' and '.join(shares)} can be{chief}."
+        )
+    if extended := difference(metrics, "paper_extended", "paper", "IED"):
+        found.append(
+            "The paper's model as printed maps a noun to a variable only where both clauses share the noun or a "
+            "relation. With related nouns and nouns paired in order of mention, and the same weights, IED changes by "
+            f"{extended.difference:+.1f} ({_p(extended)})."
+        )
+    if by_hand := difference(metrics, FULL, "paper", "IED"):
+        found.append(
+            f"Learning the weights instead of setting them by hand changes IED by {by_hand.difference:+.1f} "
+            f"({_p(by_hand)})."
+        )
+    return found

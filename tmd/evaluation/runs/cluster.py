@@ -81,12 +81,6 @@ def _caller() -> Callable[[bytes], bytes]:
 def remote(config: ExperimentConfig, unit: EvaluationJob, version: str, fingerprint: str) -> JobOutcome:
     """Do a unit on a worker, if that has what the run has.
 
-    Args:
-        config: The run.
-        unit: What to do.
-        version: The run's version of tmd.
-        fingerprint: Of the run's data.
-
     Raises:
         DataError: The worker has another version of tmd, or other data.
         TmdError: The unit cannot be done.

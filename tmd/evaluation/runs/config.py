@@ -42,12 +42,9 @@ class ExperimentConfig:
         test_environments: Environment numbers to test in; likewise.
         drop_sentences: With what probability each sentence of a test text is left out, in [0, 1).
         models: The rows; the usual ones where none is named.
-        seed: Random seed.
-        domain: The domain of the bundled data.
         domains: The directory of all domains, if not the usual one.
         problems: The directory of all problems, if not the usual one.
         backend: ``joblib``, processes on this machine, or ``dask``, a cluster.
-        scheduler: The address of the cluster's scheduler.
         jobs: How many processes on this machine.
     """
 
@@ -80,11 +77,7 @@ class ExperimentConfig:
                 raise OptionError(f"{what} is '{name}'", hint=nearest(name, known, what="names"))
 
     def identity(self, fingerprint: str) -> dict[str, Any]:
-        """Return the settings that decide the outcome, without directories and the distribution of the work.
-
-        Args:
-            fingerprint: Of the data.
-        """
+        """Return the settings that decide the outcome, without directories and the distribution of the work."""
         values = {name: getattr(self, name) for name in _DECISIVE}
         listed = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
         return {**listed, "fingerprint": fingerprint, "version": __version__}

@@ -54,10 +54,6 @@ class ProtocolFile(BaseModel):
 def read_protocol(path: Path, tasks: Collection[str]) -> tuple[frozenset[str], ...]:
     """Return the groups of tasks in a protocol file; none where there is no file.
 
-    Args:
-        path: The file.
-        tasks: The tasks that there are.
-
     Raises:
         TmdError: The file is wrong, names a task that is not there, or names one twice.
     """
@@ -82,12 +78,8 @@ class Example:
     """One point: a text in an environment, with what a person did.
 
     Attributes:
-        id: What the data set calls it.
-        task: What it is a demonstration of.
         world: The kind of place, ``kitchen`` say; templates are not carried from one kind to another.
         environment: The environment's name, unique in the data set.
-        number: The environment's number within its world.
-        demonstration: Text, segments and instructions.
         goal: What the demonstration's goal says; ``None`` where it has none.
     """
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.models.model import make_model
+from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.backends import outcomes
 from tmd.evaluation.runs.config import BUNDLED, DEFAULT_MODELS, ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, open_dataset
@@ -37,26 +38,33 @@ class _Plan:
     directory: RunDirectory
 
 
-def run(config: ExperimentConfig, progress: Progress | None = None) -> Metrics:
-    """Do the run, or what is left of it, and return its metrics.
+def run_experiment(
+    config: ExperimentConfig, *, collect_only: bool = False, progress: Progress | None = None
+) -> Metrics:
+    """Train, predict and score, or what is left of it, and write the report.
+
+    Args:
+        config: The run.
+        collect_only: Train nothing: recompute everything from finished parts.
+        progress: Called with the number of parts done and of all parts.
+
+    Returns:
+        The contents of ``metrics.json``; ``report.html`` is beside it in ``config.out``.
 
     Raises:
-        TmdError: The configuration, the data, the directory or the cluster cannot be used.
+        TmdError: The configuration, the data, the directory or the cluster cannot be used, or parts are missing.
     """
+    metrics = run(config, progress, collect_only=collect_only)
+    write_report(config.out)
+    return metrics
+
+
+def run(config: ExperimentConfig, progress: Progress | None = None, *, collect_only: bool = False) -> Metrics:
+    """Do the run as :func:`run_experiment`, without the report."""
     plan = _plan(config)
     with plan.directory.entered():
-        _work(plan, progress)
-        return _collect(plan)
-
-
-def collect(config: ExperimentConfig) -> Metrics:
-    """Compute the metrics of a run from its parts, train nothing, and return them.
-
-    Raises:
-        TmdError: As :func:`run`, or parts are missing.
-    """
-    plan = _plan(config)
-    with plan.directory.entered():
+        if not collect_only:
+            _work(plan, progress)
         return _collect(plan)
 
 

@@ -74,13 +74,7 @@ def _text(path: Path) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Trials:
-    """All trials of a run, or why there are none.
-
-    Attributes:
-        directory: Where they lie.
-        found: By environment.
-        skipped: Why there are none.
-    """
+    """All trials of a run, or why there are none."""
 
     directory: Path
     found: tuple[Trial, ...] = ()

@@ -24,9 +24,6 @@ class Fold:
     """One split.
 
     Attributes:
-        name: Unique in a run.
-        train: What is trained on.
-        test: What is tested.
         training_set: The name of ``train``; folds with the same training examples have the same one.
     """
 
@@ -83,12 +80,6 @@ def given_fold(
 ) -> list[Fold]:
     """Return the one fold that environment numbers define; a side without numbers is all other environments.
 
-    Args:
-        examples: Candidates for testing.
-        pool: Candidates for training.
-        train: Environments to train in.
-        test: Environments to test in.
-
     Raises:
         TmdError: An environment is in both, or nothing is left to train or test on.
     """
@@ -113,10 +104,6 @@ def given_fold(
 def halves(examples: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
     """Return each environment in turn, its examples in two halves: ten folds for five environments.
 
-    Args:
-        examples: Examples to test.
-        pool: Candidates for training.
-
     Raises:
         TmdError: There is only one environment.
     """
@@ -136,10 +123,6 @@ def halves(examples: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
 
 def pairs(examples: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
     """Return the four folds over environments 1-8 of VEIL-500.
-
-    Args:
-        examples: Examples to test.
-        pool: Candidates for training.
 
     Raises:
         TmdError: There is nothing to test or to train on.

@@ -108,9 +108,6 @@ class EvaluationJob:
     """One unit of work.
 
     Attributes:
-        model: The model's name.
-        training_set: The training set's name.
-        folds: The names of the folds to test.
         saved: What was learned when the unit was done before, if it was.
     """
 
@@ -265,12 +262,10 @@ def _record(
         EED=round(scores.eed, DIGITS),
         EED_trim=round(scores.eed_trim, DIGITS),
         clauses=tuple(
-            PredictedClause(
-                text=served.text,
-                verb=served.verb,
+            PredictedClause.copied(
+                served,
                 latent=written(served.latent),
                 said=written(served.said),
-                source=served.source,
                 factors={name: round(value, DIGITS) for name, value in served.factors.items()},
             )
             for served in prediction.served

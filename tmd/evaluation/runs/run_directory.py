@@ -39,12 +39,7 @@ class _Log(logging.FileHandler):
 
 
 class RunDirectory:
-    """A run's directory.
-
-    Args:
-        path: Where it is.
-        identity: What decides the outcome of the run.
-    """
+    """A run's directory."""
 
     def __init__(self, path: Path, identity: dict[str, Any]) -> None:
         self.path = path

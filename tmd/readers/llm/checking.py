@@ -62,10 +62,8 @@ class ModelReading:
     Attributes:
         parsed: Its clauses, and the pieces of the request that none of them covers.
         steps: The steps in the order of doing.
-        constraints: Prohibitions and exceptions.
         refusal: Why the model refuses the request; ``None`` where it does not.
         question: Its question to the user; ``None`` where it has none.
-        thoughts: Its own explanation.
     """
 
     parsed: Parsed
@@ -77,12 +75,7 @@ class ModelReading:
 
 
 class ReplyChecker:
-    """The checks of replies to one request in one environment.
-
-    Args:
-        request: The request.
-        world: The environment.
-    """
+    """The checks of replies to one request in one environment."""
 
     def __init__(self, request: str, world: World) -> None:
         self.request = request
@@ -280,7 +273,7 @@ class ReplyChecker:
                 continue
             if isinstance(part, Atom):
                 return why_never(GroundAtom(part.predicate, part.terms), self.task)
-            return f"no action of the domain can bring about {' '.join(format_formula(part).split())}"
+            return f"no action of the domain can bring about {format_formula(part)}"
         return "its parts exclude each other"
 
     # ------------------------------------------------------------------ words

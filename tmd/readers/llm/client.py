@@ -75,7 +75,6 @@ class ModelSettings:
         key: The key; ``$OPENAI_API_KEY`` by default. Servers with an address of their own may need none.
         cache: ``on`` keeps replies and uses them again, ``only`` never asks the server, ``off`` always does.
         timeout: Seconds to wait for a reply.
-        seed: The seed that is sent to the server.
     """
 
     model: str | None = None

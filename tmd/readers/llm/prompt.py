@@ -44,10 +44,8 @@ class Prompt:
 
     Attributes:
         system: Rules and domain: the same for all requests of a domain.
-        user: Environment and request.
         domain: The part of ``system`` about the domain alone.
         environment: The part of ``user`` about the environment alone.
-        notes: What was left out.
     """
 
     system: str
@@ -143,7 +141,7 @@ def _action(action: ActionSchema) -> str:
     head = f"({' '.join([action.name, _typed(action.parameters)]).strip()})"
     if action.comment:
         return f"{head} ; {one_line(action.comment)}"
-    needs = " ".join(format_formula(action.precondition).split())
+    needs = format_formula(action.precondition)
     effects = " ".join(" ".join(format_effect(effect).split()) for effect in action.effects)
     return f"{head} needs {needs} makes {effects}"
 

@@ -157,15 +157,7 @@ class _Guard:
 
 
 class LLMDialogue(Dialogue):
-    """A request as a language model read it.
-
-    Args:
-        reading: The checked reply.
-        world: The environment.
-        prompt: The prompt.
-        messages: All messages so far.
-        usage: The effort so far.
-    """
+    """A request as a language model read it."""
 
     asks = True  # a request that asks for nothing is refused
 

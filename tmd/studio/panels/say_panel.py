@@ -17,6 +17,7 @@ from tmd.grounded import Grounded, why_refused
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.plan_file import format_plan
 from tmd.pddl.semantics import holds
+from tmd.pddl.writer import format_formula
 from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.clause_spans import clean
@@ -28,10 +29,10 @@ from tmd.studio.visitor import Panel, Visitor, chosen, put
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
-from tmd.view.grounding_record import flat, option_texts
+from tmd.view.grounding_record import option_texts
 from tmd.view.markup import style
-from tmd.view.object_rows import object_rows
 from tmd.view.panels import changed, effort, fragment, goal_list, judgement, step_list
+from tmd.view.state_graph import object_rows
 from tmd.view.subject import planned_steps
 from tmd.world.demonstration import Demonstration
 
@@ -376,7 +377,7 @@ class SayPanel(Panel):
             for option, text in zip(question.options, texts, strict=True):
                 answered = replace(request, answers={**request.answers, question.step: option.formula})
                 answer = partial(self._answer, grounded, answered)
-                self._options.append(visitor.button(text, answer, hint=flat(option.formula)))
+                self._options.append(visitor.button(text, answer, hint=format_formula(option.formula)))
 
     def _number(self) -> int:
         """Return the number of the plan that is looked at, or that the robot does, from 0."""

@@ -1,8 +1,9 @@
-"""The report on a copy of VEIL-500: counts of what was found and dropped (``tmd data check``)."""
+"""Counts of what a copy of VEIL-500 holds and what is dropped: ``python -m experiments.veil500_report VEIL500``."""
 
 from __future__ import annotations
 
 import re
+import sys
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -13,12 +14,10 @@ from tmd.datasets.veil500.data import Point, VeilData, load
 from tmd.datasets.veil500.forms import mentioned, veil_domain
 from tmd.datasets.veil500.relations import initial_relations, unsupported
 from tmd.pddl.forced_execution import ForcedExecution
-from tmd.short_repr import short_repr
 
 _WORD = re.compile(r"[a-z0-9']+")
 
 
-@short_repr(lambda report: report.directory)
 @dataclass(frozen=True, slots=True)
 class DataReport:
     """Counts, by section, and remarks that a reader should know.
@@ -196,3 +195,7 @@ def _remarks(data: VeilData) -> tuple[str, ...]:
         for point, form in unknown_forms(data)
     ]
     return tuple(remarks)
+
+
+if __name__ == "__main__":
+    print(check_veil500(sys.argv[1]).text(), end="")
