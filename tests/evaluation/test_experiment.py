@@ -264,8 +264,10 @@ def test_templates_are_those_of_the_folder_whatever_its_domain_is_called(tmp_pat
     with pytest.raises(TmdError, match=r"'02_table' has no templates\.yaml"):
         run(config(tmp_path / "none", models=("empty", "templates"), **table))
     assert not list((tmp_path / "none").glob("**/*.jsonl"))
-    template = "{verb: put, objects: [x], variables: {x: cup}, instructions: moveto ?x}"
-    (domains / "02_table" / "templates.yaml").write_text(f"kinds: {{cup: {{types: item}}}}\ntemplates: [{template}]\n")
+    template = "{verb: put, objects: [x], variables: {x: beaker}, instructions: moveto ?x}"
+    (domains / "02_table" / "templates.yaml").write_text(
+        f"kinds: {{beaker: {{types: item, called: [cup]}}}}\ntemplates: [{template}]\n"
+    )
     run(config(tmp_path / "out", models=("templates",), **table))
     assert "moveto(cup1)" in (tmp_path / "out" / "predictions.jsonl").read_text()
 
