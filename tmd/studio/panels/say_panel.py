@@ -288,13 +288,8 @@ class SayPanel(Panel):
         """Report the number of plans, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            more = (
-                _ASKED
-                if grounded.question is not None
-                else f"{self._run.over or _STOPPING} {_BACK}"
-                if self._run
-                else None
-            )
+            back = f"{self._run.over or _STOPPING} {_BACK}" if self._run else None
+            more = _ASKED if grounded.question is not None else back
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
@@ -417,7 +412,10 @@ class SayPanel(Panel):
         over = run.ended.is_set() and bool(run.over)
         self._robot.disabled, self._stop.disabled = not over, over
         if over:
-            self._vain.visible, self._vain.content = bool(run.rejected), _VAIN.format(escape(rejected_page(run.over, run.rejected)))
+            self._vain.visible, self._vain.content = (
+                bool(run.rejected),
+                _VAIN.format(escape(rejected_page(run.over, run.rejected))),
+            )
             self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
         elif run.now is not None:
             said = self._visitor.setting.wording.instruction(run.now.instruction)

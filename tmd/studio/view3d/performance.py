@@ -14,7 +14,7 @@ from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
-from tmd.robot.skills.results import ExecutedStep, SkillStatus
+from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.video.rejected_ways import FailedStep, RejectedWays
 from tmd.robot.video.symbolic_renderer import Colour
 from tmd.studio.environment_view import Reel, Setting
@@ -67,7 +67,6 @@ class RobotRun(Reel):
         moments: The poses, in order; empty until the simulation is there.
         ended: Set to stop the run.
         over: How it ended, in words; empty while it goes on.
-        failed: Whether the robot could not go on.
         rejected: The instructions that failed, with the ways that were tried in vain.
     """
 
@@ -90,7 +89,7 @@ class RobotRun(Reel):
         self.left = list(self._lines)
         self.moments: list[Moment] = []
         self.ended = Event()
-        self.over, self.failed = "", False
+        self.over = ""
         self.rejected: list[FailedStep] = []
 
     @property
@@ -115,7 +114,6 @@ class RobotRun(Reel):
             execution = ran.execution
             reason = f": {execution.reason}" if execution.reason else ""
             self.over = f"The robot's run ended: {execution.status}{reason}."
-            self.failed = execution.status is SkillStatus.STOPPED
         except _StoppedError:
             self.over = f"The robot was stopped, {len(self.done)} of {len(self._orders)} steps done."
         except TmdError as error:
