@@ -632,7 +632,7 @@ def test_what_the_robot_tried_in_vain_is_shown(
             visitor.press("Let the robot do it")
             visitor.told("run ended: stopped: ")
             visitor.shows("✗ stance: no place to stand reaches mug1")
-            visitor.shows("Rejected ways: The robot&#x27;s run ended: stopped: ")
+            visitor.shows("Rejected ways: ")
             visitor.shows("data:image/jpeg;base64,")
     finally:
         served.close()

@@ -1,4 +1,4 @@
-"""What a robot tried in vain: the rejected ways of each failed instruction, with pictures."""
+"""The ways that a robot rejected: what it tried in vain for each failed instruction, with pictures."""
 
 from __future__ import annotations
 
