@@ -414,7 +414,7 @@ class SayPanel(Panel):
         if over:
             self._vain.visible, self._vain.content = (
                 bool(run.rejected),
-                _VAIN.format(escape(rejected_page(run.over, run.rejected))),
+                _VAIN.format(escape(rejected_page(run.setting.name, run.rejected))),
             )
             self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
         elif run.now is not None:
