@@ -412,10 +412,8 @@ class SayPanel(Panel):
         over = run.ended.is_set() and bool(run.over)
         self._robot.disabled, self._stop.disabled = not over, over
         if over:
-            self._vain.visible, self._vain.content = (
-                bool(run.rejected),
-                _VAIN.format(escape(rejected_page(run.setting.name, run.rejected))),
-            )
+            self._vain.visible = bool(run.rejected)
+            self._vain.content = _VAIN.format(escape(rejected_page(run.setting.name, run.rejected)))
             self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
         elif run.now is not None:
             said = self._visitor.setting.wording.instruction(run.now.instruction)
