@@ -37,6 +37,14 @@ NO_TYPES = ("  (:types can bed)\n", "")
 
 # Which file, what is replaced by what, the kind, and what the hint says. Each is repaired by --fix.
 REPAIRED = {
+    "one condition in :init": (
+        "problem",
+        "(at tin roses) (at jug herbs)",
+        "(and (at tin roses) (at jug herbs))",
+        "nested-init",
+        "alone",
+    ),
+    "a colon before domain": ("domain", "(domain garden)", "(:domain garden)", "syntax", "without a colon"),
     "fences": ("domain", "(define (domain", "```lisp\n(define (domain", "foreign-text", "remove"),
     "fences around": ("problem", PROBLEM, f"```\n{PROBLEM}```\n", "foreign-text", "remove"),
     "a sentence before": ("domain", "(define (domain", "Sure (as asked):\n(define (domain", "foreign-text", "remove"),
@@ -369,6 +377,14 @@ REPAIRED = {
 
 # The same, where only the author knows the repair.
 TOLD = {
+    "an object of two types": ("problem", "jug - can", "jug - can tin - bed", "duplicate-name", "rename"),
+    "a predicate of two types": (
+        "domain",
+        "(full ?c - can)",
+        "(full ?c - can) (full ?b - bed)",
+        "duplicate-name",
+        "rename",
+    ),
     "a variable in the goal": ("problem", "(moist roses)", "(moist ?b)", "free-variable", "exists (?b - bed)"),
     "undeclared": (
         "domain",
@@ -432,7 +448,16 @@ def _written(folder: Path, file: str, old: str, new: str) -> list[Path]:
 
 
 def _wrong(found: tuple[Diagnostic, ...]) -> list[Diagnostic]:
-    return [d for d in found if d.severity is Severity.ERROR or d.code in ("section-order", "constant-again")]
+    return [
+        d for d in found if d.severity is Severity.ERROR or d.code in ("section-order", "constant-again", "nested-init")
+    ]
+
+
+def test_a_habit_is_told_once_for_all_actions(tmp_path: Path) -> None:
+    paths = _written(tmp_path, "domain", DOMAIN, DOMAIN.replace(":effect", ":effects"))
+    (told,) = _wrong(check_paths(paths).diagnostics)
+    assert told.code == "unknown-keyword" and len(told.edits) == 2
+    assert _wrong(check_paths(paths, fix=True).diagnostics) == []
 
 
 @pytest.mark.parametrize("name", REPAIRED)

@@ -7,6 +7,7 @@ import json
 import os
 import re
 import shlex
+import shutil
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -253,6 +254,22 @@ def test_a_wrong_configuration_is_refused_before_anything_is_written(
         run(config(tmp_path / "out", **changes))
     assert message in str(caught.value)
     assert not (tmp_path / "out" / "metrics.json").exists()
+
+
+def test_templates_are_those_of_the_folder_whatever_its_domain_is_called(tmp_path: Path) -> None:
+    domains = tmp_path / "domains"
+    for name in ("02_table", "base"):  # whose domain is called "table"
+        shutil.copytree(ROOT / "domains" / name, domains / name)
+    table = {"task": "set_table", "domain": "02_table", "domains": domains}
+    with pytest.raises(TmdError, match=r"'02_table' has no templates\.yaml"):
+        run(config(tmp_path / "none", models=("empty", "templates"), **table))
+    assert not list((tmp_path / "none").glob("**/*.jsonl"))
+    template = "{verb: put, objects: [x], variables: {x: beaker}, instructions: moveto ?x}"
+    (domains / "02_table" / "templates.yaml").write_text(
+        f"kinds: {{beaker: {{types: item, called: [cup]}}}}\ntemplates: [{template}]\n"
+    )
+    run(config(tmp_path / "out", models=("templates",), **table))
+    assert "moveto(cup1)" in (tmp_path / "out" / "predictions.jsonl").read_text()
 
 
 def test_means_and_standard_errors() -> None:

@@ -301,6 +301,17 @@ def test_what_one_asks_for_is_handed_over_though_it_lies_within_reach() -> None:
     assert steps(grounded)[-1] == "grasp(remote1)"
 
 
+@pytest.mark.parametrize("said_so", ["next to", "that is next to", "which stands beside"])
+def test_what_is_taken_is_told_by_what_it_stands_next_to(said_so: str) -> None:
+    # beside one another is on the same counter
+    grounded = said("kitchen", "kitchen3", f"Get me the spoon {said_so} the ramen.")
+    assert steps(grounded)[-1] == "grasp(spoon1)"
+
+
+def test_to_navigate_is_to_go() -> None:
+    assert goals(said("kitchen", "kitchen3", "Navigate to the fridge.")) == ["(near pr2 fridge1)"]
+
+
 @pytest.mark.parametrize("lit", ["light the burner", "turn on the stove", "turn the stove on"])
 @pytest.mark.parametrize("kitchen", ["kitchen1", "kitchen2"])
 def test_of_several_burners_that_one_is_lit_on_which_something_was_put(kitchen: str, lit: str) -> None:

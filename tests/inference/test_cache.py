@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import shutil
 from collections.abc import Callable
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
@@ -53,7 +54,7 @@ def same(one: Knowledge, other: Knowledge) -> bool:
     """Whether both know the same templates and the same policy."""
     assert one.reward is not None
     assert other.reward is not None
-    templates = [[repr(t) for verb in k.library.verbs() for t in k.library.templates(verb)] for k in (one, other)]
+    templates = [[asdict(t) for verb in k.library.verbs() for t in k.library.templates(verb)] for k in (one, other)]
     return templates[0] == templates[1] and one.reward.theta.tolist() == other.reward.theta.tolist()
 
 

@@ -130,9 +130,7 @@ def test_what_never_applies_is_left_out(task: Task) -> None:
 @few_cases
 def test_the_same_bytes_each_time(problem: Problem, task: Task) -> None:
     again = ground(replace(problem, init=frozenset(sorted(problem.init, reverse=True))))
-    assert repr((task.atoms, task.init, task.goal, task.operators)) == repr(
-        (again.atoms, again.init, again.goal, again.operators)
-    )
+    assert (task.atoms, task.init, task.goal, task.operators) == (again.atoms, again.init, again.goal, again.operators)
     assert list(task.atoms) == sorted(task.atoms)
     assert [o.instruction for o in task.operators] == sorted(o.instruction for o in task.operators)
 

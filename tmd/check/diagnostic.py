@@ -40,8 +40,8 @@ _ERRORS = (
 _WARNINGS = (
     "missing-requirement", "unsupported-requirement", "odd-name", "glued-variable", "type-twice",
     "undeclared-parent", "variable-twice", "glued-dash", "parent-after-child", "empty-condition",
-    "nested-when", "said-twice", "contradictory-effects", "unused-predicate", "unused-parameter", "no-effect",
-    "never-applies", "never-produced", "too-many-cases", "type-without-objects", "unreachable-goal",
+    "nested-when", "nested-init", "said-twice", "contradictory-effects", "unused-predicate", "unused-parameter",
+    "no-effect", "never-applies", "never-produced", "too-many-cases", "type-without-objects", "unreachable-goal",
     "goal-holds", "ambiguous-domain", "constant-again", "section-order",
     "cost-missing", "latin1-comment", "unserved-verb", "unknown-target", "unread-noun", "impossible-goal",
     "idle-phrase", "domain-not-found", "too-many",

@@ -31,6 +31,7 @@ class PlanStep:
     latent: bool
 
 
+@short_repr(lambda choice: f"{choice.source}: " + ", ".join(str(step.instruction) for step in choice.steps))
 @dataclass(frozen=True, slots=True)
 class Choice:
     """The sequence that was chosen for one clause.
@@ -63,6 +64,7 @@ class RejectedProposal:
     reason: str
 
 
+@short_repr(lambda goal: f"{format_formula(goal.formula)} ({goal.why})")
 @dataclass(frozen=True, slots=True)
 class LostGoal:
     """A candidate goal of a step that was not taken.
@@ -80,6 +82,7 @@ class LostGoal:
     planned: bool = False
 
 
+@short_repr(lambda goal: f"{goal} of '{goal.text}'")
 @dataclass(frozen=True, slots=True)
 class StepGoal:
     """The goal of one step of a request, and the part of a plan that brings it about.

@@ -136,6 +136,7 @@ class Condition:
     carried: bool = False
 
 
+@short_repr(lambda clause: f"{clause.verb}({', '.join(clause.objects)}) in {clause.text!r}")
 @dataclass(frozen=True, slots=True)
 class Clause:
     """A verb clause.

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
+from tmd.short_repr import short_repr
 from tmd.world.verb_clause import VerbClause
 from tmd.world.world import Mentions, Profile, Profiles, World, shared
 
 
+@short_repr(lambda template: f"{template.source}: " + ", ".join(map(str, template.instructions)))
 @dataclass(frozen=True, slots=True)
 class Template:
     """One entry of the library, D_s = (C_s, E_s, I_s, ξ_s).

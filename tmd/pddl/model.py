@@ -168,6 +168,7 @@ class Effect:
     location: Location | None = field(default=None, compare=False, repr=False)
 
 
+@short_repr(lambda action: " ".join((action.name, *(p.name for p in action.parameters))))
 @dataclass(frozen=True, slots=True)
 class ActionSchema:
     """An action with variables: what an instruction needs and does.

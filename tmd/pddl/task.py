@@ -42,6 +42,7 @@ class ConditionalEffect(NamedTuple):
     delete: Bits
 
 
+@short_repr(lambda operator: operator.instruction)
 @dataclass(frozen=True, slots=True)
 class Operator:
     """A ground action.

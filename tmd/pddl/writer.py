@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import groupby
+from typing import get_args
 
 from tmd.pddl.model import (
     OBJECT,
@@ -32,6 +33,7 @@ from tmd.pddl.model import (
     parents_first,
     parts_of,
 )
+from tmd.short_repr import short_repr
 
 _WIDTH = 100
 
@@ -173,3 +175,8 @@ def in_lines(word: str, parts: Sequence[str], indent: int) -> str:
         return f"({word})"
     pad = "\n" + " " * indent
     return f"({word}{pad}{pad.join(parts)})"
+
+
+# formulas are of a lower module, which cannot write them
+for _kind in get_args(Formula):
+    short_repr(format_formula)(_kind)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache, partial
@@ -422,6 +421,8 @@ def _in_time(search: Callable[[], Solution], deadline: Deadline) -> Solution:
     It runs in a thread, because Python handles no signals while compiled code runs in the main one. A search that is
     given up goes on until its cap of states, or until the program ends.
     """
+    from concurrent.futures import Future
+
     answer: Future[Solution] = Future()
 
     def run() -> None:

@@ -61,7 +61,7 @@ def kairos_beside(problem: Problem, other: Callable[[Deadline], Solution], deadl
     """Solve a whole problem with kairos, and soon with another planner beside it; the first plan is taken.
 
     Only a plan of kairos counts: all else is for the other planner to find. It begins after some processor time, so
-    that the load of the machine does not decide which of them solves a small problem.
+    that the load of the machine does not decide which of them solves a small problem, and goes first from then on.
 
     Args:
         problem: The problem.
@@ -85,6 +85,7 @@ def kairos_beside(problem: Problem, other: Callable[[Deadline], Solution], deadl
         answer: Solution = GaveUp("")
         failure: TmdError | None = None
         if not found():
+            process.give_way()  # what is not solved by now, the other one solves sooner more often
             try:
                 answer = other(deadline.until(found))
             except TmdError as error:

@@ -11,7 +11,7 @@ from typing import Any, Self
 from tmd import __version__
 from tmd.diagnostics import TmdError
 from tmd.export.trajectory import DEFAULT_RATE, SUFFIXES, open_trajectory, recorders
-from tmd.files import check_writable
+from tmd.files import check_writable, write_text
 from tmd.pddl.model import GroundAtom, Problem
 from tmd.planning.backends import IN_PROCESS
 from tmd.records.run import OrderRecord, RanStep, RunRequest
@@ -23,7 +23,8 @@ from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.video.captions import pillow
 from tmd.robot.video.film import open_movie
-from tmd.robot_trials.explanation import Explanation
+from tmd.robot.video.rejected_ways import RejectedWays
+from tmd.view.markup import rejected_page
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
@@ -105,10 +106,10 @@ class PlanRunner:
             TmdError: The domain has no skills or no shapes, or the scene cannot be built.
         """
         recording, rate, filmed = self._recording, self.rate or DEFAULT_RATE, self._movie or self.strip
-        explained: list[Explanation] = []
+        explained: list[RejectedWays] = []
 
         def listeners(session: SimulationSession) -> Sequence[Listener]:
-            explained.extend([Explanation(session)] if self.explain is not None else [])
+            explained.extend([RejectedWays(session)] if self.explain is not None else [])
             return (*prepare(session), *recorders(session, recording, rate), *explained)
 
         try:
@@ -130,4 +131,4 @@ class PlanRunner:
         finally:
             for explanation in explained:
                 assert self.explain is not None
-                explanation.write(self.explain, heading)
+                write_text(self.explain, rejected_page(heading, explanation.failures))

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from jinja2 import Environment
 
 _DATA = Path(__file__).parent / "data"
@@ -51,3 +53,9 @@ def macro(template: str, name: str, *values: object) -> str:
 def number(value: float) -> str:
     """Format an energy: two decimals, a true minus, and 0 without either."""
     return f"{value:.2f}".replace("-", "−") if round(value, 2) else "0"
+
+
+def rejected_page(heading: str, failures: Sequence[object]) -> str:
+    """Return the page on what a robot tried in vain, :class:`tmd.robot.video.rejected_ways.FailedStep` each."""
+    page = templates().get_template("explanation.html.j2")
+    return page.render(heading=heading, failures=failures, style=style() + data("page.css"))

@@ -6,6 +6,7 @@ import logging
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -91,7 +92,7 @@ def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
     metavar="DIR",
     help="Where VEIL-500 is; $VEIL500_DIR by default.",
 )
-@click.option("--domain", default="kitchen", show_default=True, help="The domain of the bundled data.")
+@click.option("--domain", default="kitchen", show_default=True, help="The domain of the bundled data, or its folder.")
 @click.option(
     "--train-tasks", callback=name_list(), metavar="A,B", help="Training tasks; by default those of the protocol."
 )
@@ -144,8 +145,13 @@ def experiment(
 
     from tmd.evaluation.runs.config import ExperimentConfig
 
+    veil = settings["data"] == "veil500"
+    named = settings["domain"]
+    folder = None if veil else roots.folder(named)
+    if folder and folder.name != named:  # it was written as a path
+        roots, settings["domain"] = replace(roots, domains=folder.path.parent), folder.name
     config = ExperimentConfig(
-        veil500=veil500 if settings["data"] == "veil500" else None,
+        veil500=veil500 if veil else None,
         models=models or (),
         domains=roots.domains,
         problems=roots.problems,

@@ -26,7 +26,6 @@ template is used, and nothing checks that a sequence can be executed.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from typing import Self
 
 import numpy as np
@@ -40,7 +39,6 @@ from tmd.language.lexicon.nouns import WORDNET
 from tmd.library.template import replace
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
-from tmd.world.folder import find_domain
 from tmd.world.world import CONTAINED, World
 
 _LOOSE = (CONTAINED, WORDNET)
@@ -50,43 +48,22 @@ _OF = "of"
 
 
 class PredefinedTemplates:
-    """The row of the table.
-
-    Args:
-        domains: The directory of all domains, if not the usual one.
-    """
-
-    def __init__(self, domains: Path | None = None) -> None:
-        self.domains = domains
-        self.libraries_: dict[str, PredefinedLibrary] = {}
+    """The row of the table."""
 
     def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
-        """Learn nothing; read the library.
+        """Learn nothing; read the library of the domain.
 
         Raises:
             TmdError: There is none, or it is wrong.
         """
-        self.libraries_ = {}
-        for example in examples[:1]:
-            self._library(data.world(example.environment))
+        self.library_ = load_templates(data.folder)
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
-        """Return the template of each clause, one after the other.
-
-        Raises:
-            TmdError: The domain has no library, or a wrong one.
-        """
-        library = self._library(data.world(example.environment))
+        """Return the template of each clause, one after the other."""
         return from_state(
-            example, data, lambda clause, world, state: serve(library, clause, world, state, data.lexicon)
+            example, data, lambda clause, world, state: serve(self.library_, clause, world, state, data.lexicon)
         )
-
-    def _library(self, world: World) -> PredefinedLibrary:
-        name = world.task.problem.domain.name
-        if name not in self.libraries_:
-            self.libraries_[name] = load_templates(find_domain(name, self.domains))
-        return self.libraries_[name]
 
 
 def serve(library: PredefinedLibrary, clause: Clause, world: World, state: Bits, lexicon: Lexicon) -> Made:

@@ -25,7 +25,7 @@ from tmd.pddl.model import Formula, Instruction, Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration, Segment, read_goal
-from tmd.world.folder import find_domain, find_problems
+from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.world import World, make_world
 from tmd.world.yaml_positions import YamlSource
 
@@ -114,6 +114,7 @@ class Dataset(ABC):
     """Examples, and the worlds they were made in.
 
     Args:
+        folder: The domain's folder.
         lexicon: The words of the domain.
         pool: All examples of all tasks, in the data set's order. They may be trained on.
         tested: Tasks of which examples are tested.
@@ -125,11 +126,13 @@ class Dataset(ABC):
 
     def __init__(
         self,
+        folder: DomainFolder,
         lexicon: Lexicon,
         pool: tuple[Example, ...],
         tested: Collection[str],
         files: Mapping[str, tuple[Path, tuple[str, ...]]],
     ) -> None:
+        self.folder = folder
         self.lexicon = lexicon
         self.pool = pool
         self.examples = tuple(example for example in pool if example.task in tested)
@@ -191,7 +194,7 @@ class BundledData(Dataset):
             "domain": (folder.path, ("*.pddl", "*.yaml", "*.txt")),
             "problems": (self.corpus.directory, ("*.jsonl", "*.yaml")),
         }
-        super().__init__(self.corpus.lexicon, pool, tested, files)
+        super().__init__(folder, self.corpus.lexicon, pool, tested, files)
 
     def _example(self, d: Demonstration) -> Example:
         """Return a demonstration with its goal; a faulty goal is reported before anything is done."""
@@ -248,6 +251,7 @@ class VeilDataset(Dataset):
         domains = domain_path("sane").parent
         words = domains / "lexicon.yaml"
         super().__init__(
+            DomainFolder(domains),
             read_lexicon(words) if words.is_file() else Lexicon(),
             tuple(map(_example_of, self._data.points)),
             tasks if task == ALL else [task],

@@ -12,9 +12,14 @@ from dataclasses import dataclass, replace
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.models.model import make_model
+<<<<<<< HEAD
 from tmd.evaluation.report.report import write_report
+=======
+from tmd.evaluation.models.template_file import FILE as TEMPLATES
+from tmd.evaluation.models.template_file import load_templates
+>>>>>>> authors
 from tmd.evaluation.runs.backends import outcomes
-from tmd.evaluation.runs.config import BUNDLED, DEFAULT_MODELS, ExperimentConfig
+from tmd.evaluation.runs.config import DEFAULT_MODELS, ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.evaluation.runs.jobs import units_of
@@ -22,7 +27,6 @@ from tmd.evaluation.runs.provenance import recorded
 from tmd.evaluation.runs.run_directory import RunDirectory
 from tmd.evaluation.summary import summarise
 from tmd.records.metrics import FoldSizes, Metrics
-from tmd.world.folder import find_domain
 
 Progress = Callable[[int, int], None]
 """Called with the number of parts done and of all parts."""
@@ -69,18 +73,19 @@ def run(config: ExperimentConfig, progress: Progress | None = None, *, collect_o
 
 
 def _plan(config: ExperimentConfig) -> _Plan:
-    config = replace(config, models=config.models or _usual_models(config))
     for model in config.models:
         make_model(model)
     data = open_dataset(config)
+    config = replace(config, models=config.models or _usual_models(data))
+    if "templates" in config.models:
+        load_templates(data.folder)  # a fault in them is reported before anything is done
     directory = RunDirectory(config.out, config.identity(data.fingerprint()))
     return _Plan(config, data, folds_of(config, data), directory)
 
 
-def _usual_models(config: ExperimentConfig) -> tuple[str, ...]:
+def _usual_models(data: Dataset) -> tuple[str, ...]:
     """:data:`DEFAULT_MODELS`, but for *Predefined Templates* where nobody has written any for the domain."""
-    bundled = config.data == BUNDLED
-    written = not bundled or (find_domain(config.domain, config.domains).path / "templates.yaml").is_file()
+    written = (data.folder.path / TEMPLATES).is_file()
     return tuple(model for model in DEFAULT_MODELS if written or model != "templates")
 
 

@@ -141,7 +141,9 @@ class Referents:
 
         def comes(relation: str, target: str) -> bool:
             inside = is_relation(relation, "inside") and relation in section("static")
-            return inside and bool(self.nouns.related_now(stuff, relation, self.targets(target, reading), reading.moments))
+            return inside and bool(
+                self.nouns.related_now(stuff, relation, self.targets(target, reading), reading.moments)
+            )
 
         return [(origin if stuff and comes(r, t) else r, t) for r, t in unit.relations]
 

@@ -50,6 +50,7 @@ def _english() -> frozenset[str]:
     return frozenset(data_text("wordnet_words.txt.gz").split())
 
 
+@short_repr(lambda declared: f"{declared.pattern}: {declared.condition}")
 @dataclass(frozen=True, slots=True)
 class Declared:
     """A pattern or an adjective with the PDDL condition that it was given, as written, and its place."""

@@ -247,7 +247,9 @@ def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
     ranked = {}
     for pronoun in places:
         behind = {r.relation for r in clause.relations if r.target == pronoun}
-        alike = {r.target for c in before for r in c.relations if r.relation in behind}  # "into the mug, not … the other"
+        alike = {
+            r.target for c in before for r in c.relations if r.relation in behind
+        }  # "into the mug, not … the other"
         told = sorted(names, key=lambda name: (name not in alike, name not in telling))
         kinds = list(dict.fromkeys(name.rpartition("_")[2] for name in told))
         ranked[pronoun] = (told if pronoun in section("one_words") else kinds) if is_one(pronoun) else names

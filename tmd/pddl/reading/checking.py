@@ -115,9 +115,12 @@ class _Check:
         self.functions = {f.name: f for f in domain.functions}
         self.derived = {axiom.head.predicate for axiom in domain.derived}
         self.declared = objects
-        self.known_objects: dict[str, tuple[str, ...] | None] = {
-            o.name: o.types if len(o.types) == 1 else None for o in objects
-        }
+        self.known_objects: dict[str, tuple[str, ...] | None] = {}
+        for o in objects:  # of one that is declared twice, the type is not known
+            clear = len(o.types) == 1 and self.known_objects.get(o.name, o.types) == o.types
+            self.known_objects[o.name] = o.types if clear else None
+        self.ambiguous = {p.name for p in domain.predicates if self.predicates[p.name] != p}
+        """The predicates that are declared twice, with different parameters."""
         self.of_problem: Problem | None = None
         self.faults: list[TmdError] = []
         self.cyclic: set[str] = set()
@@ -370,6 +373,8 @@ class _Check:
         signature = signatures.get(atom.predicate)
         if signature is None:
             self.unknown(atom, scope, list(signatures), what)
+            return
+        if atom.predicate in self.ambiguous:
             return
         shown = f"({' '.join((signature.name, *(p.name for p in signature.parameters)))})"
         if len(atom.terms) != len(signature.parameters):

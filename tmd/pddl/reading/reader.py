@@ -457,7 +457,7 @@ def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Sourc
     if keyword.text not in PARTS:
         hint = nearest(keyword.text, PARTS, what="parts of an action")
         message = f'"{keyword.text}" is not a part of an action'
-        raise source.error(message, keyword.location, hint, "unknown-keyword", _meant(keyword, PARTS))
+        source.fault_once(message, keyword.location, hint, "unknown-keyword", _meant(keyword, PARTS))
     if keyword.text in seen:
         message = f'"{keyword.text}" appears twice in action "{action}"'
         raise source.error(message, keyword.location, code="duplicate-section")
@@ -651,6 +651,10 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     title, *sections = first.parts[1:]
     if isinstance(title, Word) and title.text == kind and sections and isinstance(sections[0], Word):
         title = _title_in_parentheses(title, sections.pop(0), source)
+    if isinstance(title, Group) and title.head == f":{kind}":
+        message, edit = f"expected ({kind} name), found (:{kind} ...)", replaced(title.parts[0], kind)
+        source.fault_at(message, title.location, f'write "{kind}" without a colon', edits=[edit])
+        title = replace(title, parts=(Word(kind, title.parts[0].location), *title.parts[1:]))
     if not isinstance(title, Group) or title.head != kind or len(title.parts) < 2:
         found = f", found ({title.head} ...)" if isinstance(title, Group) else ""
         raise source.error(f"expected ({kind} name){found}", title.location)
@@ -762,7 +766,7 @@ class InitReader:
         Raises:
             TmdError: An entry is not a ground atom or value, or contradicts another one.
         """
-        for node in _spread(group.parts[1:]):
+        for node in _spread(group.parts[1:], self.source):
             self.source.recover(None, self._read_entry, node)
         for atom in self.denied:
             if atom in self.atoms:
@@ -825,11 +829,17 @@ class InitReader:
         self.values[function] = number
 
 
-def _spread(nodes: Iterable[Node]) -> list[Node]:
-    """Flatten :init, where ``(and a b)`` is the same as ``a b``."""
+def _spread(nodes: Iterable[Node], source: Source) -> list[Node]:
+    """Flatten :init, where ``(and a b)`` is the same as ``a b``; others refuse it."""
     found: list[Node] = []
     for node in nodes:
-        found.extend(node.parts[1:] if isinstance(node, Group) and node.head == "and" else [node])
+        if not isinstance(node, Group) or node.head != "and":
+            found.append(node)
+            continue
+        edits = [Edit(node.location, after(node.parts[0])), Edit(node.end, after(node))]
+        message = '"and" stands in :init, which other planners refuse'
+        source.warn(message, node.location, "write its parts alone", "nested-init", edits)
+        found.extend(node.parts[1:])
     return found
 
 

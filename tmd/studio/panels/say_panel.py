@@ -30,7 +30,7 @@ from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import option_texts
-from tmd.view.markup import style
+from tmd.view.markup import rejected_page, style
 from tmd.view.panels import changed, effort, fragment, goal_list, judgement, step_list
 from tmd.view.state_graph import object_rows
 from tmd.view.subject import planned_steps
@@ -100,6 +100,7 @@ class SayPanel(Panel):
         self._robot = visitor.button("Let the robot do it", self._execute, visible=False)
         self._stop = visitor.button("Stop", visitor.halt, color="red", visible=False)
         self._repair = visitor.button("Correct this plan", self._correct, visible=False)
+        self._vain = gui.add_html("", visible=False)
         self._reached = gui.add_folder("Goals", visible=False)
         with self._reached:
             self._goals = gui.add_html("")
@@ -150,7 +151,7 @@ class SayPanel(Panel):
         """Show what a plan has, or hide it; a robot that does another plan is stopped."""
         self._visitor.halt()
         self._run = None
-        self._robot.disabled, self._stop.disabled = False, True
+        self._robot.disabled, self._stop.disabled, self._vain.visible = False, True, False
         for handle in (self._which, self._repair, self._reached, self._rows, self._files):
             handle.visible = found
         folder, look = self._visitor.studio.corpus.folder, self._visitor.setting.look
@@ -288,13 +289,8 @@ class SayPanel(Panel):
         """Report the number of plans, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            more = (
-                _ASKED
-                if grounded.question is not None
-                else f"{self._run.over or _STOPPING} {_BACK}"
-                if self._run
-                else None
-            )
+            back = f"{self._run.over or _STOPPING} {_BACK}" if self._run else None
+            more = _ASKED if grounded.question is not None else back
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
@@ -417,8 +413,9 @@ class SayPanel(Panel):
         over = run.ended.is_set() and bool(run.over)
         self._robot.disabled, self._stop.disabled = not over, over
         if over:
-            explain = _EXPLAIN.format(run.setting.path, run.setting.name) if run.failed else ""
-            self._visitor.tell(run.over, f"{_BACK if run.done else ''} {explain}".strip() or None, aloud=True)
+            self._vain.visible = bool(run.rejected)
+            self._vain.content = _VAIN.format(escape(rejected_page(run.setting.name, run.rejected)))
+            self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
         elif run.now is not None:
             said = self._visitor.setting.wording.instruction(run.now.instruction)
             self._visitor.tell(f"The robot, step {run.now.number} of {run.now.of}: {said}")
@@ -501,7 +498,7 @@ class SayPanel(Panel):
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
 _BACK = "It is under Plan, to look back."
-_EXPLAIN = "Why: download the plan; tmd run {} --plan {}.plan --explain why.html draws what was tried in vain."
+_VAIN = '<iframe title="What the robot tried in vain" style="width:100%;height:24rem;border:0" srcdoc="{}"></iframe>'
 _STOPPING = "The robot is being stopped."
 _ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."

@@ -14,7 +14,8 @@ from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
-from tmd.robot.skills.results import ExecutedStep, SkillStatus
+from tmd.robot.skills.results import ExecutedStep
+from tmd.robot.video.rejected_ways import FailedStep, RejectedWays
 from tmd.robot.video.symbolic_renderer import Colour
 from tmd.studio.environment_view import Reel, Setting
 from tmd.view.subject import PlannedStep, planned_steps
@@ -66,7 +67,7 @@ class RobotRun(Reel):
         moments: The poses, in order; empty until the simulation is there.
         ended: Set to stop the run.
         over: How it ended, in words; empty while it goes on.
-        failed: Whether the robot could not go on.
+        rejected: The instructions that failed, with the ways that were tried in vain.
     """
 
     def __init__(
@@ -88,7 +89,8 @@ class RobotRun(Reel):
         self.left = list(self._lines)
         self.moments: list[Moment] = []
         self.ended = Event()
-        self.over, self.failed = "", False
+        self.over = ""
+        self.rejected: list[FailedStep] = []
 
     @property
     def lines(self) -> list[PlannedStep]:
@@ -108,10 +110,10 @@ class RobotRun(Reel):
         """
         try:
             environment, problem = load_environment(self.setting.path), self.setting.world.task.problem
-            execution = run_plan(environment, folder, problem, self._orders, prepare=self._prepare).execution
+            ran = run_plan(environment, folder, problem, self._orders, prepare=self._prepare, pictures=True)
+            execution = ran.execution
             reason = f": {execution.reason}" if execution.reason else ""
             self.over = f"The robot's run ended: {execution.status}{reason}."
-            self.failed = execution.status is SkillStatus.STOPPED
         except _StoppedError:
             self.over = f"The robot was stopped, {len(self.done)} of {len(self._orders)} steps done."
         except TmdError as error:
@@ -123,11 +125,12 @@ class RobotRun(Reel):
             self.ended.set()
             self._advanced()
 
-    def _prepare(self, session: SimulationSession) -> tuple[RobotRun]:
-        self._session = session
+    def _prepare(self, session: SimulationSession) -> tuple[RobotRun, RejectedWays]:
+        self._session, rejected = session, RejectedWays(session)
+        self.rejected = rejected.failures
         self._look()
         session.sim.add_watcher(self._watch)
-        return (self,)
+        return self, rejected
 
     def _watch(self, sim: Simulator) -> None:
         """Record every so many steps of the simulation."""

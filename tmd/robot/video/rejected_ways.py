@@ -1,4 +1,4 @@
-"""One HTML page of what a robot tried in vain: the rejected ways of each failed instruction, with pictures."""
+"""The ways that a robot rejected: what it tried in vain for each failed instruction, with pictures."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from math import degrees
-from pathlib import Path
 
-from tmd.files import write_text
 from tmd.pddl.model import GroundAtom
 from tmd.robot.assets.features import robot_colour
 from tmd.robot.monitor.listeners import Title
@@ -19,7 +17,6 @@ from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.video.camera import FOV, Camera
-from tmd.view.markup import data, style, templates
 
 _PICTURE = (400, 300)
 # Pictures of one instruction: neighbours look alike.
@@ -37,7 +34,7 @@ class _Way:
 
 
 @dataclass(frozen=True, slots=True)
-class _Failure:
+class FailedStep:
     """A failed instruction, with its rejected ways, and the number of those without a picture."""
 
     title: Title
@@ -46,8 +43,20 @@ class _Failure:
     more: int
 
 
+<<<<<<< HEAD:tmd/robot_trials/explanation.py
 class Explanation:
     """A listener that takes pictures of rejected ways as they are rejected."""
+=======
+class RejectedWays:
+    """A listener that takes pictures of rejected ways as they are rejected.
+
+    Args:
+        session: A simulation that can take pictures.
+
+    Attributes:
+        failures: The instructions that failed so far.
+    """
+>>>>>>> authors:tmd/robot/video/rejected_ways.py
 
     def __init__(self, session: SimulationSession) -> None:
         self._cell, self._skills = session.cell, session.skills
@@ -55,7 +64,7 @@ class Explanation:
         self._names: list[str] = []
         self._ways: dict[tuple[str, str, frozenset[str]], _Way] = {}
         self._more = 0
-        self._failures: list[_Failure] = []
+        self.failures: list[FailedStep] = []
         session.cell.rejected = self._reject
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
@@ -67,16 +76,7 @@ class Explanation:
     def end(self, title: Title, step: ExecutedStep) -> None:
         """Keep what was rejected if the instruction failed."""
         if step.failure:
-            self._failures.append(_Failure(title, step.failure, tuple(self._ways.values()), self._more))
-
-    def write(self, path: Path, heading: str) -> None:
-        """Write the page.
-
-        Raises:
-            OutputError: It cannot be written.
-        """
-        template = templates().get_template("explanation.html.j2")
-        write_text(path, template.render(heading=heading, failures=self._failures, style=style() + data("page.css")))
+            self.failures.append(FailedStep(title, step.failure, tuple(self._ways.values()), self._more))
 
     def _reject(
         self, what: str, met: frozenset[str], positions: Mapping[str, float], hand: tuple[str, Pose] | None
