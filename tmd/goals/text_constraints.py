@@ -88,9 +88,9 @@ class ConstraintReader:
 
     def _with_named(self, clause: Clause, parsed: Parsed, state: Bits, memory: Memory) -> Memory:
         """Return the memory of what the text names, for a prohibition of another one: "…, not the other lamp"."""
-        if not any(clause.phrase(noun).other for noun in clause.direct):
+        if not any(clause.phrase(noun).other for noun in clause.objects):
             return memory
-        named = {n: self._meant(n, said, state) for said in parsed.clauses for n in said.direct}
+        named = {n: self._meant(n, said, state) for said in parsed.clauses for n in said.objects}
         single = {n: Bound(names) for n, names in named.items() if len(names) == 1 and n not in clause.direct}
         return replace(memory, bound={**memory.bound, **single})
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.goals.text_constraints import is_of_the_end
@@ -78,10 +78,17 @@ def with_unwanted_states(parsed: Parsed) -> Parsed:
     What shall not be so in the end may be so now.
     """
     unwanted = {clause: other for clause in parsed.constraints if (other := _as_state(clause)) is not None}
-    clauses = sorted((*parsed.clauses, *unwanted.values()), key=lambda clause: clause.span)
-    return replace(
-        parsed, clauses=tuple(clauses), constraints=tuple(c for c in parsed.constraints if c not in unwanted)
-    )
+    clauses = in_text_order(parsed.clauses, unwanted.values())
+    return replace(parsed, clauses=clauses, constraints=tuple(c for c in parsed.constraints if c not in unwanted))
+
+
+def in_text_order(clauses: Sequence[Clause], others: Iterable[Clause]) -> tuple[Clause, ...]:
+    """Return clauses in the order of doing, with each of some others behind what the text says before it."""
+    ordered = list(clauses)
+    for other in others:
+        before = (place for place, clause in enumerate(ordered, 1) if clause.span < other.span)
+        ordered.insert(max(before, default=0), other)
+    return tuple(ordered)
 
 
 def _as_state(clause: Clause) -> Clause | None:

@@ -37,7 +37,7 @@ from tmd.readers.interface import (
     Step,
     StepGoals,
 )
-from tmd.readers.rule_steps import USE, RuleStep, about_things, steps_of, with_unwanted_states
+from tmd.readers.rule_steps import USE, RuleStep, about_things, in_text_order, steps_of, with_unwanted_states
 from tmd.world.world import World
 
 
@@ -154,10 +154,10 @@ class RuleDialogue(Dialogue):
         # "the fridge is open, close it" gives a reason
         stated = [said for said in parsed.stated if taken_up.isdisjoint(said.resolved())] if parsed.clauses else []
         untrue = [said for said in stated if _tells_state(said) and self._is_untrue(said, state)]
-        clauses = sorted((*parsed.clauses, *untrue), key=lambda clause: clause.span)
+        clauses = in_text_order(parsed.clauses, untrue)
         told = [clause.span for clause in untrue]
         skipped = tuple(s for s in parsed.skipped if not any(s.span.start <= t.start < s.span.end for t in told))
-        return replace(parsed, clauses=tuple(clauses), skipped=skipped)
+        return replace(parsed, clauses=clauses, skipped=skipped)
 
     def _is_untrue(self, said: Clause, state: Bits) -> bool:
         """Return whether a statement is understood, and not so."""
@@ -188,6 +188,7 @@ class RuleDialogue(Dialogue):
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return StepGoals((), progress, note)
         clause = step.clause
+        progress = replace(progress, memory=self._with_named_before(step, state, progress.memory))
         if clause.mood is Mood.KEEP:
             if clause.result or not self._goals.goes_elsewhere(clause, state, progress.memory):
                 return self._kept(step, state, progress)
@@ -197,6 +198,17 @@ class RuleDialogue(Dialogue):
             idle = (step.optional and _means_nothing(step, found)) or self._is_aside(step, found)
             return StepGoals((), progress, "" if _is_order(clause) else found.message) if idle else found
         return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
+
+    def _with_named_before(self, step: RuleStep, state: Bits, memory: Memory) -> Memory:
+        """Return the memory with what the text names before a step and what is done to it later.
+
+        *Before you shut the fridge, put the milk in*: in the fridge.
+        """
+        place = next(at for at, other in enumerate(self.steps) if other is step)
+        later = [other.clause for other in self.steps[place + 1 :] if isinstance(other, RuleStep)]
+        ahead = (noun for clause in later if clause.span.end < step.clause.span.end for noun in clause.direct)
+        named = (n for noun in ahead if not is_pronoun(noun) for n in self._goals.nouns.things(noun, state)[:1])
+        return replace(memory, recent=tuple(dict.fromkeys((*named, *memory.recent))))
 
     def _kept(self, step: RuleStep, state: Bits, progress: _Progress) -> StepGoals | Refusal:
         """Return what a step keeps as it is."""
@@ -342,7 +354,7 @@ def _of_any(clause: Clause) -> bool:
 
 def _means_nothing(step: RuleStep, refusal: Refusal) -> bool:
     """Return whether an optional step may be left out for a reason."""
-    if step.loose:
+    if step.loose or _is_order(step.clause):
         return True
     unread = {RefusalKind.UNKNOWN_VERB, RefusalKind.NOT_UNDERSTOOD, RefusalKind.CONTRADICTION}
     if is_verb(step.clause.verb, "parting"):

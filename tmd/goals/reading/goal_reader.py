@@ -19,6 +19,7 @@ from tmd.goals.sources.actions import participle
 from tmd.goals.sources.table import ACTIONS, GoalTable
 from tmd.goals.words import (
     BE,
+    IT,
     NEGATED,
     PREPOSITIONS,
     family,
@@ -137,14 +138,20 @@ class GoalReader:
         return placed or refusal
 
     def _placed(self, reading: ClauseReading) -> ClauseGoal | None:
-        """Return the goal of "put on the table" as to put there what was spoken of; ``None`` where it is none."""
+        """Return the goal of "put on the table", or "put the plate in", with what was spoken of; ``None`` for none."""
         clause = reading.clause
         verb, _, particle = clause.verb.partition("_")
-        if "" not in clause.antecedents or clause.relations or not particle:
+        elided = "" in clause.antecedents
+        there = not elided and bool(clause.direct and reading.memory.recent) and is_relation(particle, "resting")
+        if clause.relations or not particle or not (elided or there):
             return None
-        where = tuple(Relation(particle, None, noun) for noun in clause.direct)
         said = reading.again()
-        said.clause = replace(clause, verb=verb, direct=(), relations=where)
+        if elided:
+            where = tuple(Relation(particle, None, noun) for noun in clause.direct)
+            said.clause = replace(clause, verb=verb, direct=(), relations=where)
+        else:
+            where = tuple(Relation(particle, noun, IT) for noun in clause.direct)
+            said.clause = replace(clause, verb=verb, objects=(*clause.objects, IT), relations=where)
         found = self._by_tables(self._own_verbs(said.clause), said)
         return None if isinstance(found, Refusal) else found
 

@@ -122,12 +122,28 @@ class Referents:
             unit.relations += [(without, name) for name in none]
             self._make_room(unit, clause)
             unit.relations = [p for pair in unit.relations for p in self._whereabouts(*pair, reading)]
+            unit.relations = self._with_origins(unit, reading)
             unit.relations = unit.relations or self._of_wholes(unit.direct, clause)
         if clause.implied:
             # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
             for unit, following in reversed(list(pairwise(units))):
                 unit.relations = unit.relations or list(following.relations)
         return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
+
+    def _with_origins(self, unit: Unit, reading: ClauseReading) -> list[tuple[str, str]]:
+        """Return what holds a substance that goes elsewhere as where it comes from.
+
+        *Pour the water in the pot into the cup* is from the pot.
+        """
+        origin = table("relations")["origin"][0]
+        goes = any(r in section("arrivals") - section("static") for r, _ in unit.relations)
+        stuff = self.nouns.substances(unit.direct or "") if goes else ()
+
+        def comes(relation: str, target: str) -> bool:
+            inside = is_relation(relation, "inside") and relation in section("static")
+            return inside and bool(self.nouns.related_now(stuff, relation, self.targets(target, reading), reading.moments))
+
+        return [(origin if stuff and comes(r, t) else r, t) for r, t in unit.relations]
 
     def _of_wholes(self, noun: str | None, clause: Clause) -> list[tuple[str, str]]:
         """Return that a part belongs to the things that facts speak of by it: the dock doors are those of the docks."""
@@ -313,6 +329,7 @@ class Referents:
         nouns = list(clause.antecedents.get(noun, ()))
         if self.puts_back(reading):  # "pour some milk in the bowl and put it back in the fridge": it was in the fridge
             nouns.sort(key=lambda name: not self._were_there(name, noun, reading))
+        nouns.sort(key=self.nouns.is_only_told_of)  # "put the cover on the boat and move it": the boat
         seen = {n for name in nouns if name in memory.bound for n in memory.bound[name].names}
         return [*((name, False) for name in nouns), *((name, True) for name in memory.recent if name not in seen)]
 

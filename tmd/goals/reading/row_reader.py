@@ -265,9 +265,34 @@ class RowReader:
         reading.clause = clause
         if isinstance(found, Refusal):
             return None
+        if self._elsewhere(found[0], measure.name, reading):
+            return self._with_contents(rows, unit, reading)
         if unit.direct is not None and inner in reading.meant:
             reading.meant.setdefault(unit.direct, reading.meant[inner])
         return found
+
+    def _elsewhere(self, formula: Formula, measure: str, reading: ClauseReading) -> bool:
+        """Return whether a goal is about other things than those that a measure names: coffee in a mug, not a glass."""
+        named = set(self.nouns.things(measure, reading.state))
+        held = {n for atom in atoms_of(formula) for n in atom.args if not self.nouns.is_constant(n)}
+        return bool(named and held) and named.isdisjoint(held)
+
+    def _with_contents(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read | None:
+        """Return *a glass of coffee with milk* as one glass that has all of it."""
+        contained = the_word("relations", "partitive")
+        inner = [t for r, t in unit.relations if is_relation(r, "partitive") or is_relation(r, "accompanying")]
+        others = [(r, t) for r, t in unit.relations if t not in inner]
+        ways: list[Formula] = []
+        used: GoalRow | None = None
+        for name in self.nouns.things(unit.direct or "", reading.state):
+            reading.taken = {unit.direct or "": name}
+            found = [self._unit(rows, Unit(unit.direct, [(contained, t), *others]), reading) for t in inner]
+            goals = [goal for goal in found if not isinstance(goal, Refusal)]
+            if len(goals) == len(inner):
+                ways.append(conjunction(formula for formula, _ in goals))
+                used = goals[-1][1]
+        reading.taken = {}
+        return (disjunction(ways), used) if used is not None else None
 
     def _too_few(self, measure: NounPhrase, inner: str, reading: ClauseReading) -> bool:
         held = self.nouns.holders(measure.name, self.referents.targets(inner, reading), reading.moments)

@@ -184,7 +184,9 @@ def _numbered(matches: list[Match], noun: _Noun) -> list[Match]:
     """
     if not noun.number:
         return matches
-    carrying = [m for m in matches if _number(m.name) == noun.number]
+    order = sections()["number_order"]
+    called = f"{noun.head}{order[noun.number]}" if noun.number < len(order) else noun.head
+    carrying = [m for m in matches if _number(m.name) == noun.number or "".join(split_name(m.name)).endswith(called)]
     if carrying and not noun.ordinal:
         return carrying
     ordered = sorted(matches, key=lambda m: (-m.score, _natural(m.name)))

@@ -38,10 +38,11 @@ class _Mention(NamedTuple):
 
 
 class _Scene(NamedTuple):
-    """The mentions of one clause, for later ones; ``together`` are its direct objects."""
+    """The mentions of one clause, for later ones; ``together`` are its direct objects; where it stands in the text."""
 
     mentions: tuple[_Mention, ...]
     together: tuple[str, ...]
+    at: int = 0
 
 
 def is_one(name: str) -> bool:
@@ -84,7 +85,9 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         scenes += [_alone(c) for condition in conditions if condition.word != TO for c in condition.clauses]
         hosts = [draft.host] if draft.host is not None else []
         hosts += [d for d in hosted.get(id(draft), ()) if d.verb.span < draft.verb.span]  # "before closing it"
-        clause = _resolved(clause, draft, [*scenes, *(_scene(host, host.clause(reading.text)) for host in hosts)])
+        # of "boil it (wash the pot first)" the pot is done first, and mentioned later
+        known = [scene for scene in scenes if scene.at <= draft.verb.span.start] or scenes
+        clause = _resolved(clause, draft, [*known, *(_scene(host, host.clause(reading.text)) for host in hosts)])
         clause = replace(clause, stated=(*clause.stated, *_stated(clause, facts)))
         clauses.append(_missing_state(clause))
         scenes.append(_scene(draft, clause))
@@ -241,9 +244,13 @@ def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
     names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
     places = [name for name in clause.objects if is_pronoun(name)]
     telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
-    told = sorted(names, key=lambda name: name not in telling)
-    kinds = list(dict.fromkeys(name.rpartition("_")[2] for name in told))
-    ranked = {name: (told if name in section("one_words") else kinds) if is_one(name) else names for name in places}
+    ranked = {}
+    for pronoun in places:
+        behind = {r.relation for r in clause.relations if r.target == pronoun}
+        alike = {r.target for c in before for r in c.relations if r.relation in behind}  # "into the mug, not … the other"
+        told = sorted(names, key=lambda name: (name not in alike, name not in telling))
+        kinds = list(dict.fromkeys(name.rpartition("_")[2] for name in told))
+        ranked[pronoun] = (told if pronoun in section("one_words") else kinds) if is_one(pronoun) else names
     antecedents = {name: tuple(found) for name, found in ranked.items() if found}
     return replace(clause, antecedents=antecedents, together=dict.fromkeys(antecedents, 1))
 
@@ -288,7 +295,7 @@ def _alone(clause: Clause) -> _Scene:
     names = _named(clause)
     direct = [n for name in clause.direct for n in clause.meant(name)]
     mentions = tuple(_Mention(name, clause.phrase(name).plural, 0 if name in direct else _LANDMARK) for name in names)
-    return _Scene(mentions, tuple(n for n in names if n in direct))
+    return _Scene(mentions, tuple(n for n in names if n in direct), clause.span.start)
 
 
 def _rank(
@@ -358,7 +365,8 @@ def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
     mentions += [m for phrase in direct for m in _acted_on(phrase, clause, spread)]
     mentions += [m for landmark in draft.landmarks for m in _landmark(landmark, clause)]
     together = [*(name for phrase in direct for name in _meant(phrase, clause)), *elided]
-    return _Scene(tuple(m for m in mentions if _is_name(m.name)), tuple(dict.fromkeys(filter(_is_name, together))))
+    named = tuple(m for m in mentions if _is_name(m.name))
+    return _Scene(named, tuple(dict.fromkeys(filter(_is_name, together))), draft.verb.span.start)
 
 
 def _is_name(name: str) -> bool:

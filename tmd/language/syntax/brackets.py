@@ -24,6 +24,8 @@ RELATIVE = "relative"
 """The form of a preposition that opens what was a relative clause: "the remote that is on the sofa"."""
 ALONE = "alone"
 """The form of a verb that shares no object with the next one."""
+CORRECTION = "correction"
+"""The form of words behind which a speaker says something better: "no wait"."""
 DUTY = "duty"
 """The form of the opener of a statement that demands a state."""
 STATEMENT = "a statement, not an instruction"
@@ -262,6 +264,9 @@ class Bracketer(ClauseEnds):
         if stands or (self.kind(copula) is K.AUX and self.among(copula, "be") and not self.among(copula, "not_forms")):
             place = self.peek(copula, "(IDLE|PARTICIPLE|ING)*")
             place += self.among(place, "loosely")
+            if self.among(copula + 1, "there_words") and self._last() in HEADS:  # "everything that is there"
+                place = copula
+                self.tokens[place].kind, self.tokens[place].text = K.P, first_of("whereabouts")
             there = self.kind(place) is K.P and self.among(place + 1, "there_words")
             if there:  # "the cup that is in there"
                 self.tokens[place + 1].kind, self.tokens[place + 1].text = K.PRON, first_of("singular_pronouns")
@@ -474,12 +479,16 @@ class Bracketer(ClauseEnds):
         """Return whether a speaker says something better from here on: "no wait", "no," behind a sign."""
         no_the = self.kind(at + 1) is K.DET and self.tokens[at].text == first_of("none_words")  # "no the blue one"
         denies = (self.among(at, "none_words") and self.kind(at + 1) is K.COMMA) or no_the
-        signs = self.among(at, "corrections") or (denies and self.kind(at - 1) in (K.COMMA, K.SEP))
-        return signs and bool(self.out) and self.kind(self.peek(at, _GAP)) is not K.NEG
+        signs = self.tokens[at].form == CORRECTION or (denies and self.kind(at - 1) in (K.COMMA, K.SEP))
+        begin = self.peek(at, _GAP)
+        rather = self.kind(begin) is not K.NEG or self.follows(begin, "NEG NP+ COMMA CC? NP+ BREAK")
+        return signs and bool(self.out) and rather
 
     def _corrected(self, at: int) -> int:
         """Take back what the speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
         begin = self.peek(at, _GAP)
+        if self.kind(begin) is K.NEG:
+            return self._put_right(at, begin)
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
         if thing and (end := self._correct_object(at, begin)):
             return end
@@ -491,6 +500,22 @@ class Bracketer(ClauseEnds):
         if not (place or thing):
             self._mention(taken, CORRECTED)
         return begin
+
+    def _put_right(self, at: int, denied: int) -> int:
+        """Put one thing in the place of another that was said: "wash the mug. No, not the mug, the cup"."""
+        comma = self.past(denied + 1, "NP+")
+        begin = comma + 1 + (self.kind(comma + 1) is K.CC)
+        behind = self.past(begin, "NP+")
+        said = [t.text for t in self.tokens[denied:comma] if t.kind in HEADS]
+        heads = (i for i, t in enumerate(self.out) if t.kind in HEADS and t.text in said)
+        end = max(heads, default=-1) + 1
+        start = end
+        while start and self.out[start - 1].kind in NP:
+            start -= 1
+        self.dropped += noted([*self.out[start:end], *self.tokens[at:begin]], CORRECTED)
+        if end:
+            self.out[start:end] = self.tokens[begin:behind]
+        return behind
 
     def _taken_back(self, *, place: bool, thing: bool) -> int:
         """Return where the last place, thing or sentence begins."""
@@ -582,11 +607,22 @@ class Bracketer(ClauseEnds):
             token.kind = K.LET
             return self._let(at) if self.kind(at + 1) is not K.V else at + 1
         token.told = token.told or self._is_told(at)
+        self._go_there(at)
         self.out.append(token)
         self._verb = token
         if self.kind(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1
+
+    def _go_there(self, at: int) -> None:
+        """Begin a unit behind what goes somewhere without a verb: "the mug to the sink, wash it"."""
+        named = self.out[self._subject :]
+        if self._last() is not K.COMMA or self._verb is not None or not self.follows(at + 1, "IDLE* NP"):
+            return
+        goes = any(t.kind is K.P and t.text in section("arrivals") - section("static") for t in named[1:])
+        if goes and named[0].kind is not K.P and not any(t.kind is K.COMMA for t in named[:-1]):
+            named[-1].kind = K.SEP
+            self._begin()
 
     def _has_done(self, at: int) -> bool:
         """Return whether a verb of getting asks for what shall be done to a thing: "have the egg boiled"."""
@@ -721,7 +757,7 @@ class Bracketer(ClauseEnds):
 
     def _deny_ahead(self, at: int) -> None:
         """Put "not" before what is denied: "take the red cup, the blue one not"."""
-        if self._verb is not None and self.follows(at + 1, "IDLE* NP+ NEG BREAK"):
+        if self._verb is not None and self.follows(at + 1, "IDLE* NP+ (P NP+)* NEG BREAK"):
             end = self.first(at + 1, "NEG")
             self.tokens[at + 1 : end + 1] = [self.tokens[end], *self.tokens[at + 1 : end]]
 

@@ -117,7 +117,8 @@ class ClauseDraft:
         """Give what it acts on the places that another clause gives its things."""
         self.landmarks += other.landmarks
         moved, named = {p.name for p in other.direct}, {p.name for p in other.landmarks}
-        places = {r.relation: r.target for r in other.relations if r.source in moved and r.target in named}
+        given = (r for r in other.relations if r not in other.stated)
+        places = {r.relation: r.target for r in given if r.source in moved and r.target in named}
         self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
 
     def unmoved(self) -> list[Relation]:

@@ -28,11 +28,11 @@ class ClauseEnds(Words):
 
     def _goes_on_behind(self, at: int) -> bool:
         """Return whether something else than a statement goes on behind a comma or a conjunction."""
-        if self.follows(at, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX"):
+        if self.follows(at, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX | LINKS+ IDLE* AUX SUBJECT"):
             return True
         if self.kind(at) not in LINKS:
             return False
-        if self.follows(at + 1, "IDLE* NP+ NEG BREAK"):
+        if self.follows(at + 1, "IDLE* NP+ (P NP+)* NEG BREAK"):
             return True  # "the red one should be washed, the blue one not"
         said = self.kind(at) is K.COMMA and self._statement_follows(at)
         also = self._too(at + 1 + (self.kind(at + 1) is K.CC))

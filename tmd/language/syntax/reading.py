@@ -365,8 +365,11 @@ class TextReading:
         if not about_things(nodes):
             copy.direct = list(draft.direct)
         self._attach(copy, nodes)
-        placed = trees(nodes, "place") and not all(p.name in section("one_words") for p in copy.direct)
-        if not placed and copy.result is None:
+        placing = draft.verb.stem.partition("_")[0] in section("placing") | section("moving")
+        ones = placing and all(p.name in section("one_words") for p in copy.direct)
+        demanded = draft.verb.stem == BE and about_things(nodes)  # "…, the mug on the shelf shouldn't"
+        copy.result = copy.result or (draft.result if demanded else None)
+        if copy.result is None and (ones or demanded or not trees(nodes, "place")):
             copy.take_places(draft)  # "…, but not the one on the shelf"
         if any(p.said().other for p in copy.direct):
             copy.relations = copy.relations[-1:]  # what tells which one it is, is not said of the other one
