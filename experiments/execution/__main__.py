@@ -17,7 +17,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from experiments.execution.cases import ALL, ONE, demonstrations, goals, plans, with_faults
+from experiments.execution.cases import ALL, ONE, demonstrations, goals, plans, requests, with_faults
 from experiments.execution.record import FAILED, Case, Record, append, read
 from experiments.execution.report import report
 from experiments.execution.run import corpus, planned, run, skills_of
@@ -67,6 +67,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--each", type=_positive, metavar="N", help="at most N demonstrations of one task in one environment")
     add("--plan", action="append", default=[], metavar="ENV=FILE", help="this plan; may be given more than once")
     add("--goals", type=Path, metavar="FILE", help="these goals instead: JSON Lines with name, environment and goal")
+    add("--requests", type=Path, nargs="+", metavar="FILE", help="plans of sentence tests instead, drawn by the seed")
+    add("--draw", type=_positive, default=60, metavar="N", help="so many requests; default 60")
     add("--physics", action="store_true", help="under physics, not kinematically")
     add("--faults", type=_names, default=(), metavar="KIND", help=f"inject faults: kinds, '{ALL}', or '{ONE}' a run")
     add("--seed", type=int, default=0, metavar="S", help="of everything random; 0, the default: exact places")
@@ -91,6 +93,8 @@ def _execute(asked: argparse.Namespace) -> None:
     chosen = {"tasks": asked.tasks, "environments": asked.environments, "every": asked.every, "each": asked.each}
     if asked.goals is not None:
         cases = goals(asked.goals, blank)[:: asked.every]
+    elif asked.requests is not None:
+        cases = requests(asked.requests, asked.draw, blank)
     else:
         cases = list(plans(found, blank, asked.plan)) or demonstrations(found, blank, **chosen)
     if asked.faults:

@@ -1,4 +1,4 @@
-"""Which runs are asked for: demonstrations or plans, in which environments, with which faults."""
+"""Which runs are asked for: demonstrations, plans or requests, in which environments, with which faults."""
 
 from __future__ import annotations
 
@@ -13,10 +13,15 @@ import numpy as np
 from experiments.execution.faults import InjectedFault, opportunities
 from experiments.execution.record import Case
 from tmd.diagnostics import TmdError
+from tmd.domain_kit import DomainKit
+from tmd.evaluation.sentence_tests import judge
 from tmd.pddl.plan_file import parse_instruction, read_plan
 from tmd.pddl.reading.syntax import read_text
+from tmd.records.sentence_test import Outcome
 from tmd.robot.skills.skill_file import Skills
 from tmd.world.corpus import Corpus
+from tmd.world.roots import Roots
+from tmd.world.sentence_file import read_sentences
 
 ALL, ONE = "all", "one"
 
@@ -84,6 +89,37 @@ def goals(file: Path, blank: Case) -> list[Case]:
         beside = file.parent / said["environment"]
         where = str(beside) if beside.suffix == ".yaml" else said["environment"]
         found.append(replace(blank, name=said["name"], task="goals", environment=where, goal=said["goal"]))
+    return found
+
+
+def requests(files: Iterable[Path], count: int, blank: Case) -> list[Case]:
+    """Some cases, drawn by the seed of ``blank``: plans of sentence tests that end in what is asked.
+
+    Tests of domains without skills are left out.
+
+    Raises:
+        TmdError: A file cannot be read, or is wrong.
+    """
+    roots = Roots()
+    tests = [t for file in files for t in read_sentences(file) if t.goal is not None]
+    folders = {name: roots.folder(name) for name in {t.domain for t in tests}}
+    kits = {n: DomainKit(roots.corpus(f)) for n, f in folders.items() if (f.path / "skills.yaml").is_file()}
+    tests = [t for t in tests if t.domain in kits]
+    found: list[Case] = []
+    for number in np.random.default_rng(blank.seed).permutation(len(tests)):
+        test = tests[int(number)]
+        grounded = kits[test.domain].ground(test.text, test.environment)
+        result = judge(test, grounded, grounded.world.task.problem)
+        if result.outcome is Outcome.RIGHT and result.plan:
+            plan = next(
+                tuple(map(str, p.instructions))
+                for p, v in zip(grounded.plans, grounded.verdicts, strict=True)
+                if v.valid
+            )
+            case = replace(blank, name=test.id, domain=test.domain, task="requests", environment=test.environment)
+            found.append(replace(case, plan=plan, end_state=(test.goal or "",)))
+        if len(found) == count:
+            break
     return found
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 import time
 import traceback
 from collections import Counter
@@ -18,7 +17,8 @@ from experiments.execution.record import FAILED, Case, FaultRecord, Record, Time
 from experiments.execution.recorder import Recorder
 from experiments.execution.trace import Trace
 from tmd.diagnostics import TmdError
-from tmd.pddl.model import And, GroundAtom, State
+from tmd.pddl import semantics
+from tmd.pddl.model import And, GroundAtom, Problem, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.writer import format_formula
@@ -122,7 +122,7 @@ def _run(case: Case) -> Record:
         faults=tuple(FaultRecord(what=fault.text, tick=fault.tick) for each in faulty for fault in each.log),
         fault_missing=faulty[0].missing() if faulty else "",
         lasting=tuple(map(str, execution.lasting)),
-        goal=tuple(literal for literal in case.end_state if not holds(literal, execution.state)),
+        goal=tuple(literal for literal in case.end_state if not holds(literal, execution.state, problem)),
         setup=round(ready - begin, 3),
         seconds=round(seconds, 3),
         cpu=round(used, 3),
@@ -175,9 +175,6 @@ def _record(case: Case, **told: object) -> Record:
     return Record.model_validate({**asked, "seed": seed, **nothing, "trajectory": "", "repeated": None, **told})
 
 
-def holds(literal: str, state: State) -> bool:
-    """Whether ``(at mug1 table1 on)`` or ``(not (hot mug1))`` holds."""
-    words = re.findall(r"[^\s()]+", literal)
-    denied = words[0] == "not"
-    atom = GroundAtom(words[denied], tuple(words[denied + 1 :]))
-    return (atom in state) is not denied
+def holds(condition: str, state: State, problem: Problem) -> bool:
+    """Whether a PDDL condition, such as ``(not (hot mug1))``, holds."""
+    return semantics.holds(with_goal(problem, condition).goal, state, problem)

@@ -144,5 +144,17 @@ def test_many_parts_are_reached_one_after_another() -> None:
     assert len(answer.plan) == 2 * len(lamps) - 1
 
 
+def test_an_instruction_may_reach_more_than_it_was_made_ready_for(any_kitchen: Callable[[str], Task]) -> None:
+    """Powder and water in a cup that heats: waiting makes it hot, and makes coffee of the powder that was put in."""
+    task = any_kitchen("kitchen1")
+    index = {str(atom): number for number, atom in enumerate(task.atoms)}
+    wanted = ("(contains cup1 coffee)", "(contains cup1 sugar)", "(hot cup1)")
+    goal = (Cube(sum(1 << index[atom] for atom in wanted), 0),)
+    assert isinstance(PartByPart(task).fill(task.init, goal), GaveUp)
+    answer = PartByPart(task, patient=True).fill(task.init, goal)
+    assert isinstance(answer, Filled) and goal[0].holds(answer.state)
+    assert goal[0].holds(task.trace(task.init, answer.plan)[-1])
+
+
 def test_parts_that_exclude_each_other_are_given_up(pantry: Task) -> None:
     assert isinstance(PartByPart(pantry).fill(pantry.init, (Cube(1, 1),)), GaveUp)

@@ -69,6 +69,14 @@ def test_two_can_be_held_and_three_cannot(any_kitchen: Kitchen) -> None:
     assert "holding" in answer.reason
 
 
+def test_what_is_cooked_keeps_the_water_that_it_was_cooked_in(any_kitchen: Kitchen) -> None:
+    task = any_kitchen("kitchen1")
+    mutexes = Mutexes(task, task.init)
+    egg, water = (goal_of(task, f"contains bowl1 {content}") for content in ("boiled_egg", "water"))
+    assert mutexes.clash(Cube(egg.positive, water.positive)) is not None
+    assert mutexes.clash(Cube(egg.positive | water.positive, 0)) is None
+
+
 def test_laws_are_found(pantry: Task) -> None:
     counts = Counts(pantry, pantry.init)
     laws = [(dict(law.weights), law.total) for law in counts.laws]

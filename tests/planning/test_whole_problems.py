@@ -8,21 +8,18 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from tmd.diagnostics import PlannerError, TmdError
-from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.task import Task
 from tmd.pddl.validator import validate
 from tmd.planning import processes, up_planners
-from tmd.planning.backends import GapsAsProblems, solve
-from tmd.planning.fast_downward import first_plan_of_gap
+from tmd.planning.backends import solve
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Solved, Unreachable
 from tmd.planning.up_planners import EngineSpec, solve_with_engine
@@ -225,24 +222,6 @@ def test_a_deadline_that_may_end_earlier_keeps_its_name() -> None:
     assert earlier.seconds == 60.0 and earlier.left() > 0
     done.append(None)
     assert earlier.left() == 0 and deadline.left() > 0
-
-
-@pytest.mark.parametrize(
-    ("search", "translator", "found"),
-    [
-        ("sleep 1.5; echo '(light)' > $plan", "", True),
-        ("while :; do :; done", "", False),
-        ("true", "while True: pass", False),
-    ],
-)
-def test_only_time_of_the_processor_ends_a_search_for_a_gap(
-    fake: FakeDownward, search: str, translator: str, found: bool
-) -> None:
-    """What else the machine does shall not decide what a robot does."""
-    fake.does(search, translator)
-    task = ground(lamp("(lit)"))
-    answer = GapsAsProblems(task, partial(first_plan_of_gap, seconds=1)).fill(task.init, task.goal)
-    assert isinstance(answer, Filled) if found else answer == GaveUp("1 s of Fast Downward")
 
 
 def test_a_planner_that_never_reads_gave_up(fake: FakeDownward) -> None:

@@ -197,10 +197,11 @@ def test_tables_are_put_into_a_page(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert main(where) == ExitCode.BAD_INPUT and "no place for tables" in capsys.readouterr().err
 
 
-def test_literals_and_masks() -> None:
-    state = frozenset({GroundAtom("at", ("mug1", "table1", "on"))})
-    assert holds("(at mug1 table1 on)", state) and not holds("(not (at mug1 table1 on))", state)
-    assert holds("(not (hot mug1))", state) and not holds("(hot mug1)", state)
+def test_conditions_and_masks() -> None:
+    problem = Roots().world("kitchen1")[1].task.problem
+    state = frozenset({GroundAtom("at", ("mug1", "sink1", "in"))})
+    assert holds("(at mug1 sink1 in)", state, problem) and not holds("(not (at mug1 sink1 in))", state, problem)
+    assert holds("(exists (?m - mug) (at ?m sink1 in))", state, problem) and not holds("(hot mug1)", state, problem)
     assert masked("no way to -0.40 1.25: 3 ways") == "no way to #: # ways"
 
 

@@ -11,9 +11,9 @@ from threading import Thread
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.model import And, Atom, Formula, Instruction, Not, Or, Problem
+from tmd.pddl.model import And, Atom, Formula, Instruction, Not, Problem
 from tmd.pddl.reading.syntax import nearest
-from tmd.planning.fast_downward import binaries, fast_downward, first_plan_of_gap
+from tmd.planning.fast_downward import binaries, fast_downward
 from tmd.planning.kairos import kairos, kairos_beside
 from tmd.planning.processes import Deadline, TimeIsUpError, limited, memory_limit
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved, Unreachable, filled
@@ -21,6 +21,7 @@ from tmd.planning.up_planners import EngineSpec, fast_downward_engine, require_u
 
 if TYPE_CHECKING:
     from tmd.pddl.task import Bits, Cube, Operator, Task
+    from tmd.planning.search.in_process import OptimalSearch
 
 IN_PROCESS = "in-process"
 """The optimal search of this package, the default."""
@@ -95,7 +96,7 @@ def fast_downward_for_gaps(task: Task, *, time_limit: float = 60.0) -> Planner:
 
 def _gaps_by_engine(task: Task, engine: EngineSpec) -> Planner:
     require_unified_planning()
-    return GapsAsProblems(task, partial(solve_with_engine, engine=engine), together=False)
+    return GapsAsProblems(task, partial(solve_with_engine, engine=engine))
 
 
 def _engine(name: str) -> str:
@@ -108,14 +109,8 @@ def _unknown(name: str, known: Sequence[str]) -> TmdError:
 
 
 def last_resort(task: Task) -> Planner:
-    """Return the planner, content with any plan, for the goals that the optimal search gave up on.
-
-    A plan that our greedy search finds soon is about as good as one of Fast Downward, and there at once. A plan that it
-    finds late is worse, so then Fast Downward is asked, where it is installed.
-    """
-    if find_spec("up_fast_downward") is None:
-        return make(IN_PROCESS_FIRST, task)
-    return InTurn((soon(task), GapsAsProblems(task, first_plan_of_gap)))
+    """Return the planner, content with any plan, for the goals that the optimal search gave up on."""
+    return InTurn((soon(task), PartByPart(task, patient=True)))
 
 
 def soon(task: Task) -> Planner:
@@ -150,25 +145,23 @@ class TaskPlanners:
         """Return the planner that is asked where the quick one gave up; a ``brief`` one gives up after some seconds."""
         if brief:
             return soon(task)
-        if task is not self._task:
-            return InTurn((soon(task), make(IN_PROCESS_FIRST, task)))
-        return last_resort(task) if self._name == IN_PROCESS else make(self._name, task)
+        ours = self._name == IN_PROCESS or task is not self._task
+        return last_resort(task) if ours else make(self._name, task)
 
 
 class GapsAsProblems:
     """Fills gaps with a planner for whole problems, which executes its plans before it returns them.
 
+    Where a goal has several cubes, it is asked cube by cube, and the cheapest answer is taken.
+
     Args:
         task: The instantiated problem.
         solver: The planner.
-        together: Whether it is asked for a disjunction, where a goal has several cubes; otherwise it is asked cube by
-            cube, and the cheapest answer is taken.
     """
 
-    def __init__(self, task: Task, solver: Callable[[Problem], Solution], *, together: bool = True) -> None:
+    def __init__(self, task: Task, solver: Callable[[Problem], Solution]) -> None:
         self._task = task
         self._solver = solver
-        self._together = together
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
         """Return the instructions from ``state`` to any cube of ``goal`` that the planner finds.
@@ -178,9 +171,7 @@ class GapsAsProblems:
         """
         if any(cube.holds(state) for cube in goal):
             return Filled((), state, 0)
-        wanted: list[Formula] = [_formula(self._task, cube) for cube in goal if not cube.positive & cube.negative]
-        if self._together and len(wanted) > 1:
-            wanted = [Or(tuple(wanted))]
+        wanted = [_formula(self._task, cube) for cube in goal if not cube.positive & cube.negative]
         answer = _best([self._answer(state, formula) for formula in wanted])
         if isinstance(answer, Unreachable):
             from tmd.planning.unsolvable import unreachable_reason  # imports numpy, which whole problems do not need
@@ -241,6 +232,7 @@ class PartByPart:
 
     Args:
         task: The instantiated problem.
+        patient: Whether an instruction is made ready before a far part is looked for, which leaves time for more parts.
     """
 
     # Generated states after which the optimal search for one part gives up, then the greedy one, and all together.
@@ -248,69 +240,82 @@ class PartByPart:
     # Maximum number of instructions that are made ready for one another.
     DEPTH = 2
 
-    def __init__(self, task: Task) -> None:
+    def __init__(self, task: Task, *, patient: bool = False) -> None:
         from tmd.planning.search.in_process import FirstSearch, OptimalSearch
 
         self._task = task
-        self._searches = OptimalSearch(task, cap=self.SHORT), FirstSearch(task, cap=self.LONG)
+        self._short, self._long = OptimalSearch(task, cap=self.SHORT), FirstSearch(task, cap=self.LONG)
+        self._orders = ((self._short,), (self._long,)) if patient else ((self._short, self._long), ())
         self._left = 0
         self._achievers = cache(lambda part: tuple(self._adding(part)))
 
     def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
         """Return the cheapest plan to one of the alternatives; those with the fewest open parts are tried first."""
         self._left = self.ALL
-        plans = (self._parts(state, cube, self.DEPTH) for cube in sorted(goal, key=partial(_open, state)))
+        plans = (self._parts(state, cube, cube, self.DEPTH) for cube in sorted(goal, key=partial(_open, state)))
         found = [answer for answer in plans if answer is not None]
         return min(found, key=lambda answer: answer.cost) if found else GaveUp("the parts of the goal")
 
-    def _parts(self, state: Bits, cube: Cube, depth: int) -> Filled | None:
-        """Return a plan for one alternative."""
+    def _parts(self, state: Bits, cube: Cube, purpose: Cube, depth: int) -> Filled | None:
+        """Return a plan for one alternative, or for its purpose: water that heats may cook what is in it at once."""
         plan: tuple[Instruction, ...] = ()
         cost, known = 0, dict.fromkeys(_literals(cube), 0)
-        while not cube.holds(state):
+        while not (cube.holds(state) or purpose.holds(state)):
             kept = cube._replace(positive=cube.positive & state, negative=cube.negative & ~state)
             parts = sorted((p for p in known if not p.holds(state)), key=lambda p: known[p])
-            best = self._nearest(state, kept, parts, known)
+            before, after = self._orders
+            best = self._nearest(before, state, kept, parts, known)
             if best is None:
-                ready = (self._made_ready(state, kept, part, depth) for part in parts)
+                ready = (self._made_ready(state, kept, part, purpose, depth) for part in parts)
                 best = next((answer for answer in ready if answer is not None), None)
+            best = best or self._nearest(after, state, kept, parts, known)
             if best is None:
                 return None
             plan, state, cost = (*plan, *best.plan), best.state, cost + best.cost
         return Filled(plan, state, cost)
 
-    def _nearest(self, state: Bits, kept: Cube, parts: Sequence[Cube], known: dict[Cube, int]) -> Filled | None:
+    def _nearest(
+        self,
+        searches: Sequence[OptimalSearch],
+        state: Bits,
+        kept: Cube,
+        parts: Sequence[Cube],
+        known: dict[Cube, int],
+    ) -> Filled | None:
         """Return the cheapest plan to one of several parts; ``known`` has what each cost last."""
         best: Filled | None = None
         for part in parts:
             if best is not None and best.cost <= known[part]:
                 break
-            answer = self._near(state, kept.joined(part) or part)
+            answer = self._near(searches, state, kept.joined(part) or part)
             known[part] = answer.cost if answer is not None else _FAR
             if answer is not None and (best is None or answer.cost < best.cost):
                 best = answer
         return best
 
-    def _near(self, state: Bits, cube: Cube) -> Filled | None:
+    def _near(self, searches: Sequence[OptimalSearch], state: Bits, cube: Cube) -> Filled | None:
         """Return a plan for a part of a goal that is near."""
-        for search in self._searches if self._left > 0 else ():
+        for search in searches if self._left > 0 else ():
             answer = search.fill(state, (cube,))
             self._left -= search.generated
             if not isinstance(answer, GaveUp):
                 return answer if isinstance(answer, Filled) else None
         return None
 
-    def _made_ready(self, state: Bits, kept: Cube, part: Cube, depth: int) -> Filled | None:
+    def _made_ready(self, state: Bits, kept: Cube, part: Cube, purpose: Cube, depth: int) -> Filled | None:
         """Return a plan that makes an instruction ready which brings about a part, and ends with it."""
-        if not depth or self._left <= 0:
+        wanted = kept.joined(part)
+        if wanted is None or not depth or self._left <= 0:
             return None
         ways = [(o, both) for o, cube in self._achievers(part) if (both := cube.joined(kept)) is not None]
-        for operator, cube in sorted(ways, key=lambda way: _open(state, way[1])):
-            before = self._parts(state, cube, depth - 1)
+        for operator, cube in sorted(ways, key=lambda way: (_open(state, way[1]), self._short.bound(state, way[1:]))):
+            before = self._parts(state, cube, wanted, depth - 1)
+            if before is not None and wanted.holds(before.state):
+                return before
             if before is None or not operator.applicable(before.state):
                 continue
             end = operator.apply(before.state)
-            if kept.holds(end) and part.holds(end):
+            if wanted.holds(end) or purpose.holds(end):
                 return Filled((*before.plan, operator.instruction), end, before.cost + operator.cost)
         return None
 

@@ -7,9 +7,8 @@ an object, may share one. It is under the GPL, and never imported.
 from __future__ import annotations
 
 import re
-import signal
 import sys
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack
 from importlib.util import find_spec
 from pathlib import Path
 from typing import IO
@@ -28,12 +27,6 @@ FIRST = (
     "let(hlm,eval_modify_costs(landmark_sum(lm_factory=lm_reasonable_orders_hps(lm_rhw()),pref=false),cost_type=one),"
     "let(hff,eval_modify_costs(ff(),cost_type=one),"
     "lazy_greedy([hff,hlm],preferred=[hff,hlm],cost_type=one,reopen_closed=false)))"
-)
-# Slower than FIRST, with shorter plans: nobody asked for what fills a gap. FF alone does not see that a full hand takes
-# nothing more: of a goal that clears a table of four things it evaluates two million states in vain, with landmarks
-# beside it 1,700. On the bundled problems the plans are as long.
-FIRST_OF_A_GAP = (
-    "let(hff,ff(),let(hlm,landmark_sum(lm_reasonable_orders_hps(lm_rhw())),eager_greedy([hff,hlm],preferred=[hff])))"
 )
 # The best admissible heuristic that needs no preparation. It takes neither conditional effects nor axioms.
 OPTIMAL = "astar(lmcut())"
@@ -60,14 +53,11 @@ if search:
 _UNSOLVABLE = (10, 11)
 _INCOMPLETE = 12
 _NO_MEMORY = (20, 22, 24)
-_NO_TIME = (21, 23, -signal.SIGXCPU)
 # How the translator may end where it should end with a code for no memory.
 _PYTHON_WITHOUT_MEMORY = ("MemoryError", "SystemError: error return without exception set")
 _UNSUPPORTED = 34
 _EXHAUSTED = "Completely explored state space"
 _AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
-# Seconds by the clock that a process may take for each of its seconds of the processor.
-_PATIENCE = 6
 # Seconds after which the translator alone is stopped: a guard, not part of the result.
 _TRANSLATION = 600.0
 
@@ -111,25 +101,21 @@ class _Downward(ExitStack):
         return [str(self._binaries / "downward"), "--search", search, "--internal-plan-file", path_of(self.plan)]
 
 
-def fast_downward(
-    problem: Problem, *, optimal: bool, deadline: Deadline, search: str | None = None, prove: bool = True
-) -> Solution:
+def fast_downward(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
     """Solve a whole problem with Fast Downward.
 
     Args:
         problem: The problem.
         optimal: Whether the plan must be optimal; otherwise it is the first that is found.
         deadline: The limits.
-        search: The configuration that is asked first; by default the usual one.
-        prove: Whether to look for the reason where there seems to be no plan.
 
     Raises:
         MissingToolError: Fast Downward is not installed.
         PlannerError: It died, or its plan is not valid.
         TmdError: It does not take the problem.
     """
-    first = search or (OPTIMAL if optimal else FIRST)
-    with _Downward(problem, deadline) as files, Prover(problem, deadline) if prove else nullcontext() as prover:
+    first = OPTIMAL if optimal else FIRST
+    with _Downward(problem, deadline) as files, Prover(problem, deadline) as prover:
         with files.translate(first) as process:
             answer = _answer(problem, process, first, files.plan, prover, deadline)
             if answer is not None:
@@ -148,11 +134,11 @@ def _answer(
     process: PlannerProcess,
     search: str,
     plan: IO[bytes],
-    prover: Prover | None,
+    prover: Prover,
     deadline: Deadline,
 ) -> Solution | None:
     """Wait for one search and return its answer; ``None`` where an exhaustive one has to be asked."""
-    reason = prover.watch(process, deadline) if prover else None
+    reason = prover.watch(process, deadline)
     if reason is not None:
         return Unreachable(reason)
     code = process.wait(deadline)
@@ -165,7 +151,7 @@ def _answer(
     # the dead ends of searches that are not optimal prove nothing
     exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.output()
     if code in _UNSOLVABLE or exhausted:
-        reason = prover.explain() if prover else None
+        reason = prover.explain()
         return Unreachable(reason or f"{NAME} looked at every state that can be reached, and the goal holds in none")
     if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search not in _OPTIMAL):
         return None
@@ -176,8 +162,6 @@ def _limit(code: int | None, process: PlannerProcess, deadline: Deadline) -> str
     """Return the limit of time or memory at which a process ended; ``None`` where it ended otherwise."""
     if code is None:
         return f"{deadline.seconds:g} s"
-    if code in _NO_TIME and deadline.processor is not None:
-        return f"{deadline.processor} s"
     without_memory = code == 1 and any(text in process.log() for text in _PYTHON_WITHOUT_MEMORY)
     return deadline.memory_limit() if code in _NO_MEMORY or without_memory else None
 
@@ -240,18 +224,3 @@ def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool,
     if not verdict.valid:
         raise process.failed(f"gave a plan that does not work ({verdict.reason})")
     return Solved(plan, verdict.cost, optimal)
-
-
-def first_plan_of_gap(problem: Problem, seconds: int = 10) -> Solution:
-    """Return the first plan of Fast Downward for a gap that nothing else fills.
-
-    Args:
-        problem: The gap as a problem.
-        seconds: The limit in seconds of the processor: neither the other work of the machine nor its sleep decides the
-            answer. The limit by the clock is a multiple of it, in case the process hangs.
-
-    Raises:
-        MissingToolError, PlannerError, TmdError: As :func:`fast_downward`.
-    """
-    deadline = Deadline(_PATIENCE * seconds, processor=seconds)
-    return fast_downward(problem, optimal=False, deadline=deadline, search=FIRST_OF_A_GAP, prove=False)

@@ -53,7 +53,6 @@ class Deadline:
     Args:
         seconds: Time limit, from now.
         memory: Bytes for each process; ``None`` for most of the machine's memory.
-        processor: Seconds of processor time for each process; ``None`` for no limit.
         over: Whether it ends already, for another reason.
     """
 
@@ -61,12 +60,10 @@ class Deadline:
         self,
         seconds: float,
         memory: int | None = None,
-        processor: int | None = None,
         over: Callable[[], bool] = lambda: False,
     ) -> None:
         self.seconds = seconds
         self.memory = memory
-        self.processor = processor
         self._end = time.monotonic() + seconds
         self._over = over
 
@@ -86,7 +83,7 @@ class Deadline:
 
     def at_most(self, seconds: float) -> Deadline:
         """Return this deadline, or one in ``seconds`` if that is earlier."""
-        return Deadline(min(seconds, self.left()), self.memory, self.processor, self._over)
+        return Deadline(min(seconds, self.left()), self.memory, self._over)
 
 
 class PlannerProcess:
@@ -95,7 +92,7 @@ class PlannerProcess:
     Args:
         name: Name of the planner for messages.
         command: Program and arguments.
-        deadline: Memory and processor time that it may take. The caller watches the time limit.
+        deadline: Memory that it may take. The caller watches the time limit.
         stdin: Standard input; empty by default.
         passed: Files that it inherits under their descriptors.
         environment: Variables that are set in addition to those of this program.
@@ -294,8 +291,6 @@ def _limits(deadline: Deadline, parent: int, nice: int) -> Callable[[], None]:
     library = ctypes.CDLL(None)
     memory = deadline.memory or int(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * _SHARE_OF_MEMORY)
     limits = [(resource.RLIMIT_AS, memory), (resource.RLIMIT_FSIZE, _LARGEST_FILE)]
-    if deadline.processor is not None:
-        limits.append((resource.RLIMIT_CPU, deadline.processor))
 
     def limit() -> None:
         if hasattr(library, "prctl"):

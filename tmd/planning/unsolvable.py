@@ -75,11 +75,10 @@ class _Effect:
 
 @dataclass(frozen=True, slots=True)
 class _Action:
-    """``lost`` is for each effect what cannot survive the action where that effect happens."""
+    """An operator as effects under conditions; the unconditional ones come first."""
 
     precondition: Literals
     effects: tuple[_Effect, ...]
-    lost: tuple[Literals, ...]
 
 
 class Mutexes:
@@ -144,9 +143,7 @@ class Mutexes:
         for condition, (add, delete) in merged.items():
             makes = self._literals(Cube(add, delete & ~add))
             effects.append(_Effect(condition, makes, self._opposite(makes)))
-        precondition = self._literals(operator.precondition)
-        lost = tuple(_lost(effects, precondition | effect.condition) for effect in effects)
-        return _Action(precondition, tuple(effects), lost)
+        return _Action(self._literals(operator.precondition), tuple(effects))
 
     def _context(self, literals: Literals, within: Literals) -> Literals:
         """Return the literals that may hold together with all of ``literals``; 0 where they exclude each other."""
@@ -191,7 +188,8 @@ class Mutexes:
             context = contexts[number]
             if not may[number] or not effect.makes or (same and before is not None and before[number] == context):
                 continue
-            after = context & ~action.lost[number]
+            # what excludes all that may hold with its opposite is certain: cooked food has water around it
+            after = context & ~_lost(action.effects, context & ~self._opposite(context))
             without = ~context
             for condition, makes in live:
                 if not condition & without:

@@ -35,6 +35,9 @@ QUESTION = 5
 GOALS_KEPT = 256
 """Goals whose relaxations a search keeps."""
 
+TASKS_KEPT = 8
+"""Tasks whose flat forms are kept, in lists and in arrays."""
+
 
 class OptimalSearch:
     """Finds the canonical cheapest plan: of the cheapest plans, the first in the order of the operators.
@@ -63,7 +66,7 @@ class OptimalSearch:
         self.backend = chosen(backend)
         self.generated = 0
         self._patience = self.patience if backend == "auto" and self.backend == "numba" and not loaded() else 0
-        self._kernel = self._made("python" if self._patience else self.backend, build(task))
+        self._kernel = self._made("python" if self._patience else self.backend)
 
     def fill(self, state: Bits, goal: Sequence[Cube], cap: int | None = None) -> Answer:
         """Return the missing instructions from ``state`` to any cube of ``goal``; ``cap`` replaces the usual one."""
@@ -72,32 +75,37 @@ class OptimalSearch:
         cubes = tuple(cube for cube in goal if not cube.positive & cube.negative)
         if any(cube.holds(state) for cube in cubes):
             return Filled((), state, 0)
-        status, self.generated, steps = self._run(state, cubes, limit)
+        status, _, self.generated, steps = self._run(state, cubes, limit)
         if status == kernel.CAPPED:
             return GaveUp(f"{limit} generated states")
         if status == kernel.DEAD_END:
             return Unreachable(unreachable_reason(self.task, state, goal))
         return filled(state, [self.task.operators[step] for step in steps])
 
-    def _run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, tuple[int, ...]]:
+    def bound(self, state: Bits, goal: Sequence[Cube]) -> int:
+        """Return a lower bound of what it costs to get from ``state`` to ``goal``."""
+        return 0 if any(cube.holds(state) for cube in goal) else self._run(state, tuple(goal), 0)[1]
+
+    def _run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, int, tuple[int, ...]]:
         """Ask the kernel, and change to the compiled one when it is time."""
         if self._patience > 0:
             small = min(cap, self._patience)
             result = self._kernel.run(state, cubes, small)
-            self._patience -= result[1] + QUESTION
+            self._patience -= result[2] + QUESTION
             if self._patience <= 0:
-                self._kernel = self._made(self.backend, self._kernel.tables)
+                self._kernel = self._made(self.backend)
             if result[0] != kernel.CAPPED or small == cap:
                 return result
         return self._kernel.run(state, cubes, cap)
 
-    def _made(self, backend: str, tables: Tables) -> _Kernel:
+    def _made(self, backend: str) -> _Kernel:
         """Return the kernel in one of its forms."""
+        tables = _tables(_Same(self.task), backend)
         if backend == "python":
             functions = Functions(prepared, kernel.search, greedy.search_any)
             return _Kernel(tables, functions.prepared, getattr(functions, self.entry), list)
         functions = compiled()
-        return _Kernel(arrays(tables), functions.prepared, getattr(functions, self.entry), array)
+        return _Kernel(tables, functions.prepared, getattr(functions, self.entry), array)
 
 
 class FirstSearch(OptimalSearch):
@@ -124,6 +132,25 @@ def chosen(backend: str) -> Literal["numba", "python"]:
     return "numba"
 
 
+class _Same:
+    """A task as a key: equal to nothing but itself, since comparing tasks takes long."""
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.task is other.task
+
+    def __hash__(self) -> int:
+        return id(self.task)
+
+
+@lru_cache(TASKS_KEPT)
+def _tables(same: _Same, backend: str) -> Tables:
+    """Return a task in flat form; several searches of one request share it."""
+    return build(same.task) if backend == "python" else arrays(_tables(same, "python"))
+
+
 class _Kernel:
     """Calls the kernel with a question in flat form, and keeps what it works out about goals."""
 
@@ -136,11 +163,11 @@ class _Kernel:
         self._pack = pack
         self._goal = lru_cache(GOALS_KEPT)(self._prepared)
 
-    def run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, tuple[int, ...]]:
-        """Return the status, the number of generated states and the operators of the plan."""
+    def run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, int, tuple[int, ...]]:
+        """Return the status, the cost or its lower bound, the number of generated states and the plan."""
         start = self._pack(words_of(state, self.tables.words))
-        status, _, generated, plan = self._search(self.tables, self._goal(cubes), start, cap)
-        return int(status), int(generated), tuple(int(step) for step in plan)
+        status, cost, generated, plan = self._search(self.tables, self._goal(cubes), start, cap)
+        return int(status), int(cost), int(generated), tuple(int(step) for step in plan)
 
     def _prepared(self, cubes: tuple[Cube, ...]) -> Goal:
         fact_start, fact = rows(literals(cube) for cube in cubes)
