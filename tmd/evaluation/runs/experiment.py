@@ -12,12 +12,9 @@ from dataclasses import dataclass, replace
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.models.model import make_model
-<<<<<<< HEAD
-from tmd.evaluation.report.report import write_report
-=======
 from tmd.evaluation.models.template_file import FILE as TEMPLATES
 from tmd.evaluation.models.template_file import load_templates
->>>>>>> authors
+from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.backends import outcomes
 from tmd.evaluation.runs.config import DEFAULT_MODELS, ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, open_dataset

@@ -43,20 +43,8 @@ class FailedStep:
     more: int
 
 
-<<<<<<< HEAD:tmd/robot_trials/explanation.py
-class Explanation:
-    """A listener that takes pictures of rejected ways as they are rejected."""
-=======
 class RejectedWays:
-    """A listener that takes pictures of rejected ways as they are rejected.
-
-    Args:
-        session: A simulation that can take pictures.
-
-    Attributes:
-        failures: The instructions that failed so far.
-    """
->>>>>>> authors:tmd/robot/video/rejected_ways.py
+    """A listener that takes pictures of rejected ways as they are rejected."""
 
     def __init__(self, session: SimulationSession) -> None:
         self._cell, self._skills = session.cell, session.skills
