@@ -244,17 +244,21 @@ def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
     names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
     places = [name for name in clause.objects if is_pronoun(name)]
     telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
-    ranked = {}
-    for pronoun in places:
-        behind = {r.relation for r in clause.relations if r.target == pronoun}
-        alike = {
-            r.target for c in before for r in c.relations if r.relation in behind
-        }  # "into the mug, not … the other"
-        told = sorted(names, key=lambda name: (name not in alike, name not in telling))
-        kinds = list(dict.fromkeys(name.rpartition("_")[2] for name in told))
-        ranked[pronoun] = (told if pronoun in section("one_words") else kinds) if is_one(pronoun) else names
+    ranked = {pronoun: _ranked_alone(pronoun, names, telling, clause, before) for pronoun in places}
     antecedents = {name: tuple(found) for name, found in ranked.items() if found}
     return replace(clause, antecedents=antecedents, together=dict.fromkeys(antecedents, 1))
+
+
+def _ranked_alone(
+    pronoun: str, names: list[str], telling: Collection[str], clause: Clause, before: Sequence[Clause]
+) -> list[str]:
+    """Rank what a pronoun of a separate clause may mean: "into the mug, not into the other one" is about mugs."""
+    if not is_one(pronoun):
+        return names
+    behind = {r.relation for r in clause.relations if r.target == pronoun}
+    alike = {r.target for c in before for r in c.relations if r.relation in behind}
+    told = sorted(names, key=lambda name: (name not in alike, name not in telling))
+    return told if pronoun in section("one_words") else list(dict.fromkeys(name.rpartition("_")[2] for name in told))
 
 
 def _named(clause: Clause) -> list[str]:

@@ -262,20 +262,24 @@ class Bracketer(ClauseEnds):
             copula = said  # "which I believe is in the chest"
         stands = self.kind(copula) is K.FINITE and self.stem_among(copula, "postures")
         if stands or (self.kind(copula) is K.AUX and self.among(copula, "be") and not self.among(copula, "not_forms")):
-            place = self.peek(copula, "(IDLE|PARTICIPLE|ING)*")
-            place += self.among(place, "loosely")
-            if self.among(copula + 1, "there_words") and self._last() in HEADS:  # "everything that is there"
-                place = copula
-                self.tokens[place].kind, self.tokens[place].text = K.P, first_of("whereabouts")
-            there = self.kind(place) is K.P and self.among(place + 1, "there_words")
-            if there:  # "the cup that is in there"
-                self.tokens[place + 1].kind, self.tokens[place + 1].text = K.PRON, first_of("singular_pronouns")
-            if there or self.follows(place, "P IDLE* NP"):
+            place = self._there(copula)
+            if self.follows(place, "P IDLE* NP"):
                 self.tokens[place].form = RELATIVE if self._last() in HEADS else ""
                 return place  # "the cup that is on the desk" as "the cup on the desk"
         if self._last() is K.P:
             self.out.pop()
         return self._bracket(self.tokens[at], K.REL, at + 1, self._relative_end(at))
+
+    def _there(self, copula: int) -> int:
+        """Return where a place begins behind a form of *be*: "that is in there" is in it, "that is there" at it."""
+        place = self.peek(copula, "(IDLE|PARTICIPLE|ING)*")
+        place += self.among(place, "loosely")
+        if self.among(copula + 1, "there_words") and self._last() in HEADS:
+            place = copula
+            self.tokens[place].kind, self.tokens[place].text = K.P, first_of("whereabouts")
+        if self.kind(place) is K.P and self.among(place + 1, "there_words"):
+            self.tokens[place + 1].kind, self.tokens[place + 1].text = K.PRON, first_of("singular_pronouns")
+        return place
 
     def _ensure(self, at: int) -> int:
         token, begin = self.tokens[at], at + 1

@@ -53,14 +53,18 @@ class ClauseEnds(Words):
             free = self.kind(end - 1) not in (K.AUX, K.TO, K.NEG) and (finite or self.kind(end - 1) is not K.SUBJECT)
             if (deed and free) or self.follows(end, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)"):
                 break
-            said = self.kind(end - 1) in (K.N, K.ADJ, K.FINITE, K.PARTICIPLE) and self.follows(end, "PRON IDLE* AUX")
-            if finite and (said or self.follows(end, "SUB|PURP|SUBJECT IDLE* AUX")):
+            if finite and self._begins_main(end):
                 break
             if self.among(end, "by_words") and self.kind(end + 1) is K.ING:
                 break
             finite = finite or deed or self.follows(end, "FINITE|AUX|ING|PARTICIPLE|ADJ")
             end += 1
         return end
+
+    def _begins_main(self, at: int) -> bool:
+        """Return whether the main clause begins behind a whole subordinate one: "once it boils | it should …"."""
+        said = self.kind(at - 1) in (K.N, K.ADJ, K.FINITE, K.PARTICIPLE) and self.follows(at, "PRON IDLE* AUX")
+        return said or self.follows(at, "SUB|PURP|SUBJECT IDLE* AUX")
 
     def _relative_end(self, at: int) -> int:
         """End a relative clause where the main clause goes on: "the chair that stands there to the desk"."""
