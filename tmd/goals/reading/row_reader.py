@@ -32,7 +32,7 @@ from tmd.pddl.ground_formula import (
     negation,
     only_negative,
 )  # fmt: skip
-from tmd.pddl.model import Atom, Formula, GroundAtom, Not, Or, conjuncts, predicates_of
+from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or, conjuncts, predicates_of
 from tmd.planning.unsolvable import Impossible
 
 _NEVER_OTHERWISE = Or((FALSE,))
@@ -193,16 +193,19 @@ class RowReader:
     def _taken_out(self, formula: Formula, unit: Unit, reading: ClauseReading) -> Formula:
         """Return that a thing is held as that it is also no longer where it is taken from.
 
-        That is what the clause says, "out of the trunk", or wherever it is: "get the sword out".
+        That is what the clause says, "out of the trunk", or wherever it is: "get the sword out". Of several things,
+        which cannot all be held, it is only that.
         """
-        if not isinstance(formula, Atom):
-            return formula
         origins = (t for r, t in unit.relations if is_relation(r, "origin"))
         places = {name for target in origins for name in self.referents.targets(target, reading)}
         out = reading.clause.verb.rpartition("_")[2] in section("out_words")
-        facts = [f for term in formula.terms for f in self._standing(term, reading)]
-        left = (f for f in facts if out or places & set(f.args[1:]))
-        return conjunction([formula, *(Not(Atom(f.predicate, f.args)) for f in left)])
+        parts = formula.parts if isinstance(formula, And) else (formula,)
+        held = [part for part in parts if isinstance(part, Atom)]
+        left = [f for part in held for term in part.terms for f in self._standing(term, reading)]
+        gone = [Not(Atom(f.predicate, f.args)) for f in left if out or places & set(f.args[1:])]
+        if len(held) < len(parts) or (len(held) > 1 and len(gone) != len(held)):
+            return formula
+        return conjunction([*held, *gone] if len(held) == 1 else gone)
 
     def _standing(self, name: str, reading: ClauseReading) -> Iterator[GroundAtom]:
         """Yield the facts that say where a thing is now, and may change."""
