@@ -103,10 +103,12 @@ class _Progress:
     Attributes:
         memory: What nouns turned out to mean.
         guard: Whether the condition of the sentence held; ``None`` where it has none so far.
+        each: The nouns of the step that stand for each of several things.
     """
 
     memory: Memory
     guard: bool | None = None
+    each: frozenset[str] = frozenset()
 
 
 class RuleDialogue(Dialogue):
@@ -188,9 +190,12 @@ class RuleDialogue(Dialogue):
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return StepGoals((), progress, note)
         clause = step.clause
-        progress = replace(progress, memory=self._with_named_before(step, state, progress.memory))
-        if clause.mood is Mood.KEEP:
-            if clause.result or not self._goals.goes_elsewhere(clause, state, progress.memory):
+        each = frozenset(n for n, said in clause.phrases.items() if said.each and not said.plural)
+        memory_here = self._with_named_before(step, state, progress.memory)
+        progress = replace(progress, memory=memory_here, each=each)
+        stays = is_verb(clause.verb, "leaving") and self._goals.is_there(clause, state, progress.memory)
+        if clause.mood is Mood.KEEP or stays:
+            if stays or clause.result or not self._goals.goes_elsewhere(clause, state, progress.memory):
                 return self._kept(step, state, progress)
             clause = replace(clause, verb=PUT, mood=Mood.DO)  # "it shall remain on the table", wherever it is by now
         found = self._goals.candidates(clause, state, progress.memory, awaited=step.awaited)
@@ -238,7 +243,10 @@ class RuleDialogue(Dialogue):
         if goal.formula == TRUE:
             return memory
         cube = next((c for c in goal.cubes if c.holds(state)), goal.cubes[0])
-        return replace(memory, memory=bindings_of(goal.bindings, cube, self._goals, memory.memory))
+        found = bindings_of(goal.bindings, cube, self._goals, memory.memory)
+        # "take every plate and put it on the table": all of them
+        every = {n: replace(b, every=True) for n, b in found.bound.items() if n in memory.each and len(b.names) > 1}
+        return replace(memory, memory=replace(found, bound={**found.bound, **every}))
 
     def handled(self, step: Step) -> Sequence[HandledGroup] | None:
         """Return the objects that a demonstrated sequence must handle: for each noun one of them, or all."""

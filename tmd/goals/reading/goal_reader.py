@@ -229,10 +229,14 @@ class GoalReader:
 
     def goes_elsewhere(self, clause: Clause, state: Bits, memory: Memory) -> bool:
         """Return whether a clause says a place, which is here, where nothing is by now that it acts on."""
-        reading = ClauseReading(clause, Moments(state, memory.first), memory)
         places = [r for r in clause.relations if r.source in clause.direct and is_relation(r.relation, "place")]
-        there = any(self.referents.tells_which(r.source, r.relation, r.target, reading) for r in places)
-        return not there and any(self.knows_of(r.target) for r in places)
+        return not self.is_there(clause, state, memory) and any(self.knows_of(r.target) for r in places)
+
+    def is_there(self, clause: Clause, state: Bits, memory: Memory) -> bool:
+        """Return whether something that a clause acts on is now where the clause says: "leave the cup on the table"."""
+        reading = ClauseReading(clause, Moments(state, memory.first), memory)
+        places = (r for r in clause.relations if r.source in clause.direct and is_relation(r.relation, "place"))
+        return any(self.referents.tells_which(r.source, r.relation, r.target, reading) for r in places)
 
     def _is_to_settle(self, clause: Clause) -> bool:
         """Return whether a clause without a verb says where a thing shall be."""

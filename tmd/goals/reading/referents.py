@@ -579,11 +579,15 @@ class Referents:
             inside = (t for r, t in self.relations_of(noun, reading.clause) if is_relation(r, "inside"))
             places = (*context.targets("inside"), reading.memory.recent, *(self.targets(t, reading) for t in inside))
             names = next(filter(None, (self.nouns.contained(p, types, reading.state) for p in places)), ())
-        else:  # "cooked noodles" are another substance than noodles
-            nouns = (*(f"{word}_{noun}" for word in context.phrase.attributes), noun)
-            names = next(filter(None, (self.nouns.constants(n, types, reading.state) for n in nouns)), ())
+        else:
+            names = self.substances(replace(context.phrase, name=noun), types, reading)
         spoken_of = noun in reading.memory.bound and not context.phrase.other
         return self._by_now(names, types, reading) if spoken_of else names
+
+    def substances(self, phrase: NounPhrase, types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        """Return the substances that a noun phrase names: cooked noodles are another one than noodles."""
+        nouns = (*(f"{word}_{phrase.name}" for word in phrase.attributes), phrase.name)
+        return next(filter(None, (self.nouns.constants(n, types, reading.state) for n in nouns)), ())
 
     def _places_now(self, places: Referent, reading: ClauseReading) -> tuple[str, ...]:
         """Return those of some places where what the clause acts on is now."""
@@ -770,7 +774,8 @@ class Referents:
         if bound is not None and set(bound.names) & set(things):
             return tuple(n for n in things if n in bound.names)
         alike, _ = self.nouns.narrowed(things, reading.clause.phrase(noun), reading.moments)  # "with the bent wheel"
-        names = tuple(dict.fromkeys((*(alike or things), *self.nouns.constants(noun, ANY_TYPE, reading.state))))
+        stuff = self.substances(replace(reading.clause.phrase(noun), name=noun), ANY_TYPE, reading)
+        names = tuple(dict.fromkeys((*(alike or things), *stuff)))
         relations = self.relations_of(noun, reading.clause) if noun not in reading.clause.direct else []
         said = [(r, t) for r, t in relations if is_relation(r, "accompanying")]  # "the table with the ramen on it"
         referent = Referent(noun, names)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TypeAlias
 
@@ -158,8 +158,10 @@ class Requirements:
         return list(zip(names)) if each else [names]
 
     def _as_constants(self, said: _Said) -> tuple[str, ...]:
+        phrase = said.reading.clause.phrase(said.target)
         meant = said.reading.clause.meant(said.target)[:1]  # "coffee with it", of the water
-        return tuple(n for noun in meant for n in self.nouns.constants(noun, ANY_TYPE, said.reading.state))
+        phrases = (replace(phrase, name=noun) for noun in meant)
+        return tuple(n for each in phrases for n in self.referents.substances(each, ANY_TYPE, said.reading))
 
     def _wider(self, said: _Said) -> tuple[str, ...]:
         """Return what may be in a thing as well, under the same noun: a jar of coffee holds powder, not the drink."""

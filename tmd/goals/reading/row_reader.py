@@ -18,7 +18,7 @@ from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Pairs, Requirements
 from tmd.goals.reasons import forms, placed, why_impossible
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
-from tmd.goals.words import ends_as, is_noun, is_one, is_relation, is_verb, relations_said, table, the_word
+from tmd.goals.words import ends_as, is_noun, is_one, is_relation, is_verb, relations_said, table, the_word, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.names import split_name, words_in_name
@@ -299,8 +299,11 @@ class RowReader:
 
     def _too_few(self, measure: NounPhrase, inner: str, reading: ClauseReading) -> bool:
         held = self.nouns.holders(measure.name, self.referents.targets(inner, reading), reading.moments)
-        few = measure.quantifier is Quantifier.NUMBER and 0 < len(held) < (measure.number or 1)
-        return few and all(map(self.nouns.is_supply, held))
+        counted = measure.quantifier is Quantifier.NUMBER
+        few = counted and 0 < len(held) < (measure.number or 1)
+        vessels = () if measure.name in words_of("measures") else self.nouns.things(measure.name, reading.state)
+        lacking = counted and 0 < len(vessels) < (measure.number or 1)
+        return lacking or (few and all(map(self.nouns.is_supply, held)))
 
     def _unit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read:
         """Return the goal of one thing; a pronoun is what it most likely means of that which a row fits."""

@@ -632,10 +632,10 @@ class Bracketer(ClauseEnds):
         """Return whether a verb of getting asks for what shall be done to a thing: "have the egg boiled"."""
         if not self.stem_among(at, "getting") or self.tokens[at].form != "base":
             return False
-        done = self.past(at + 1, "(DET|NUM|N|OF|ADJ)+")
+        done = self.past(at + 1, "PRON | (DET|NUM|N|OF|ADJ)+")
         done -= self.kind(done) is not K.PARTICIPLE
         token = self.tokens[done] if done < len(self.tokens) else self.tokens[at]
-        after_noun = done > at + 1 and self.kind(done - 1) is K.N and token.kind in (K.PARTICIPLE, K.ADJ)
+        after_noun = done > at + 1 and self.kind(done - 1) in HEADS and token.kind in (K.PARTICIPLE, K.ADJ)
         if not after_noun or token.form != "ed" or not self.lexicon.is_deed(token.stem):
             return False
         for place in range(done, self.first(at, "STOP")):
