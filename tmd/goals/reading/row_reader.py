@@ -32,7 +32,7 @@ from tmd.pddl.ground_formula import (
     negation,
     only_negative,
 )  # fmt: skip
-from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or, conjuncts, predicates_of
+from tmd.pddl.model import And, Atom, Exists, Formula, GroundAtom, Not, Or, conjuncts, predicates_of
 from tmd.planning.unsolvable import Impossible
 
 _NEVER_OTHERWISE = Or((FALSE,))
@@ -196,16 +196,20 @@ class RowReader:
         That is what the clause says, "out of the trunk", or wherever it is: "get the sword out". Of several things,
         which cannot all be held, it is only that.
         """
-        origins = (t for r, t in unit.relations if is_relation(r, "origin"))
-        places = {name for target in origins for name in self.referents.targets(target, reading)}
-        out = reading.clause.verb.rpartition("_")[2] in section("out_words")
         parts = formula.parts if isinstance(formula, And) else (formula,)
         held = [part for part in parts if isinstance(part, Atom)]
-        left = [f for part in held for term in part.terms for f in self._standing(term, reading)]
-        gone = [Not(Atom(f.predicate, f.args)) for f in left if out or places & set(f.args[1:])]
+        gone = [Not(Atom(f.predicate, f.args)) for f in self._left(held, unit, reading)]
         if len(held) < len(parts) or (len(held) > 1 and len(gone) != len(held)):
             return formula
         return conjunction([*held, *gone] if len(held) == 1 else gone)
+
+    def _left(self, held: Sequence[Atom], unit: Unit, reading: ClauseReading) -> list[GroundAtom]:
+        """Return the facts that say where things stand that are taken from there, or just taken out."""
+        origins = (t for r, t in unit.relations if is_relation(r, "origin"))
+        places = {name for target in origins for name in self.referents.targets(target, reading)}
+        out = reading.clause.verb.rpartition("_")[2] in section("out_words")
+        stood = (f for part in held for term in part.terms for f in self._standing(term, reading))
+        return [f for f in stood if out or places & set(f.args[1:])]
 
     def _standing(self, name: str, reading: ClauseReading) -> Iterator[GroundAtom]:
         """Yield the facts that say where a thing is now, and may change."""
@@ -465,7 +469,8 @@ class RowReader:
     def _is_anywhere(self, row: GoalRow, found: Formula, reading: ClauseReading) -> bool:
         """Return whether a clause puts a thing without saying where, and it is somewhere by now."""
         verb, _, particle = reading.clause.verb.partition("_")
-        put = is_verb(verb, "placing") and (not particle or particle in table("particles"))
+        moved = verb in section("moving") and isinstance(row.condition, Exists)  # "move the lion" to any place at all
+        put = moved or (is_verb(verb, "placing") and (not particle or particle in table("particles")))
         return put and row.source == ACTIONS and not row.places and self.grounder.truth(found, reading.state)
 
     def _still_to_do(

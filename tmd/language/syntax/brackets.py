@@ -405,7 +405,7 @@ class Bracketer(ClauseEnds):
         if self.among(after, "needless"):
             return self._negation(after)
         fresh = self._verb is None and all(t.kind in LINKS for t in self.out[self._subject :])
-        if fresh and not there and self.among(at, "getting") and self.follows(at + 1, "DET|NUM|ADJ|N"):
+        if not there and self._gets(at, fresh=fresh):
             token = self.tokens[at]
             token.kind, token.stem, token.form = K.V, token.text, "base"
             return self._deed(at)
@@ -417,6 +417,11 @@ class Bracketer(ClauseEnds):
             return self._statement(at)
         self._asked = fresh and self.among(at, "asking")
         return self._negation(at) if self.kind(after) is K.NEG else at + 1
+
+    def _gets(self, at: int, *, fresh: bool) -> bool:
+        """Return whether "have" asks for something: "have an egg boiled", "wash them and have them dried"."""
+        something = fresh and self.follows(at + 1, "DET|NUM|ADJ|N")
+        return self.among(at, "getting") and (something or (self._last() in LINKS and self._done_to(at) > 0))
 
     def _begin_question(self, subject: int) -> None:
         """Begin a unit with an auxiliary that stands between a comma and its subject: "a tea, can you make it?"."""
@@ -442,6 +447,7 @@ class Bracketer(ClauseEnds):
         """Return whether a question begins that asks for nothing: "Is the lamp on?"."""
         starts = (not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}) and self._last() in BREAKS
         opens = self.among(at, "questions") and self.kind(at) is not K.V and self.kind(at + 1) is not K.ING
+        opens = opens and not (self.among(at, "getting") and self._done_to(at))
         wonders = self.among(at, "whats") and self.follows(at + 1, "AUX SUBJECT")
         return starts and (opens or wonders) and self.asked(at)
 
@@ -630,19 +636,22 @@ class Bracketer(ClauseEnds):
 
     def _has_done(self, at: int) -> bool:
         """Return whether a verb of getting asks for what shall be done to a thing: "have the egg boiled"."""
-        if not self.stem_among(at, "getting") or self.tokens[at].form != "base":
-            return False
-        done = self.past(at + 1, "PRON | (DET|NUM|N|OF|ADJ)+")
-        done -= self.kind(done) is not K.PARTICIPLE
-        token = self.tokens[done] if done < len(self.tokens) else self.tokens[at]
-        after_noun = done > at + 1 and self.kind(done - 1) in HEADS and token.kind in (K.PARTICIPLE, K.ADJ)
-        if not after_noun or token.form != "ed" or not self.lexicon.is_deed(token.stem):
+        done = self._done_to(at)
+        if not (done and self.stem_among(at, "getting") and self.tokens[at].form == "base"):
             return False
         for place in range(done, self.first(at, "STOP")):
             put = self.among(place, "same_past") and self.kind(place - 1) is K.N
             if put or place == done:  # "have the cup washed and the plate put on the table"
                 self.tokens[place].kind = K.PARTICIPLE
         return True
+
+    def _done_to(self, at: int) -> int:
+        """Return where a participle says what shall be done to the things behind a verb; 0 for nowhere."""
+        done = self.past(at + 1, "PRON | (DET|NUM|N|OF|ADJ)+")
+        done -= self.kind(done) is not K.PARTICIPLE and self.kind(done - 1) is K.ADJ
+        token = self.tokens[done] if done < len(self.tokens) else self.tokens[at]
+        after_noun = done > at + 1 and self.kind(done - 1) in HEADS and token.kind in (K.PARTICIPLE, K.ADJ)
+        return done if after_noun and token.form == "ed" and self.lexicon.is_deed(token.stem) else 0
 
     def _is_told(self, at: int) -> bool:
         """Return whether the subject of a verb is not the addressee: "they are starving", "my eyes get tired"."""
