@@ -233,6 +233,14 @@ def test_of_several_plans_one_is_taken(text: str, which: str, ferry: Problem) ->
     assert parse_plan(text, "log", ferry).warnings[0] == which
 
 
+def test_what_else_a_record_says_is_no_step(ferry: Problem) -> None:
+    steps = [{"action": step.name, "args": list(step.args), "clause": 0} for step in PLAN]
+    record = {"clauses": [{"verb": "board", "objects": ["red"]}], "plans": [{"steps": steps, "goal": "(on red)"}]}
+    plan = parse_plan(json.dumps(record), "record.json", ferry)
+    assert plan.instructions == PLAN
+    assert not plan.warnings
+
+
 @pytest.mark.parametrize(
     ("text", "line", "step"),
     [

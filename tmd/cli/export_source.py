@@ -103,7 +103,8 @@ def _of_json(roots: Roots, path: Path, domain: str | None, goal: str | None) -> 
     told = GroundingRecord.from_value(value, str(path))
     if not told.plans:
         raise NotPlannedError(f"{path} has no plan", ExitCode.NOT_GROUNDED)
-    return _first_plan(told, roots.world(told.environment, domain or told.domain)[1].task.problem, goal)
+    _, world = roots.recorded(told.environment_file or told.environment, domain or told.domain)
+    return _first_plan(told, world.task.problem, goal)
 
 
 def _first_plan(told: GroundingRecord, problem: Problem, goal: str | None) -> Planned:

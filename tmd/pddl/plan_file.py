@@ -122,6 +122,9 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
         raise reader.no_plan(text)
     if not whole:
         raise plans[-1].cut_off()
+    if value is not None:  # a record of a text has clauses as well, which look like steps
+        whole = [plan for plan in whole if reader.known(plan) == len(plan.steps)] or whole
+        plans = [plan for plan in plans if plan in whole or plan.cut]
     chosen = whole[-1 if value is None else 0]
     steps = _in_time([step for step in chosen.steps if not reader.vocabulary.added(step.instruction)])
     return Plan(
@@ -522,7 +525,9 @@ class _JsonReader:
             return _on_a_line(value)
         steps = [text for text in map(_on_a_line, _texts(value, 1)) if self._reader.plans_of_text(text)]
         if isinstance(value, dict) and len(steps) == 1:
-            return steps[0]
+            (plan,) = self._reader.plans_of_text(steps[0])[:1]
+            acts = all(self._reader.vocabulary.may_begin(step.instruction.name) for step in plan.steps)
+            return steps[0] if acts else ""  # a goal is no step
         words = [text.lower() for text in _texts(value, 2)]
         if any(self._reader.plans_of_text(text) for text in words if not NAME.fullmatch(text)):
             return ""  # a list of steps

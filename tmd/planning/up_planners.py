@@ -125,7 +125,10 @@ def _judged(status: str, engine: EngineSpec) -> Unreachable | GaveUp:
 def _refusal(kind: str, message: str, engine: str) -> TmdError:
     """Return the error that an exception in the engine's process means."""
     if kind in ("UPNoRequestedEngineAvailableException", "ModuleNotFoundError", "ImportError"):
-        return MissingToolError(f"unified-planning has no engine '{engine}' here", hint=f"pip install up-{engine}")
+        return MissingToolError(
+            f"unified-planning has no engine '{engine}' here",
+            hint="'tmd list' shows the planners that are here; packages of others are called up-NAME",
+        )
     if kind == "MemoryError":
         return LimitError(f"the planner {engine} came to the end of its memory", hint="use a smaller problem")
     if kind == "UPUsageError":

@@ -232,8 +232,9 @@ def _scene(
             raise TmdError(f"the environment {file} is not there any more", hint="give it with --environment FILE")
     if place is None:
         return roots.world(environment, asked.domain or domain)
-    # an environment in PDDL does not name its domain
-    return roots.world(place, asked.domain or (domain if place.endswith(".pddl") else None))
+    if asked.domain is not None or not place.endswith(".pddl"):
+        return roots.world(place, asked.domain)
+    return roots.recorded(place, domain)  # an environment in PDDL does not name its domain
 
 
 _WHERE = "a plan file does not say where it belongs: --problem p.pddl, or --environment kitchen1"

@@ -175,6 +175,20 @@ class Roots:
         corpus = self.corpus(self.of_problem(path) if domain is None else self.folder(domain))
         return corpus, corpus.world(path.stem if path == corpus.directory / "environments" / path.name else path)
 
+    def recorded(self, place: str, domain: str | None) -> tuple[Corpus, World]:
+        """Return the environment that a record names, with its domain, or with the one beside its PDDL problem.
+
+        Raises:
+            TmdError: One of them is missing or wrong.
+        """
+        own = domain
+        if place.endswith(".pddl") and domain is not None:
+            try:
+                self.folder(domain)
+            except TmdError:
+                own = None
+        return self.world(place, own)
+
     def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:
         """Return an environment of which the robot's scene can be built, and its domain.
 
