@@ -120,7 +120,8 @@ class Bracketer(ClauseEnds):
         self._open.append(opener)
         place = at
         while place < end:
-            place = self._inner.get(self.kind(place), self._keep)(place)
+            corrected = self._corrects(place) and self.follows(self.peek(place, _GAP), "P|TO")
+            place = self._corrected(place) if corrected else self._inner.get(self.kind(place), self._keep)(place)
         self._open.pop()
         self.out.append(mark(K.END, self.tokens[end - 1].span.end))
         start = next(i for i in range(len(self.out) - 1, -1, -1) if self.out[i] is opener)
@@ -263,7 +264,8 @@ class Bracketer(ClauseEnds):
         stands = self.kind(copula) is K.FINITE and self.stem_among(copula, "postures")
         if stands or (self.kind(copula) is K.AUX and self.among(copula, "be") and not self.among(copula, "not_forms")):
             place = self._there(copula)
-            if self.follows(place, "P IDLE* NP"):
+            # what has become a pronoun just now is not seen by patterns
+            if self.follows(place, "P IDLE* NP") or (self.kind(place) is K.P and self.kind(place + 1) is K.PRON):
                 self.tokens[place].form = RELATIVE if self._last() in HEADS else ""
                 return place  # "the cup that is on the desk" as "the cup on the desk"
         if self._last() is K.P:
