@@ -120,8 +120,12 @@ class Bracketer(ClauseEnds):
         self._open.append(opener)
         place = at
         while place < end:
-            corrected = self._corrects(place) and self.follows(self.peek(place, _GAP), "P|TO")
-            place = self._corrected(place) if corrected else self._inner.get(self.kind(place), self._keep)(place)
+            if not self._corrects(place):
+                place = self._inner.get(self.kind(place), self._keep)(place)
+            elif self.follows(self.peek(place, _GAP), "P|TO"):
+                place = self._corrected(place)
+            else:  # "the lamp should be on, no, I mean the radio" is not read
+                place = self._skip(place, end, REMINDER)
         self._open.pop()
         self.out.append(mark(K.END, self.tokens[end - 1].span.end))
         start = next(i for i in range(len(self.out) - 1, -1, -1) if self.out[i] is opener)
@@ -671,11 +675,18 @@ class Bracketer(ClauseEnds):
     def _comma(self, at: int) -> int:
         if self.follows(at, "COMMA IDLE+ COMMA (AUX|FINITE)"):
             return self.peek(at) + 1  # "the door, however, should be shut"
+        if self._is_repeated(at):
+            return at + 2  # "the cup on the table, that goes on the shelf"
         inner = range(at + 1, min(self.first(at + 1, "V|STOP"), at + 2 * _NEAR) if self.tokens[at].text == "(" else at)
         end = next((i for i in inner if self.tokens[i].text == ")"), None)
         if end is not None and any(self.tokens[i].arrow for i in range(at, end)):
             return self._stop(at)  # "clear the chair (rope -> shed)"
         return self._joint(at) if end is None else self._skip(at, end + 1, ASIDE)
+
+    def _is_repeated(self, at: int) -> bool:
+        """Return whether a pronoun repeats the subject before a comma."""
+        subject = self._verb is None and self._named() and self.among(at + 1, "relatives")
+        return subject and self.kind(at + 2) is K.FINITE
 
     def _joint(self, at: int) -> int:
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
