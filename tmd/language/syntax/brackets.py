@@ -280,7 +280,7 @@ class Bracketer(ClauseEnds):
         """Return where a place begins behind a form of *be*: "that is in there" is in it, "that is there" at it."""
         place = self.peek(copula, "(IDLE|PARTICIPLE|ING)*")
         place += self.among(place, "loosely")
-        if self.among(copula + 1, "there_words") and self._last() in HEADS:
+        if self.kind(copula) is K.AUX and self.among(copula + 1, "there_words") and self._last() in HEADS:
             place = copula
             self.tokens[place].kind, self.tokens[place].text = K.P, first_of("whereabouts")
         if self.kind(place) is K.P and self.among(place + 1, "there_words"):
