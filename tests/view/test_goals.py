@@ -179,7 +179,8 @@ def test_what_is_left_open_or_in_a_hand_is_doubtful_unless_it_was_asked_for(stud
         ("kitchen", "kitchen4", "Close the fridge.", ()),  # its inside is behind a closed door
         ("kitchen", "kitchen5", "Turn the tap on.", ()),  # its handle stands at high
         ("lab_bench", "lab2", "The hotplate should be on low.", ()),  # its plate is active
-        ("lab_bench", "lab1", "Put the sample in the centrifuge.", ("centrifuge1_lid is open",)),
+        ("lab_bench", "lab1", "Put the sample in the centrifuge.", ()),  # its lid is shut again
+        ("lab_bench", "lab1", "Spin the sample tube.", ("(active centrifuge1_rotor)",)),  # as demonstrations leave it
     ],
 )
 def test_what_follows_from_a_goal_is_not_doubtful(
