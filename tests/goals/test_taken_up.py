@@ -47,6 +47,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("Stall one isn't latched. It should be.", {"(latched StallOne)"}, set()),
         ("Brush the pony. No, not the pony, the goat.", {"(brushed goat)"}, {"(brushed pony)"}),
         ("Brush the pony, hang on, no, the goat.", {"(brushed goat)"}, {"(brushed pony)"}),
+        ("The bucket in stall one goes to stall three.", {"(lies bucket StallThree)"}, set()),
         ("The fork should be in stall two, sorry, in stall three.", {"(lies fork StallThree)"}, set()),
         (
             "I don't want anything lying in stall one any more.",

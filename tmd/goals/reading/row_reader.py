@@ -543,9 +543,13 @@ class RowReader:
         every = reading.strict or row.source == ACTIONS
         whither = section("arrivals") - section("static")  # "run water into the kettle" is more than to run water
         told = [pair for pair in leftover if every or pair[0] in whither]
-        if not any(self.referents.unplaced(unit, *pair, reading) for pair in told):
+        strange = next((pair for pair in told if self.referents.unplaced(unit, *pair, reading)), None)
+        if strange is None:
             return None
         message = f"'{text_of(reading.clause)}' says a place that nothing is known of"
+        telling = row.source == ACTIONS and not row.places and strange[0] not in whither
+        if telling and unit.direct and self.nouns.things(unit.direct, reading.state):
+            message = f"no {words(unit.direct)} here is {words(strange[0])} {words(strange[1])}"
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
 
     def _cannot(self, reading: ClauseReading, reason: str = "") -> Refusal:
