@@ -57,7 +57,8 @@ def test_what_a_slot_takes_is_read_off_the_first_predicate(
     pattern: str, condition: str, variable: str, types: tuple[str, ...]
 ) -> None:
     read = read_row(row(pattern if "?y" not in condition or "Y" in pattern else "take X from Y", condition), DRAWER)
-    assert slot_types(read.condition, variable, DRAWER) == types
+    assert slot_types(read, Slot(variable), DRAWER) == types
+    assert slot_types(read, Slot(variable, types=("door",)), DRAWER) == ("door",)  # what an action takes is narrower
 
 
 @pytest.mark.parametrize(

@@ -214,8 +214,8 @@ def _same_pattern(one: GoalRow, other: GoalRow, domain: Domain) -> bool:
     for first, second in zip(one.slots, other.slots, strict=True):
         if set(first.prepositions) != set(second.prepositions):
             return False
-        left = slot_types(one.condition, first.variable, domain)
-        right = slot_types(other.condition, second.variable, domain)
+        left = slot_types(one, first, domain)
+        right = slot_types(other, second, domain)
         if not any(a in kinds.ancestors(b) or b in kinds.ancestors(a) for a in left for b in right):
             return False
     return True

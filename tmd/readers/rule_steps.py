@@ -18,10 +18,11 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Relation
-from tmd.language.lexicon.lexicon import section
+from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Relation, Skipped
+from tmd.language.lexicon.lexicon import builtin, section
 from tmd.readers.interface import Step
 
+DOER = "a plan chooses who does it"
 USE: str = the_word("verbs", "using")
 _ENDS = frozenset(".!?;")
 # A first clause that so many others follow may be a heading: *tidy the floor. The toy goes on the shelf, …*
@@ -80,6 +81,44 @@ def with_unwanted_states(parsed: Parsed) -> Parsed:
     unwanted = {clause: other for clause in parsed.constraints if (other := _as_state(clause)) is not None}
     clauses = in_text_order(parsed.clauses, unwanted.values())
     return replace(parsed, clauses=clauses, constraints=tuple(c for c in parsed.constraints if c not in unwanted))
+
+
+def without_doers(parsed: Parsed, is_actor: Callable[[str], bool]) -> Parsed:
+    """Return a request without those who shall do it: "let Joe wash the van", "have Joe wash it", "ask Joe to wash it".
+
+    A plan chooses who acts. Those who were named are among what was skipped.
+
+    Args:
+        parsed: The request.
+        is_actor: Whether a noun names those who act.
+    """
+    clauses: list[Clause] = []
+    skipped = list(parsed.skipped)
+    for place, clause in enumerate(parsed.clauses):
+        doer, *others = clause.direct or ("",)
+        if not doer or clause.mood is not Mood.DO or not is_actor(doer):
+            clauses.append(clause)
+            continue
+        wanted = [inner for word, inner in _said(clause, "later") if is_condition(word, "purpose")]
+        follows = place + 1 < len(parsed.clauses) and _same_sentence(parsed, clause, parsed.clauses[place + 1])
+        verb = clause.verb in section("delegating")
+        if others and _stands_before(doer, clause):
+            clauses.append(replace(clause, direct=tuple(others), objects=tuple(n for n in clause.objects if n != doer)))
+        elif verb and not clause.relations and (wanted or follows):
+            clauses += wanted
+        else:
+            clauses.append(clause)
+            continue
+        skipped.append(Skipped(doer, clause.span, DOER))
+    return replace(parsed, clauses=tuple(clauses), skipped=tuple(skipped))
+
+
+def _stands_before(noun: str, clause: Clause) -> bool:
+    """Return whether a noun stands before the verb of its clause."""
+    said = clause.text.lower().split()
+    verbs = [at for at, word in enumerate(said) if (known := builtin().verb(word)) and known[0] == clause.verb]
+    nouns = [at for at, word in enumerate(said) if word in noun.split("_")]
+    return bool(verbs and nouns) and nouns[0] < verbs[-1]
 
 
 def in_text_order(clauses: Sequence[Clause], others: Iterable[Clause]) -> tuple[Clause, ...]:

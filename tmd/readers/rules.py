@@ -37,7 +37,15 @@ from tmd.readers.interface import (
     Step,
     StepGoals,
 )
-from tmd.readers.rule_steps import USE, RuleStep, about_things, in_text_order, steps_of, with_unwanted_states
+from tmd.readers.rule_steps import (
+    USE,
+    RuleStep,
+    about_things,
+    in_text_order,
+    steps_of,
+    with_unwanted_states,
+    without_doers,
+)
 from tmd.world.world import World
 
 
@@ -122,7 +130,7 @@ class RuleDialogue(Dialogue):
 
     def __init__(self, parsed: Parsed, goals: GoalReader, state: Bits) -> None:
         self._goals = goals
-        parsed = self._with_untrue(with_unwanted_states(parsed), state)
+        parsed = without_doers(self._with_untrue(with_unwanted_states(parsed), state), goals.is_actor)
         super().__init__(parsed)
         self._constraints = ConstraintReader(goals)
         read = partial(about_things, known=goals.knows_of)
@@ -176,6 +184,7 @@ class RuleDialogue(Dialogue):
             return False  # a title: "popcorn: …", "Movie night! …"
         objects = self._goals.world.profiles.objects
         named = [word for word in words if nouns.lexicon.names_thing(word) or word in objects]
+        named = [n for n in named if not self._goals.is_actor(n)]  # "Joe, wash the car"
         return piece.reason == NO_VERB and any(nouns.things(n, state) or nouns.substances(n) for n in named)
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:

@@ -73,7 +73,7 @@ class Fitting:
         """Return whether what the verb acts on may be an object, not only something that objects contain."""
         if row.direct is None or unit.direct is None:
             return False
-        types = slot_types(row.condition, row.direct.variable, self.domain)
+        types = slot_types(row, row.direct, self.domain)
         return any(self.grounder.is_a(name, types) for name in self.nouns.things(unit.direct, reading.state))
 
     def takes_all(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
@@ -99,7 +99,7 @@ class Fitting:
         """Return whether what the verb acts on may be what the noun names, not only what holds it."""
         if row.direct is None or not unit.direct:
             return True
-        types = slot_types(row.condition, row.direct.variable, self.domain)
+        types = slot_types(row, row.direct, self.domain)
         ranked = self.referents.world.mentions.ranked(unit.direct)
         return not ranked or any(self.grounder.is_a(m.name, types) for m in ranked if m.how == ranked[0].how)
 

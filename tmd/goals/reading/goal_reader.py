@@ -15,7 +15,7 @@ from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
-from tmd.goals.sources.actions import participle
+from tmd.goals.sources.actions import actor_types, participle
 from tmd.goals.sources.table import ACTIONS, GoalTable
 from tmd.goals.words import (
     BE,
@@ -358,6 +358,16 @@ class GoalReader:
     def knows_of(self, noun: str) -> bool:
         """Return whether a noun means something in the domain or in the environment."""
         return self.knows(noun) or bool(self.nouns.things(noun, self.world.task.init) or self.nouns.substances(noun))
+
+    @cached_property
+    def _actors(self) -> frozenset[str]:
+        return actor_types(self.domain)
+
+    def is_actor(self, noun: str) -> bool:
+        """Return whether a noun names those who act here."""
+        types = self.world.mentions.types
+        named = self.nouns.things(noun, self.world.task.init)
+        return bool(named) and all(self._actors.intersection(types.get(name, ())) for name in named)
 
     def _names_thing(self, noun: str) -> bool:
         """Return whether a noun means a thing itself, and not only what facts say of another one."""

@@ -327,13 +327,22 @@ class Referents:
         """Return what a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
         clause, memory = reading.clause, reading.memory
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
-            return [(noun, False)]
+            return [(noun, False) for _ in self._groups(noun, clause)]
         nouns = list(clause.antecedents.get(noun, ()))
         if self.puts_back(reading):  # "pour some milk in the bowl and put it back in the fridge": it was in the fridge
             nouns.sort(key=lambda name: not self._were_there(name, noun, reading))
         nouns.sort(key=self.nouns.is_only_told_of)  # "put the cover on the boat and move it": the boat
         seen = {n for name in nouns if name in memory.bound for n in memory.bound[name].names}
         return [*((name, False) for name in nouns), *((name, True) for name in memory.recent if name not in seen)]
+
+    @staticmethod
+    def _groups(noun: str, clause: Clause) -> list[tuple[str, ...]]:
+        """Return what *them* may mean together: what was acted on, or the other things that were spoken of.
+
+        *Put the milk in the fridge and the noodles in the cupboard, and close them.*
+        """
+        names, count = clause.antecedents[noun], clause.together[noun]
+        return [names[:count], names[count:]] if len(names) > count + 1 else [names[:count]]
 
     def _were_there(self, antecedent: str, pronoun: str, reading: ClauseReading) -> tuple[str, ...]:
         """Return what was spoken of and was, before anything was done, where the pronoun shall be put."""
@@ -347,7 +356,7 @@ class Referents:
         self, noun: str, row: GoalRow, slot: Slot, relations: Sequence[tuple[str, str]], reading: ClauseReading
     ) -> list[Referent]:
         """Return what may stand in a slot, likeliest first: one for a noun, one for each antecedent of a pronoun."""
-        types = slot_types(row.condition, slot.variable, self.domain)
+        types = slot_types(row, slot, self.domain)
         clause = reading.clause
         if not self.points_back(noun):
             phrase = clause.phrase(noun)
@@ -358,7 +367,7 @@ class Referents:
             mixed = self._brought_together(types, reading) if plain and is_noun(noun, "everything") else ()
             return [Referent(noun, mixed, definite=True), *found] if mixed else found
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
-            found = [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
+            found = [self._together(noun, types, reading)]
         else:
             found = self._meant_by_pronoun(noun, types, reading)
         phrase = clause.phrase(noun)
@@ -378,7 +387,9 @@ class Referents:
         return [referent for referent in meant if referent.names] or [Referent(noun or IT, ())]
 
     def _of_object(self, name: str, noun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
-        """Return a pronoun as an object that was spoken of, or what that contains."""
+        """Return a pronoun as an object that was spoken of, or what that contains; "the new one" is a noun's."""
+        if is_one(noun) and reading.clause.phrase(noun).attributes:
+            return Referent(noun, ())
         if self.grounder.is_a(name, types):
             return Referent(noun or IT, (name,), definite=True)
         return Referent(noun or IT, self.nouns.contained((name,), types, reading.state))
@@ -445,9 +456,12 @@ class Referents:
     ) -> Referent:
         """Return *one* as a thing like its antecedent: "take the front wheel off and put the spare one on"."""
         kind = self._kind_of_one(antecedent, relations, reading)
-        relations += self.relations_of(antecedent, reading.clause) if antecedent not in reading.clause.objects else []
+        told = self.relations_of(antecedent, reading.clause) if antecedent not in reading.clause.objects else []
         kinds = dict.fromkeys((kind, split_name(antecedent)[-1]))
-        named = (self._named(each, replace(said, name=each), types, relations, reading) for each in kinds)
+        ways = [(each, [*relations, *told]) for each in kinds]
+        if told and said.attributes:  # "the battery in the van is dead, fit the new one": that is elsewhere
+            ways += [(each, relations) for each in kinds]
+        named = (self._named(each, replace(said, name=each), types, related, reading) for each, related in ways)
         found = next((referent for referent in named if referent.names), None)
         return found or Referent(kind, ())
 
@@ -469,7 +483,9 @@ class Referents:
         left = [n for n in whole.names if n not in gone]
         return whole.only(left) if gone and (left or said.plural) else None
 
-    def _together(self, nouns: Sequence[str], pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+    def _together(self, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+        groups = self._groups(pronoun, reading.clause)
+        nouns = groups[reading.antecedent or 0] if pronoun == reading.pronoun else groups[0]
         all_of_them = the_word("nouns", "plural")
         names = (n for noun in nouns for n in self._antecedent(noun, all_of_them, types, reading).names)
         return Referent(pronoun, tuple(dict.fromkeys(names)), Mode.ALL)

@@ -471,6 +471,8 @@ class RowReader:
         verb, _, particle = reading.clause.verb.partition("_")
         moved = verb in section("moving") and isinstance(row.condition, Exists)  # "move the lion" to any place at all
         put = moved or (is_verb(verb, "placing") and (not particle or particle in table("particles")))
+        # "fit the battery", read by the row of "put"
+        put = put or (isinstance(row.condition, Exists) and any(is_verb(each, "placing") for each in row.verbs))
         return put and row.source == ACTIONS and not row.places and self.grounder.truth(found, reading.state)
 
     def _still_to_do(

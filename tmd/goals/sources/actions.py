@@ -62,6 +62,11 @@ def rows_of_actions(domain: Domain) -> GoalTable:
     return GoalTable(tuple(rows))
 
 
+def actor_types(domain: Domain) -> frozenset[str]:
+    """Return the types of those who act, and are not acted on."""
+    return _Words(domain).actors
+
+
 class _Words:
     """The names of one domain."""
 
@@ -233,22 +238,27 @@ class _Words:
         nothing: dict[Formula, None] = {}
         back: dict[Formula, None] = {}
         swapped: dict[Formula, None] = {}
+        placed: list[Formula] = []
         for predicate in self.domain.predicates:
             for _, atom in self._places(predicate) if predicate.name in made else ():
                 thing, place = (p.types for p in self.things(predicate))
                 nothing[Not(Exists((TypedName("?x", thing),), atom))] = None
                 where = (TypedName("?y", place),)
                 back[Forall(where, Imply(_before(atom, FIRST), atom))] = None
-                if swapped and predicate.name not in self._exchanged:
-                    continue  # a plant goes to the other's bench, and keeps its pot
-                other = _of_other(atom)
-                for now, then in ((atom, other), (other, atom)):
-                    swapped[Forall(where, Imply(_before(then, WAS), now))] = None
+                both = (atom, _renamed(atom, "?x", "?z"))
+                # a plant goes to the other's bench, and keeps its pot; a new disk goes where the old one was
+                keeps = bool(placed) and predicate.name not in self._exchanged
+                for number, (then, now) in enumerate(permutations(both)):
+                    was = _before(then, WAS)
+                    before = And((was, Not(placed[number]))) if keeps else was
+                    swapped[Forall(where, Imply(before, now))] = None
+                there = (TypedName("?there", place),)
+                placed = placed or [Exists(there, _before(_renamed(each, "?y", "?there"), WAS)) for each in both]
         why = "predicates of place"
         yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)
         yield self._row(_ROWS["back"], (Slot("?x"),), conjunction(list(back)), "put_back X", why)
-        both = (Slot("?x"), Slot("?z", (*_ROWS["with"], *_ROWS["for"])))
-        yield self._row(_ROWS["swap"], both, conjunction(list(swapped)), "swap X with Z", why)
+        slots = (Slot("?x"), Slot("?z", (*_ROWS["with"], *_ROWS["for"])))
+        yield self._row(_ROWS["swap"], slots, conjunction(list(swapped)), "swap X with Z", why)
 
     def _all_places(self) -> dict[str, list[Formula]]:
         """Return for each preposition the conditions of place that it says."""
@@ -400,6 +410,12 @@ class _Words:
                 to, with_it = Slot("?y", _ROWS["whither"]), Slot("?x", _ROWS["with"])
                 yield self._row(_ROWS["give"], (Slot("?x"), to), atom, "give X to Y", why)
                 yield self._row(_ROWS["be"], (Slot("?y"), with_it), atom, "be Y with X", why)
+                if any(self._places(predicate)):
+                    continue  # which is said by its own preposition
+                inside = Slot("?y", tuple(dict.fromkeys((*_ROWS["vessel"], *_ROWS["resting"]))))
+                yield self._row(_ROWS["put"], (Slot("?x"), inside), atom, "put X in Y", why)
+                outside = Slot("?y", _ROWS["whence"])
+                yield self._row(_ROWS["take"], (Slot("?x"), outside), Not(atom), "take X from Y", why)
 
     def _joins_such(self, ends: Sequence[TypedName], one: TypedName, other: TypedName) -> bool:
         """Return whether two parameters may be two things, in either order."""
@@ -512,7 +528,8 @@ class _Words:
         for count in range(min(len(used), _MOST_SLOTS), 0, -1):
             for said in permutations(used, count):
                 names = {p.name: f"?{'xyz'[i]}" for i, p in enumerate(said)}
-                slots = (Slot("?x"), *(Slot(names[p.name], anywhere) for p in said[1:]))
+                acted_on, *others = said
+                slots = (Slot("?x", types=acted_on.types), *(Slot(names[p.name], anywhere, p.types) for p in others))
                 pattern = " … ".join([verbs[0], *(p.name.removeprefix("?").upper() for p in said)])
                 formula = conjunction([self._said(effect, names, action) for effect in wanted])
                 yield self._row(verbs, slots, formula, pattern, f"{OF_ACTION}{action.name}")
@@ -570,13 +587,13 @@ def _before(formula: Formula, when: str) -> Formula:
     return replace(formula, predicate=f"{formula.predicate}{MARK}{when}") if isinstance(formula, Atom) else formula
 
 
-def _of_other(formula: Formula) -> Formula:
-    """Return an atom of ``?x``, or one with some arguments left open, as one of ``?z``."""
+def _renamed(formula: Formula, old: str, new: str) -> Formula:
+    """Return an atom, or one with some arguments left open, with another name for a variable."""
     if isinstance(formula, Exists):
-        return replace(formula, part=_of_other(formula.part))
+        return replace(formula, part=_renamed(formula.part, old, new))
     if not isinstance(formula, Atom):
         return formula
-    return replace(formula, terms=tuple("?z" if term == "?x" else term for term in formula.terms))
+    return replace(formula, terms=tuple(new if term == old else term for term in formula.terms))
 
 
 def _verbs_of(name: str) -> Iterator[str]:

@@ -61,10 +61,17 @@ _CONNECTIVES = RESERVED | {"=", ""}
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """A place of a pattern for a noun phrase: its variable, and the prepositions before it (none: the object)."""
+    """A place of a pattern for a noun phrase.
+
+    Attributes:
+        variable: Its variable.
+        prepositions: The prepositions before it; none for the object of the verb.
+        types: The types of what may stand in it; empty where the condition alone tells.
+    """
 
     variable: str
     prepositions: tuple[str, ...] = ()
+    types: tuple[str, ...] = ()
 
     @property
     def is_place(self) -> bool:
@@ -410,14 +417,19 @@ def atoms_in(formula: Formula) -> Iterator[Atom]:
     return (part for part, _ in subformulas(formula) if isinstance(part, Atom))
 
 
-def slot_types(row_condition: Formula, variable: str, domain: Domain) -> tuple[str, ...]:
-    """Return the types of what may stand in a slot, read off the signature of the first predicate that takes it.
+def slot_types(row: GoalRow, slot: Slot, domain: Domain) -> tuple[str, ...]:
+    """Return the types of what may stand in a slot: its own, or those that the condition tells."""
+    return slot.types or _types_in(row.condition, slot.variable, domain)
+
+
+def _types_in(row_condition: Formula, variable: str, domain: Domain) -> tuple[str, ...]:
+    """Return the types of a variable, read off the signature of the first predicate that takes it.
 
     Where there are several ways (``or``), it may be of the types of any.
     """
     if isinstance(row_condition, Or):
         ways = [part for part in row_condition.parts if any(variable in atom.terms for atom in atoms_in(part))]
-        return tuple(dict.fromkeys(t for way in ways for t in slot_types(way, variable, domain))) or (OBJECT,)
+        return tuple(dict.fromkeys(t for way in ways for t in _types_in(way, variable, domain))) or (OBJECT,)
     predicate, place = slot_predicate(row_condition, variable)
     signature = next((p for p in domain.predicates if p.name == predicate), None)
     return signature.parameters[place].types if signature is not None else (OBJECT,)

@@ -134,6 +134,7 @@ class Bracketer(ClauseEnds):
 
     def _statement(self, at: int, *, negated: bool = False) -> int:
         """Bracket a statement whose subject has come and whose finite verb stands at ``at``."""
+        self._except()
         self._part_subject()
         start = (self.out[self._subject] if self._subject < len(self.out) else self.tokens[at]).span.start
         say = mark(K.SAY, start)
@@ -153,6 +154,14 @@ class Bracketer(ClauseEnds):
         demanded = any(t.kind is K.ENSURE for t in self.out[self._units[0][0] :])
         rest = range(at, self.first(at, "STOP"))
         return demanded and any(self.kind(i) is K.CC and self._statement_follows(i) for i in rest)
+
+    def _except(self) -> None:
+        """Drop the commas around an exception of the subject: "everything, except the cup, goes here"."""
+        named = self.out[self._subject :]
+        excepts = [i + 1 < len(named) and named[i + 1].kind is K.EXC for i in range(len(named))]
+        if any(excepts):
+            kept = [t for t, before in zip(named, excepts, strict=True) if not (before and t.kind is K.COMMA)]
+            self.out[self._subject :] = kept[:-1] if kept[-1].kind is K.COMMA else kept
 
     def _part_subject(self) -> None:
         """Begin a unit behind what precedes the subject without belonging to it: "radio off, the baby is asleep"."""
@@ -220,6 +229,11 @@ class Bracketer(ClauseEnds):
 
     def _purpose(self, at: int) -> int:
         verb = self.peek(at)
+        wish = self.past(verb + 1, "(IDLE|AUX)*")
+        said = range(verb + 1, wish + 1)
+        wishes = any(self.stem_among(i, "wishing", "liking") or self.among(i, "wishing") for i in said)
+        if wishes and self.kind(verb) in (K.SUBJECT, K.PRON) and self.among(at, "consequences"):
+            return self._stop(at)  # "…, so I'd like the lamp on"
         return self._bracket(self.tokens[at], K.PURP, at + 1, self._clause_end(verb if self.kind(verb) is K.V else at))
 
     def _infinitive(self, at: int) -> int:
@@ -407,7 +421,7 @@ class Bracketer(ClauseEnds):
     def _auxiliary(self, at: int) -> int:
         """Open a statement where a subject or "there" stands before an auxiliary; drop any other."""
         there, after = self.among(at - 1, "there_words"), self.peek(at)
-        self._begin_question(after)
+        self._begin_question(at, after)
         if self.among(after, "needless"):
             return self._negation(after)
         fresh = self._verb is None and all(t.kind in LINKS for t in self.out[self._subject :])
@@ -429,9 +443,10 @@ class Bracketer(ClauseEnds):
         something = fresh and self.follows(at + 1, "DET|NUM|ADJ|N")
         return self.among(at, "getting") and (something or (self._last() in LINKS and self._done_to(at) > 0))
 
-    def _begin_question(self, subject: int) -> None:
-        """Begin a unit with an auxiliary that stands between a comma and its subject: "a tea, can you make it?"."""
-        if self._verb is None and self._last() is K.COMMA and self.kind(subject) is K.SUBJECT:
+    def _begin_question(self, at: int, subject: int) -> None:
+        """Begin a unit with an auxiliary behind a comma: "a tea, can you make it?", "Joe, you can wash it"."""
+        asked = self.kind(subject) is K.SUBJECT or self.among(self.back(at), "addressee")
+        if self._verb is None and self._last() is K.COMMA and asked:
             self.out[-1].kind = K.SEP
             self._begin()
 
@@ -966,13 +981,18 @@ class Bracketer(ClauseEnds):
             token.kind, token.stem = K.PARTICIPLE, token.text
         elif self.follows(at + 1, "IDLE* (BREAK|SUB|MOD|P|V)"):
             hosted = state and last in (K.AUX, K.V, K.FINITE, K.STATE, K.CC)
-            there = any(
-                self.among(i - 1, "there_words") and self.past(i, "(AUX|NEG)*") == at for i in range(at - 3, at)
-            )
-            named = self.lexicon.is_noun(token.text) or token.text[-1:].isdigit()  # "needs bed 4"
-            if hosted or (last is K.AUX and not (there or named)):
+            becomes = last is K.V and self.out[-1].stem in section("becoming")  # "should go green"
+            if hosted or becomes or (last is K.AUX and not self._is_thing(at)):
                 token.kind = K.STATE
         return self._keep(at)
+
+    def _is_thing(self, at: int) -> bool:
+        """Return whether a noun behind an auxiliary is a thing: "there is milk", "needs bed 4"; not "is green"."""
+        there = any(self.among(i - 1, "there_words") and self.past(i, "(AUX|NEG)*") == at for i in range(at - 3, at))
+        named = self.lexicon.is_noun(self.tokens[at].text) or self.tokens[at].text[-1:].isdigit()
+        return there or (
+            named and not (self.out[-1].text in section("be") and self.follows(at + 1, "IDLE* (BREAK|SUB)"))
+        )
 
     def _inner_verb(self, at: int) -> int:
         """Keep a verb, but for what is a state behind a denied form of *be*: "it is not open"."""

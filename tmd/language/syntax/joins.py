@@ -48,7 +48,7 @@ def _copulas(tokens: list[Token]) -> list[Token]:
         its = token.kind is K.DET and words.among(at, "its_words")
         its = its and words.follows(at + 1, "ADV* (P|ADJ)") and not words.follows(at + 1, "(ADJ|ADV|NUM)* N")
         state = words.follows(
-            at + 1, "ADV BREAK | ADV* (P | (ADJ|ING|PARTICIPLE) BREAK | ING (P|TO|DET|PRON))"
+            at + 1, "ADV BREAK | ADV* (P | (ADJ|ING|PARTICIPLE) BREAK | ING (P|TO|DET|PRON)) | ADV ADV* N (P|BREAK)"
         ) or words.among(at + 1, "end_states")
         if its:
             token.kind, token.text = K.PRON, first_of("singular_pronouns")
@@ -59,10 +59,13 @@ def _copulas(tokens: list[Token]) -> list[Token]:
 
 def _finite(words: Words) -> None:
     """Mark "goes" and "stands" behind a subject as finite verbs: "both books go on the shelf"."""
-    subject = verb = False
+    subject = verb = aside = False
     for at, token in enumerate(words.tokens):
         if token.kind in (K.STOP, K.COMMA, K.CC, K.SUB, K.ENSURE):
-            subject, verb = subject and token.kind is K.CC and not verb, False
+            # "everything, except the cup, goes here"
+            excepts = token.kind is K.COMMA and words.among(at + 1, "exceptions")
+            goes_on = token.kind is K.CC or excepts or (token.kind is K.COMMA and aside)
+            subject, verb, aside = subject and goes_on and not verb, False, excepts
             continue
         main = subject and not verb and words.kind(at - 1) is not K.REL  # "the cup that stands there goes in the sink"
         if main and (stem := _placing(words, at)):
@@ -93,7 +96,8 @@ def _partitives(words: Words) -> None:
             continue
         listed = words.among(at, "partitives") and token.kind in (K.N, K.PRON, K.DET, K.ADJ)
         if listed or (token.kind is K.NUM and words.kind(at - 1) is not K.N):
-            of.kind, token.kind = K.FILLER, K.DET
+            counts = token.kind is not K.N or words.among(at, "quantifiers", "numbers", "none_words")
+            of.kind, token.kind = K.FILLER, K.DET if counts else K.FILLER
             if words.follows(at + 2, "DET NUM"):
                 words.tokens[at + 3].kind = K.FILLER  # "one of the two lamps": how many there are picks none of them
         elif token.kind in HEADS:
@@ -310,7 +314,9 @@ class _Particles(Words):
     def _particle(self, at: int) -> bool:
         verb, behind = self.tokens[at], False
         keeps = self.stem_among(at, "leaving", "keeping")
-        for place in range(at + 1, min(at + _AHEAD, self.first(at + 1, "V|FINITE|LET|NEG|ENSURE|STOP|SUB|REL|EXC"))):
+        for place in range(
+            at + 1, min(at + _AHEAD, self.first(at + 1, "V|FINITE|LET|NEG|ENSURE|STOP|SUB|REL|EXC|CC AUX"))
+        ):
             token = self.tokens[place]
             if token.kind not in (K.P, K.ADV):
                 continue

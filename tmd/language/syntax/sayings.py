@@ -68,7 +68,16 @@ class Saying:
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
         placed = placed or self._goes()
         duty = any(t.text in section("duties") for t in words) and not self._somebody()  # "we have guests"
-        return wished or placed or duty or self._wants()
+        return wished or placed or duty or self._wants() or self._released()
+
+    def _released(self) -> bool:
+        """Return whether it says what may be done with its subject by now: "the lid can come off", "can be washed"."""
+        free = any(t.text in section("asking") for t in self.helpers) and about_things(self.subject)
+        done = bool(self.verbs) and self.verbs[-1].kind is Kind.PARTICIPLE and self._helped("be")
+        moved = bool(self.verbs) and self.verbs[-1].stem in pairs("demand_verbs")
+        means = section("with_words") | section("by_words")  # "the lamp can be turned off with the switch"
+        told = any(t.text in means for node in self.rest for t in leaves(node))
+        return free and (done or moved) and not (told or self.denied or self._somebody())
 
     def _goes(self) -> bool:
         """Return whether it says where things are to go or may stay: "is going on the shelf", "can wait there"."""

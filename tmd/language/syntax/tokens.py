@@ -7,7 +7,7 @@ Segment marks (``|``), line breaks and control characters are blanks. Numbers gl
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cache
@@ -232,10 +232,16 @@ def _labelled(tokens: list[Token]) -> list[Token]:
             label = 0 < len(_until_sign(reversed(tokens[max(at - _NOTE, 0) : at]))) <= _LABEL
             if label and any(t.arrow for t in ahead):
                 token = replace(token, kind=Kind.WORD, text=sections()["arrows"][1], arrow=True)
-            elif label and 0 < len(ahead) <= 2 and ahead[-1].text in section("noted_states"):
+            elif label and _is_state(ahead):
                 continue
         found.append(token)
     return found
+
+
+def _is_state(words: Sequence[Token]) -> bool:
+    """Return whether words are a state and perhaps "please"; in "it is late: lights off" there is more."""
+    *front, last = words or (mark(Kind.STOP, 0),)
+    return last.text in section("noted_states") and all(token.text in section("polite") for token in front)
 
 
 def _until_sign(tokens: Iterable[Token]) -> list[Token]:
