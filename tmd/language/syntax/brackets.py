@@ -229,11 +229,8 @@ class Bracketer(ClauseEnds):
 
     def _purpose(self, at: int) -> int:
         verb = self.peek(at)
-        wish = self.past(verb + 1, "(IDLE|AUX)*")
-        said = range(verb + 1, wish + 1)
-        wishes = any(self.stem_among(i, "wishing", "liking") or self.among(i, "wishing") for i in said)
-        if wishes and self.kind(verb) in (K.SUBJECT, K.PRON) and self.among(at, "consequences"):
-            return self._stop(at)  # "…, so I'd like the lamp on"
+        if self._wishes_so(at):
+            return self._stop(at)
         return self._bracket(self.tokens[at], K.PURP, at + 1, self._clause_end(verb if self.kind(verb) is K.V else at))
 
     def _infinitive(self, at: int) -> int:

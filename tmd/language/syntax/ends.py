@@ -112,6 +112,13 @@ class ClauseEnds(Words):
         asks = self.among(at + 1, "frame_modals") and self.among(at + 2, "addressee", "tellers")
         return self.among(at, "reasoning") and (asks or not self.follows(at + 1, "AUX NP"))
 
+    def _wishes_so(self, at: int) -> bool:
+        """Return whether a wish follows for which the reason stands before: "so I'd like the lamp on"."""
+        subject = self.peek(at)
+        said = range(subject + 1, self.past(subject + 1, "(IDLE|AUX)*") + 1)
+        wishes = any(self.stem_among(i, "wishing", "liking") or self.among(i, "wishing") for i in said)
+        return wishes and self.kind(subject) in (K.SUBJECT, K.PRON) and self.among(at, "reasoning")
+
     def _too(self, at: int) -> bool:
         """Return whether a noun phrase with "too" or "also" stands from a place on, and nothing else."""
         begin = self.past(at, "IDLE*")
