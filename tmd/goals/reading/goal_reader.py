@@ -32,7 +32,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import BRING, PERSONS, TO, Clause, Relation
+from tmd.language.clause import BRING, PERSONS, PUT, TO, Clause, Relation
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE
@@ -322,6 +322,9 @@ class GoalReader:
         if clause.setting and is_verb(verb, "setting"):  # "set it to low" is to turn it, where no row is for "set"
             own = [*ranked("verbs", "setting"), *own]
         plain, _, particle = verb.partition("_")
+        if is_verb(plain, "moving_in") and is_relation(particle, "resting"):  # "get the disc in"
+            settled = f"{PUT}_{particle}"
+            own = [verb, settled, *self._synonyms(settled), *own]
         going = tuple(words_of("relations", "going"))
         moved = clause.direct or (None,)  # "go back to the hall": who acts
         goes = any(r.source in moved and relations_said(r.relation, going) for r in clause.relations)

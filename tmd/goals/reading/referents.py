@@ -487,7 +487,11 @@ class Referents:
         groups = self._groups(pronoun, reading.clause)
         nouns = groups[reading.antecedent or 0] if pronoun == reading.pronoun else groups[0]
         all_of_them = the_word("nouns", "plural")
-        names = (n for noun in nouns for n in self._antecedent(noun, all_of_them, types, reading).names)
+        found = {noun: self._antecedent(noun, all_of_them, types, reading).names for noun in nouns}
+        for noun in (each for each, names in found.items() if not (names or self.nouns.guess)):
+            if any(self.grounder.is_a(name, types) for name in self.targets(noun, reading)):
+                return Referent(noun, ())  # a cushion on the sofa, where none is
+        names = (name for each in found.values() for name in each)
         return Referent(pronoun, tuple(dict.fromkeys(names)), Mode.ALL)
 
     # ------------------------------------------------------------------ nouns

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
@@ -243,17 +244,32 @@ class RowReader:
         """
         said = reading.clause.phrase(unit.direct or "")
         one = said.definite and not said.plural and said.quantifier is Quantifier.PLAIN
-        if not one or row.places or not isinstance(formula, Or) or not _of_alternatives(formula.parts):
+        if (
+            not one
+            or self._says_where(row, unit, reading)
+            or not isinstance(formula, Or)
+            or not _of_alternatives(formula.parts)
+        ):
             return formula
         named = {name for atom in atoms_of(formula) for name in atom.args}
-        joined = (self._joined(name, reading) for name in reading.memory.recent if name not in named)
-        near = ([part for part in formula.parts if _mentions(part, others)] for others in joined)
+        recent = [name for name in reading.memory.recent if name not in named]
+        # what may change first; of what never does, most: both knobs are of the stove, and one controls the burner
+        near = (self._nearest(formula.parts, name, reading, fixed) for fixed in (False, True) for name in recent)
         return disjunction(next(filter(None, near), formula.parts))
 
-    def _joined(self, name: str, reading: ClauseReading) -> set[str]:
-        """Return what a thing stands in facts with, of those that may change."""
-        facts = (f for f in self.nouns.facts_about(name) if f in self.world.task.index)
-        return {other for f in facts if self.grounder.holds(f, reading.state) for other in f.args} - {name}
+    def _says_where(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+        """Return whether a clause fills a slot of a row behind a preposition with more than a setting: "to low"."""
+        targets = [t for slot in row.places for _, t in self.fitting.fillers(slot, unit, reading)]
+        values = [t for t in targets if t and all(map(self.nouns.is_constant, self.referents.targets(t, reading)))]
+        return len(values) < len(targets)
+
+    def _nearest(self, parts: Sequence[Formula], name: str, reading: ClauseReading, fixed: bool) -> list[Formula]:
+        """Return the parts about what most facts join to a thing: facts that may change, or those that never do."""
+        facts = [f for f in self.nouns.facts_about(name) if (f in self.world.task.static) == fixed]
+        joined = Counter(other for f in facts if self.grounder.holds(f, reading.state) for other in {*f.args} - {name})
+        counts = [max(joined[n] for atom in atoms_of(part) for n in atom.args) for part in parts]
+        most = max(counts)
+        return [p for p, count in zip(parts, counts, strict=True) if count == most > (min(counts) if fixed else 0)]
 
     def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read | None:
         """Return *two spoons of coffee* as some coffee, where nothing can be said of the spoons."""
@@ -694,10 +710,6 @@ class RowReader:
         binding = {variable: referent.names[0] for variable, referent in pairs}
         reason = why_impossible(use.row.condition, {**binding, RELATION: use.said[0]}, self.grounder)
         return self._cannot(use.reading, f": {reason}")
-
-
-def _mentions(formula: Formula, names: set[str]) -> bool:
-    return any(names.intersection(atom.args) for atom in atoms_of(formula))
 
 
 def _of_alternatives(parts: Sequence[Formula]) -> bool:

@@ -161,7 +161,7 @@ def _elides(clause: Clause, draft: ClauseDraft) -> bool:
 def _new(fact: Clause, before: Sequence[Clause]) -> dict[str, Clause]:
     """Return a statement by the nouns that it mentions first; a prohibition states nothing."""
     known = {name for clause in before for name in _named(clause)}
-    stated = fact.verb == BE and fact.mood is not Mood.AVOID
+    stated = (fact.verb == BE or fact.verb in section("postures")) and fact.mood is not Mood.AVOID
     return {name: fact for name in fact.direct if stated and name not in known}
 
 
@@ -171,16 +171,24 @@ def _stated(clause: Clause, facts: dict[str, Clause]) -> tuple[Relation, ...]:
     A statement says which thing is meant when it is next mentioned; from then on, the text binds it.
     """
     found: list[Relation] = []
-    for name in (*clause.objects, ""):
-        meant = next(iter(clause.antecedents.get(name, ())), name)
+    mentioned = [(name, meant) for name in (*clause.objects, "") for meant in clause.meant(name)]
+    for name, meant in mentioned:
         fact = facts.pop(meant, None)
-        # "there is a sock on the floor and one on the bed: put both away" is not about the first only
-        several = fact is not None and name in section("plural_pronouns") and not fact.phrase(meant).plural
+        several = fact is not None and _is_of_several(fact, meant, name, clause)
         places = fact.relations if fact is not None and not several else ()
         meanings = fact.antecedents if fact is not None else {}  # "there is a sock on it"
         told = [r for r in places if r.source == meant and r.relation in section("static")]
         found += [r._replace(target=meanings.get(r.target, (r.target,))[0]) for r in told]
     return tuple(r for r in found if r.target not in clause.objects and not is_pronoun(r.target))
+
+
+def _is_of_several(fact: Clause, meant: str, name: str, clause: Clause) -> bool:
+    """Return whether a statement is about one of several things that are meant.
+
+    *There is a sock on the floor and one on the bed. Put both away.*
+    """
+    alone = clause.together.get(name, 1) == 1 and not fact.phrase(meant).plural
+    return alone and name in section("plural_pronouns")
 
 
 def _place(pronoun: str, draft: ClauseDraft) -> int:

@@ -341,6 +341,8 @@ class Bracketer(ClauseEnds):
             opener = self.tokens[self.peek(at)]
             opener.negated = True
             return self._bracket(opener, K.ENSURE, wish + 1, self._statement_end(wish + 1))
+        while self._last() is K.COMMA and self._verb is None and self._wished_ahead(verb):
+            self.out.pop()  # "the curtain, I'd like open"
         own = self._of_oneself(at, verb)
         if own and self.stem_among(verb, "ordering") and self.tokens[verb].form != "ing":
             self._told, self._somebody = self.stem_among(verb, "liking"), True
@@ -356,11 +358,6 @@ class Bracketer(ClauseEnds):
             return at + 1
         self.tokens[at].kind = K.PRON
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
-
-    def _noticed(self, at: int, verb: int) -> bool:
-        """Return whether a subject notices something, or has done something: "somebody has put it there"."""
-        done = self.kind(verb) is K.PARTICIPLE and self.among(verb - 1, "having") and at + 1 < verb
-        return done or (self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX)
 
     def _they_belong(self, at: int, verb: int) -> bool:
         """Read "they belong on the bench" as a statement of things; return whether it is one."""
@@ -586,15 +583,13 @@ class Bracketer(ClauseEnds):
         ends = [t.text for t in self.tokens[begin:behind] if t.kind is K.N][-1:]
         owns = [token.text for token in self.out[start:end] if token.kind is K.N][-1:]
         ends, owns, heads = ([name.rstrip("_0123456789") for name in names] for names in (ends, owns, heads))
-        pairs = ((similarity(ends[0], other[0]) if ends and other else 0.0) for other in (owns, heads))
-        own, last = pairs
+        own, last = ((similarity(ends[0], other[0]) if ends and other else 0.0) for other in (owns, heads))
         return bool(heads) and own > last
 
     def _is_inverted(self, at: int) -> bool:
         """Return whether a condition begins that has its verb first: "should the door be open, shut it"."""
-        if self.kind(at) is not K.AUX or not self.among(at, "inverting") or self._last() not in BREAKS:
-            return False
-        apart = self.kind(self.first(at, "STOP|COMMA")) is K.COMMA
+        first = self.kind(at) is K.AUX and self.among(at, "inverting") and self._last() in BREAKS
+        apart = first and self.kind(self.first(at, "STOP|COMMA")) is K.COMMA
         return apart and not self.asked(at) and self.kind(at + 1) in NP
 
     def _take_back(self, start: int, note: str) -> None:
@@ -627,8 +622,9 @@ class Bracketer(ClauseEnds):
         if token.stem in section("forgetting") and self.kind(at + 1) in NP:
             return self._skip(at, self._clause_end(at), CORRECTED)  # "no, forget the tea"
         if token.stem in section("wishing"):
-            modal = any(self.among(i, "frame_modals") for i in range(max(at - 2, 0), at))
-            self._told = self._told and token.stem in section("liking") and not modal
+            self._told = self._told and token.stem in section("liking") and not self._is_modal(at)
+        if self._is_topic(at):
+            return at + 1
         if (token.stem in section("wishing") and self._wishes_state(at)) or self._has_done(at):
             return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
         if token.stem in section("causing") and self._causes(at):
@@ -641,6 +637,12 @@ class Bracketer(ClauseEnds):
         if self.kind(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1
+
+    def _is_topic(self, at: int) -> bool:
+        """Read a wish for what was named as a state of that: "the curtain I want open"; return whether it is one."""
+        topic = self._verb is None and self._named() and self._wished_ahead(at)
+        self.tokens[at + topic].kind = K.STATE if topic and self.kind(at + 1) is not K.P else self.kind(at + topic)
+        return topic
 
     def _go_there(self, at: int) -> None:
         """Begin a unit behind what goes somewhere without a verb: "the mug to the sink, wash it"."""

@@ -119,6 +119,20 @@ class ClauseEnds(Words):
         wishes = any(self.stem_among(i, "wishing", "liking") or self.among(i, "wishing") for i in said)
         return wishes and self.kind(subject) in (K.SUBJECT, K.PRON) and self.among(at, "reasoning")
 
+    def _noticed(self, at: int, verb: int) -> bool:
+        """Return whether a subject notices something, or has done something: "somebody has put it there"."""
+        done = self.kind(verb) is K.PARTICIPLE and self.among(verb - 1, "having") and at + 1 < verb
+        return done or (self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX)
+
+    def _is_modal(self, at: int) -> bool:
+        """Return whether a verb stands right behind "would" or the like."""
+        return any(self.among(i, "frame_modals") for i in range(max(at - 2, 0), at))
+
+    def _wished_ahead(self, at: int) -> bool:
+        """Return whether a wish names only a state or a place: what it is about stands before it."""
+        state = self.kind(at + 1) in (K.ADJ, K.PARTICIPLE, K.P) or self.among(at + 1, "end_states")
+        return state and self.stem_among(at, "wishing")
+
     def _too(self, at: int) -> bool:
         """Return whether a noun phrase with "too" or "also" stands from a place on, and nothing else."""
         begin = self.past(at, "IDLE*")
@@ -132,7 +146,7 @@ class ClauseEnds(Words):
 
     def _reports(self, at: int, verb: int, *, past: bool) -> bool:
         """Return whether a clause reports: "they left it open", "he never puts them away", "they are getting warm"."""
-        denied = self.follows(at + 1, "IDLE* NEG IDLE* (V|N)")
+        denied = self.follows(at + 1, "IDLE* NEG IDLE* (V|N|ADJ|PARTICIPLE)")
         progressive = self.kind(verb) is K.ING and self._is(at, verb)
         return denied or progressive or (past and verb == self.peek(at))
 

@@ -116,17 +116,20 @@ class Linker(Words):
         """Classify a link between things or states: "a cup and a mug", "TV on, lamp off"."""
         if after not in NP:
             return None
-        if before is K.END and not self._fronted and self.follows(end, "(NP|OF)+ P"):
-            self.tokens[end - 1].form = ALSO  # "the book where the pen is, and the cup on the shelf"
-        if before is K.END and self.tokens[end - 1].form == ALSO:
-            return K.SEP
-        if before in (K.P, K.STATE):
-            return K.SEP  # "lid on, kettle in the sink"
         if before not in HEADS:
-            return None
+            return K.SEP if self._ends_part(before, end) else None
         then = not self._fronted and self.among(end - 1, "then_words") and not self.among(end, "other_words")
         apart = then or self._state_of_its_own(end) or self._verbless(end)
         return K.SEP if apart else K.CONJ
+
+    def _ends_part(self, before: Kind, end: int) -> bool:
+        """Return whether a link behind something else than a thing begins a part of its own."""
+        if before is K.END and not self._fronted and self.follows(end, "(NP|OF)+ P"):
+            self.tokens[end - 1].form = ALSO  # "the book where the pen is, and the cup on the shelf"
+        if before is K.MOD:  # "lamp on high, the other lamp off"
+            return self._fronted and self._state_of_its_own(end)
+        # "lid on, kettle in the sink"
+        return before in (K.P, K.STATE) or (before is K.END and self.tokens[end - 1].form == ALSO)
 
     def _state_of_its_own(self, at: int) -> bool:
         """Return whether a thing with its state follows: "… in the chest, the lid closed"; not "leave both open"."""

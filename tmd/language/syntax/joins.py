@@ -133,9 +133,17 @@ def _numbered(words: Words) -> list[Token]:
                 joined.parts = before.parts
                 result[-1] = joined
                 continue
-            token.kind = K.PRON if singular(token.text) == token.text else K.N
+            _stand_alone(words, at)
         result.append(token)
     return result
+
+
+def _stand_alone(words: Words, at: int) -> None:
+    """Read a numeral without a noun as a noun, or as a pronoun: "these two"."""
+    token = words.tokens[at]
+    token.kind = K.PRON if singular(token.text) == token.text else K.N
+    if words.among(at - 1, "pointing") and not words.among(at, "one_words"):
+        token.text = first_of("plural_pronouns")
 
 
 def _list_numbered(words: Words) -> None:

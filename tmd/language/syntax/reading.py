@@ -26,6 +26,7 @@ from tmd.language.clause import (
     hull,
 )
 from tmd.language.lexicon.lexicon import first_of, pairs, section
+from tmd.language.lexicon.nouns import similarity
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft, as_one
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
@@ -37,7 +38,8 @@ _ASIDES = ("demand", "statement")
 _DENIALS = ("denial", "manner")
 _LATER = "later"
 """The order of a clause behind "before"."""
-"""Before an attribute or a relation: it must not hold."""
+_LIKE = 0.6
+"""Least Wu-Palmer similarity of a place and of what is named instead of it; a mug and a cup have 0.78."""
 
 
 @dataclass(slots=True)
@@ -366,6 +368,11 @@ class TextReading:
         copy = empty_draft(draft.verb.stem, nodes)
         if not about_things(nodes):
             copy.direct = list(draft.direct)
+        where = self._place_of_kind(draft, named_in(nodes))
+        if where is not None:  # "milk in the cup, not the mug": not in the mug
+            copy.direct, copy.landmarks = list(draft.direct), named_in(nodes)
+            copy.relations = [where._replace(target=phrase.name) for phrase in copy.landmarks]
+            return copy
         self._attach(copy, nodes)
         placing = draft.verb.stem.partition("_")[0] in section("placing") | section("moving")
         ones = placing and all(p.name in section("one_words") for p in copy.direct)
@@ -376,6 +383,15 @@ class TextReading:
         if any(p.said().other for p in copy.direct):
             copy.relations = copy.relations[-1:]  # what tells which one it is, is not said of the other one
         return copy
+
+    @staticmethod
+    def _place_of_kind(draft: ClauseDraft, named: Sequence[Phrase]) -> Relation | None:
+        """Return where something goes, if some other things are rather such a place than such a thing."""
+        last = draft.relations[-1] if draft.relations and draft.direct and named else None
+        if last is None or last.source is None or last.relation not in section("static") | section("arrivals"):
+            return None
+        thing, place, other = (name.rpartition("_")[2] for name in (last.source, last.target, named[0].name))
+        return last if similarity(other, place) > max(similarity(other, thing), _LIKE) else None
 
     # requests other than imperatives
 
