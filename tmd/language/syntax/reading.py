@@ -514,6 +514,8 @@ class TextReading:
         """Read "then the mug" and "the mug too" with the verb, and the place, of the clause before."""
         if not self.drafts or not about_things(nodes) or trees(nodes, *_ASIDES, *_DENIALS):
             return False
+        if self.drafts[-1].verb.form == "ed":
+            return False  # "eggs boiled in the pot, then milk in the cup"
         draft = self._contrasted(self.drafts[-1], nodes)
         draft.verb.sentence, draft.verb.form = self.drafts[-1].verb.sentence, self.drafts[-1].verb.form
         self.drafts.append(draft)

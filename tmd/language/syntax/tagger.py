@@ -124,7 +124,7 @@ FEATURES = {f.name: f"w.sentence.{f.name}" for f in fields(Sentence)} | {
     "thing": "w.lexicon.names_thing(w.word.text)",
     "thing-of-two": "w.lexicon.names_thing(f'{w.word.text}_{singular(w.next.text)}')",
     "undone": "w.lexicon.is_undone(w.word.text)",
-    "deed": "w.lexicon.is_deed(w.word.text)",
+    "deed": "w.lexicon.is_deed(w.word.stem or w.word.text)",
     "letters": "w.word.text.isalpha()",
     "number": "is_number(w.word.text)",
     "compound": "f'{w.word.text}_{singular(w.next.text)}' in _compounds",
