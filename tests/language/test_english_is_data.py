@@ -17,7 +17,7 @@ FILES = sorted(
     for path in ([ROOT / place] if place.endswith(".py") else (ROOT / place).rglob("*.py"))
     if path.is_file() and "data" not in path.relative_to(ROOT).parts
 )
-GRAMMAR = ROOT / "language" / "syntax" / "clauses.lark"
+GRAMMAR = ROOT / "language" / "data" / "clauses.lark"
 ALLOWED = {
     **dict.fromkeys(("evidence", "probability"), "keys of the JSON of learned goals"),
     **dict.fromkeys(Clause.__dataclass_fields__, "fields of a clause, also in JSON"),

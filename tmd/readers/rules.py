@@ -185,7 +185,10 @@ class RuleDialogue(Dialogue):
         objects = self._goals.world.profiles.objects
         named = [word for word in words if nouns.lexicon.names_thing(word) or word in objects]
         named = [n for n in named if not self._goals.is_actor(n)]  # "Joe, wash the car"
-        return piece.reason == NO_VERB and any(nouns.things(n, state) or nouns.substances(n) for n in named)
+        known = any(nouns.things(n, state) or nouns.substances(n) for n in named) or any(
+            map(self._goals.names_deed, words)
+        )
+        return piece.reason == NO_VERB and known
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the goal of a step that begins in ``state``."""

@@ -284,6 +284,11 @@ class GoalReader:
         """Return whether a table has the verb."""
         return any(table.of(word) for table in self.tables)
 
+    def names_deed(self, word: str) -> bool:
+        """Return whether a word says what is done here: "a soda, already opened"."""
+        verb = participle(word)
+        return verb is not None and self._is_verb(verb) and not is_verb(verb, "leaving")  # "on your left"
+
     def _phrasal(self, clause: Clause) -> Clause | None:
         """Return a clause whose verb and preposition are one verb here: "operate on the cat", "let it out of the cage".
 

@@ -142,6 +142,9 @@ class Requirements:
         inside = said.relation in (*PREPOSITIONS["in"], *PREPOSITIONS["on"])
         thing = not (self.nouns.guess or self._is_substance(said.referent))
         never = inside and thing and self._never(said) and self._takes_others(said)
+        # "water in the glass on the table" is not the cup of water that is somewhere else
+        poured = thing and is_relation(said.relation, "inside") and self.nouns.substances(said.referent.noun)
+        never = never or (bool(poured) and set(said.names).isdisjoint(said.referent.names))
         return [lambda _: FALSE] if never else []  # no kettle is heated in the microwave
 
     def _beside_place(self, said: _Said) -> list[Requirement] | None:

@@ -1,4 +1,4 @@
-"""What the brackets have emitted so far, and corrections of it: "on the bench, no wait, in the shed"."""
+"""The words that the brackets have emitted, and corrections of them: "on the bench, no wait, in the shed"."""
 
 from __future__ import annotations
 

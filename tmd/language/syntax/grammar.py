@@ -210,7 +210,7 @@ class Linker(Words):
 @cache
 def _parser() -> Lark:
     """Return the parser, which is fed token by token."""
-    grammar = (files("tmd.language.syntax") / "clauses.lark").read_text(encoding="utf-8")
+    grammar = (files("tmd.language.data") / "clauses.lark").read_text(encoding="utf-8")
     return Lark(grammar, start="text", parser="lalr")
 
 

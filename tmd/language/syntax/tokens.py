@@ -356,7 +356,10 @@ def drop_endearments(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
             dropped += tokens[begin : at + 1]
             gone.update(map(id, tokens[begin - 1 : at + 1]))  # without the comma before
         if token.text in section("hesitations"):
-            gone.update(map(id, tokens[at : at + 1 + (after is Kind.COMMA)]))
+            broken = at > 1 and tokens[at - 2].text in section("determiners") | section(
+                "prepositions"
+            )  # "the, er, box"
+            gone.update(map(id, tokens[at - broken : at + 1 + (after is Kind.COMMA)]))
     return [token for token in tokens if id(token) not in gone], noted(dropped, ADDRESS)
 
 
