@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from tmd.goals.grounder import Grounder, Moments
+from tmd.goals.sources.actions import participle
 from tmd.goals.sources.table import RELATION, GoalTable
 from tmd.goals.words import (
     BE,
@@ -235,8 +236,15 @@ class _Says:
             return self.anywhere
         if self.inside and not (self.things and self.words & words_of("relations", "partitive")):
             return not self.things and alone
+        if changes and self._fastened(parts):
+            return True
         joins = bool(self.words & words_of("relations", "joining")) and self.things  # "the door to the hall"
         return self.anywhere and (changes or joins)
+
+    def _fastened(self, parts: Collection[str]) -> bool:
+        """Return whether a predicate says that one thing was fastened to another: "the battery in the van"."""
+        resting = self.things and bool(self.words & words_of("relations", "resting"))
+        return resting and any(participle(part) for part in parts)
 
 
 def _called_after(name: str, target: str) -> bool:

@@ -30,7 +30,7 @@ from tmd.goals.words import (
 )
 from tmd.language.clause import PERSONS, TO, Clause, Mood, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
-from tmd.language.lexicon.names import split_name
+from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.language.lexicon.nouns import ALIAS
 from tmd.pddl.model import OBJECT
 from tmd.pddl.task import Bits
@@ -457,7 +457,11 @@ class Referents:
         """Return *one* as a thing like its antecedent: "take the front wheel off and put the spare one on"."""
         kind = self._kind_of_one(antecedent, relations, reading)
         told = self.relations_of(antecedent, reading.clause) if antecedent not in reading.clause.objects else []
-        kinds = dict.fromkeys((kind, split_name(antecedent)[-1]))
+        state = reading.state
+        head = split_name(antecedent)[-1]
+        own = "_".join((*said.attributes, head))  # "swap the old disk for the new one": another thing has that name
+        called = said.attributes and any(words_in_name(own) <= words_in_name(n) for n in self.nouns.things(own, state))
+        kinds = dict.fromkeys((*((own,) if called else ()), kind, head))
         ways = [(each, [*relations, *told]) for each in kinds]
         if told and said.attributes:  # "the battery in the van is dead, fit the new one": that is elsewhere
             ways += [(each, relations) for each in kinds]

@@ -231,34 +231,52 @@ class _Words:
             nowhere = And(tuple(Not(atom) for atoms in places.values() for atom in atoms))
             yield self._placed("take", "whence", nowhere, "take X from Y")
             yield from self._of_all_places()
+        yield from self._exchanges()
 
     def _of_all_places(self) -> Iterator[GoalRow]:
-        """Yield ``clear Y``: nothing is there; ``put back X``, and ``swap X with Z``: they are where they were."""
+        """Yield ``clear Y``: nothing is there; and ``put back X``: it is where it was."""
         made = (self.fluent & self.made) - set(self.passing)
         nothing: dict[Formula, None] = {}
         back: dict[Formula, None] = {}
-        swapped: dict[Formula, None] = {}
-        placed: list[Formula] = []
         for predicate in self.domain.predicates:
             for _, atom in self._places(predicate) if predicate.name in made else ():
                 thing, place = (p.types for p in self.things(predicate))
                 nothing[Not(Exists((TypedName("?x", thing),), atom))] = None
-                where = (TypedName("?y", place),)
-                back[Forall(where, Imply(_before(atom, FIRST), atom))] = None
-                both = (atom, _renamed(atom, "?x", "?z"))
-                # a plant goes to the other's bench, and keeps its pot; a new disk goes where the old one was
-                keeps = bool(placed) and predicate.name not in self._exchanged
-                for number, (then, now) in enumerate(permutations(both)):
-                    was = _before(then, WAS)
-                    before = And((was, Not(placed[number]))) if keeps else was
-                    swapped[Forall(where, Imply(before, now))] = None
-                there = (TypedName("?there", place),)
-                placed = placed or [Exists(there, _before(_renamed(each, "?y", "?there"), WAS)) for each in both]
+                back[Forall((TypedName("?y", place),), Imply(_before(atom, FIRST), atom))] = None
         why = "predicates of place"
         yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)
         yield self._row(_ROWS["back"], (Slot("?x"),), conjunction(list(back)), "put_back X", why)
+
+    def _exchanges(self) -> Iterator[GoalRow]:
+        """Yield ``swap X with Z`` for each kind of things: each is where the other one was."""
+        made = (self.fluent & self.made) - set(self.passing)
         slots = (Slot("?x"), Slot("?z", (*_ROWS["with"], *_ROWS["for"])))
-        yield self._row(_ROWS["swap"], slots, conjunction(list(swapped)), "swap X with Z", why)
+        atoms = [(p, atom) for p in self.domain.predicates if p.name in made for _, atom in self._places(p)]
+        joined = [(p, self._atom(p, {one.name: "?x", other.name: "?y"})) for p, one, other in self._joining()]
+        atoms += [(p, atom) for p, atom in joined if not any(self._places(p))]
+        kinds = dict.fromkeys(self.things(p)[0] for p, _ in atoms)
+        alike = ([pair for pair in atoms if self._alike(self.things(pair[0])[0], kind)] for kind in kinds)
+        for condition in dict.fromkeys(map(self._exchange, alike)):
+            yield self._row(_ROWS["swap"], slots, condition, "swap X with Z", "predicates of place")
+
+    def _exchange(self, atoms: Sequence[tuple[Predicate, Formula]]) -> Formula:
+        """Return that two things are each where the other one was, by predicates of where such things are.
+
+        A plant goes to the other's bench, and keeps its pot. A new part goes where the old one was mounted.
+        """
+        swapped: dict[Formula, None] = {}
+        placed: list[Formula] = []
+        for predicate, atom in atoms:
+            place = self.things(predicate)[-1].types
+            both = (atom, _renamed(atom, "?x", "?z"))
+            keeps = bool(placed) and predicate.name not in self._exchanged
+            for number, (then, now) in enumerate(permutations(both)):
+                was = _before(then, WAS)
+                before = And((was, Not(placed[number]))) if keeps else was
+                swapped[Forall((TypedName("?y", place),), Imply(before, now))] = None
+            there = (TypedName("?there", place),)
+            placed = placed or [Exists(there, _before(_renamed(each, "?y", "?there"), WAS)) for each in both]
+        return conjunction(list(swapped))
 
     def _all_places(self) -> dict[str, list[Formula]]:
         """Return for each preposition the conditions of place that it says."""
@@ -398,12 +416,7 @@ class _Words:
 
         *Mr Smith needs his aspirin*: what he can have to do with it is that he takes it.
         """
-        made = [p for p in self.domain.predicates if p.name in self.made and p.name not in self.passing]
-        pairs = {p: self.things(p) for p in made if len(self.things(p)) == len(p.parameters) == 2}
-        for predicate, (one, other) in pairs.items():
-            rivals = [p for p, ends in pairs.items() if p != predicate and self._joins_such(ends, one, other)]
-            if rivals or self._alike(one, other):
-                continue
+        for predicate, one, other in self._joining():
             for thing, owner in ((one, other), (other, one)):
                 atom = self._atom(predicate, {thing.name: "?x", owner.name: "?y"})
                 why = f"{predicate.name} joins such things"
@@ -416,6 +429,15 @@ class _Words:
                 yield self._row(_ROWS["put"], (Slot("?x"), inside), atom, "put X in Y", why)
                 outside = Slot("?y", _ROWS["whence"])
                 yield self._row(_ROWS["take"], (Slot("?x"), outside), Not(atom), "take X from Y", why)
+
+    def _joining(self) -> Iterator[tuple[Predicate, TypedName, TypedName]]:
+        """Yield the predicates that alone join two such things, each with its parameters."""
+        made = [p for p in self.domain.predicates if p.name in self.made and p.name not in self.passing]
+        pairs = {p: self.things(p) for p in made if len(self.things(p)) == len(p.parameters) == 2}
+        for predicate, (one, other) in pairs.items():
+            rivals = [p for p, ends in pairs.items() if p != predicate and self._joins_such(ends, one, other)]
+            if not (rivals or self._alike(one, other)):
+                yield predicate, one, other
 
     def _joins_such(self, ends: Sequence[TypedName], one: TypedName, other: TypedName) -> bool:
         """Return whether two parameters may be two things, in either order."""
