@@ -32,7 +32,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import BRING, PERSONS, PUT, TO, Clause, Relation
+from tmd.language.clause import BRING, PERSONS, PUT, TO, Clause, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE
@@ -250,15 +250,38 @@ class GoalReader:
         if len(clause.direct) != 1 or len(given) != 1:
             return None
         noun, receivers = clause.direct[0], (given[0].target,)
+        if clause.verb == BE and is_relation(given[0].relation, "accompanying"):  # "the van needs an oil change"
+            return self._needed(clause, given[0].target)
         meant = clause.antecedents.get(noun, ())[:1] if is_one(noun) else (noun, _of_gerund(noun))
+        meant += (self._compound_deed(noun),)
         deed = next(filter(self._is_verb, meant), "")
-        own = self._is_verb(clause.verb) and clause.verb not in section("placing")
-        gives = given[0].relation == TO if is_verb(clause.verb, "giving") else not own
+        gives = self._gives(clause, given[0])
         mark = self._laid_mark(noun, clause)
         if not (deed or mark) or not gives or self._names_thing(deed or noun):
             return None
         treated = replace(clause, verb=deed or BE, direct=receivers, objects=receivers, relations=())
         return treated if deed else replace(treated, result=mark)
+
+    def _needed(self, clause: Clause, noun: str) -> Clause | None:
+        """Return "both cars get a wash", "the van needs an oil change" as what is to be done to them."""
+        deed = self._compound_deed(noun) or (noun if self._is_single(clause.phrase(noun)) else "")
+        return replace(clause, verb=deed, objects=clause.direct, relations=()) if self._is_verb(deed) else None
+
+    def _gives(self, clause: Clause, relation: Relation) -> bool:
+        """Return whether a verb only gives something, or puts it there, and is none of this domain's own."""
+        if is_verb(clause.verb, "giving"):
+            return relation.relation == TO
+        return not self._is_verb(clause.verb) or clause.verb in section("placing")
+
+    @staticmethod
+    def _is_single(phrase: NounPhrase) -> bool:
+        return phrase.quantifier is Quantifier.PLAIN and not (phrase.definite or phrase.plural or phrase.undetermined)
+
+    def _compound_deed(self, noun: str) -> str:
+        """Return the verb of a compound noun: ``change_oil`` of an *oil change*; empty for other nouns."""
+        first, _, last = noun.rpartition("_")
+        verb = f"{last}_{first}"
+        return verb if first and self._is_verb(verb) else ""
 
     def _laid_mark(self, noun: str, clause: Clause) -> str | None:
         """Return the state of what is given a mark: "put a price on it", of things that are ``price_tagged``."""

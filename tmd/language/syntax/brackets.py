@@ -275,8 +275,7 @@ class Bracketer(Corrections):
         contrast = self.kind(self.back(at)) is K.COMMA and self.kind(self.peek(at)) in NP | {K.P}
         apart = self.kind(self.back(at)) is K.CC and self.kind(self.peek(at)) is K.V  # "…, but don't wrap it"
         if self._verb is None and self._named() and not (contrast or apart):  # "chips in the bowl, not on the plate"
-            token.kind = K.AUX  # "the mug shouldn't be there"
-            return self._statement(at, negated=True)
+            return self._denied(at)
         deed = self.past(at + 1, "(NEG|IDLE|AUX|SUBJECT|TO|INF)*")
         if self.stem_among(deed, "forgetting"):
             thing = self.kind(deed + 1) in NP
@@ -287,6 +286,14 @@ class Bracketer(Corrections):
         if self._unneeded(at, deed):
             return self._skip(at, end, UNNEEDED)
         return self._bracket(token, K.NEG, deed, end)
+
+    def _denied(self, at: int) -> int:
+        """Bracket a statement whose negation stands at ``at``; set aside what things need not have."""
+        if self.among(self.peek(at), "unneeded") and self.follows(self.peek(at) + 1, "NP+ BREAK"):
+            self._take_back(self._subject, UNNEEDED)  # "the van doesn't need one"
+            return self._skip(at, self.first(at, "BREAK"), UNNEEDED)
+        self.tokens[at].kind = K.AUX  # "the mug shouldn't be there"
+        return self._statement(at, negated=True)
 
     # statements
 

@@ -63,15 +63,22 @@ def _finite(words: Words) -> None:
     for at, token in enumerate(words.tokens):
         if token.kind in (K.STOP, K.COMMA, K.CC, K.SUB, K.ENSURE):
             # "everything, except the cup, goes here"
-            excepts = token.kind is K.COMMA and words.among(at + 1, "exceptions")
-            goes_on = token.kind is K.CC or excepts or (token.kind is K.COMMA and aside)
-            subject, verb, aside = subject and goes_on and not verb, False, excepts
+            opens = token.kind is K.COMMA and words.among(at + 1, "exceptions")
+            subject = subject and not verb and (opens or token.kind in ((K.CC, K.COMMA) if aside else (K.CC,)))
+            verb, aside = False, opens
             continue
         main = subject and not verb and words.kind(at - 1) is not K.REL  # "the cup that stands there goes in the sink"
-        if main and (stem := _placing(words, at)):
+        if stem := _finite_stem(words, at) if main else "":
             token.kind, token.stem, verb = K.FINITE, stem, True
         subject = subject or token.kind in (K.N, K.PRON, K.NUM)
         verb = verb or token.kind in (K.V, K.LET)
+
+
+def _finite_stem(words: Words, at: int) -> str:
+    """Return the stem of a verb of placing, or of getting with several things: "both plants get some water"."""
+    several = words.kind(at - 1) is K.N and singular(words.tokens[at - 1].text) != words.tokens[at - 1].text
+    gets = several and words.stem_among(at, "receiving") and words.follows(at + 1, "DET|NUM")
+    return words.tokens[at].stem if gets else _placing(words, at)
 
 
 def _placing(words: Words, at: int) -> str:

@@ -68,7 +68,13 @@ class Saying:
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
         placed = placed or self._goes()
         duty = any(t.text in section("duties") for t in words) and not self._somebody()  # "we have guests"
-        return wished or placed or duty or self._wants() or self._released()
+        return wished or placed or duty or any(said() for said in (self._wants, self._released, self._receives))
+
+    def _receives(self) -> bool:
+        """Return whether it says what things get: "both plants get some water"."""
+        verbs = (v for v in self.verbs[-1:] if v.kind is Kind.FINITE and v.form != "ed")
+        gets = any(verb.stem in section("receiving") for verb in verbs)
+        return gets and about_things(self.subject) and bool(trees(self.rest, "group"))
 
     def _released(self) -> bool:
         """Return whether it says what may be done with its subject by now: "the lid can come off", "can be washed"."""
