@@ -244,8 +244,8 @@ def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleSte
         if clause.result and clause.result not in words_of("outcomes", "alone"):
             verb = clause.verb if all(map(is_pronoun, clause.direct)) else BE
             yield replace(step, clause=replace(clause, verb=verb, mood=Mood.DO), jointly=True)
-        elif step.guards:
-            yield step  # "if it is there, leave it, otherwise …"
+        elif step.guards or any(is_relation(r.relation, "locating") for r in clause.relations):
+            yield step  # "if it is there, leave it, otherwise …", "keep it where the other one is"
         return
     for _, inner in _said(clause, "earlier"):
         # "once it boils" is about what boils by then, if that is what is meant

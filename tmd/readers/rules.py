@@ -97,6 +97,8 @@ class RuleReader:
 
 _TITLE = 2
 """Words of a title, at most: "Movie night!"."""
+_COLON = re.compile(r"[^.!?;\n]*:")
+"""The rest of a heading."""
 
 
 @lru_cache(maxsize=16)
@@ -246,8 +248,19 @@ class RuleDialogue(Dialogue):
         others = (other for other in self.steps if isinstance(other, RuleStep) and other is not step)
         asked = any(o.main and o.clause.objects and not (o.optional or o.clause.told) for o in others)
         bare = not clause.objects and is_verb(clause.verb, "parting")  # "time to go home"
+        if asked and self._is_heading(clause, refusal, nothing=nothing):
+            return True
         wished = not (section("wishing") - section("liking")).isdisjoint(clause.text.lower().split()[:1])
         return asked and (clause.told or bare or (clause.implied and nothing and not wished))
+
+    def _is_heading(self, clause: Clause, refusal: Refusal, *, nothing: bool) -> bool:
+        """Return whether a colon follows what names nothing and asks for nothing that is known here.
+
+        *Two things need to happen before the demo: …*
+        """
+        behind = self.parsed.text[clause.span.end :]
+        strange = refusal.kind is RefusalKind.UNKNOWN_VERB
+        return (nothing and behind.lstrip().startswith(":")) or (strange and bool(_COLON.match(behind)))
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory after a step that reached ``goal`` in ``state``: what its nouns turned out to mean."""

@@ -29,6 +29,8 @@ from tmd.goals.words import (
     is_verb,
     ranked,
     relations_said,
+    results,
+    table,
     the_word,
     words_of,
 )
@@ -229,7 +231,8 @@ class GoalReader:
 
     def goes_elsewhere(self, clause: Clause, state: Bits, memory: Memory) -> bool:
         """Return whether a clause says a place, which is here, where nothing is by now that it acts on."""
-        places = [r for r in clause.relations if r.source in clause.direct and is_relation(r.relation, "place")]
+        said = (r for r in clause.relations if r.source in clause.direct)
+        places = [r for r in said if is_relation(r.relation, "place") or is_relation(r.relation, "locating")]
         return not self.is_there(clause, state, memory) and any(self.knows_of(r.target) for r in places)
 
     def is_there(self, clause: Clause, state: Bits, memory: Memory) -> bool:
@@ -254,7 +257,7 @@ class GoalReader:
             return self._needed(clause, given[0].target)
         meant = clause.antecedents.get(noun, ())[:1] if is_one(noun) else (noun, _of_gerund(noun))
         meant += (self._compound_deed(noun),)
-        deed = next(filter(self._is_verb, meant), "")
+        deed = next(filter(self.knows_verb, meant), "")
         gives = self._gives(clause, given[0])
         mark = self._laid_mark(noun, clause)
         if not (deed or mark) or not gives or self._names_thing(deed or noun):
@@ -264,14 +267,15 @@ class GoalReader:
 
     def _needed(self, clause: Clause, noun: str) -> Clause | None:
         """Return "both cars get a wash", "the van needs an oil change" as what is to be done to them."""
-        deed = self._compound_deed(noun) or (noun if self._is_single(clause.phrase(noun)) else "")
-        return replace(clause, verb=deed, objects=clause.direct, relations=()) if self._is_verb(deed) else None
+        head = noun if self.knows_verb(noun) else noun.rpartition("_")[2]  # "a thorough wash"
+        deed = self._compound_deed(noun) or (head if self._is_single(clause.phrase(noun)) else "")
+        return replace(clause, verb=deed, objects=clause.direct, relations=()) if self.knows_verb(deed) else None
 
     def _gives(self, clause: Clause, relation: Relation) -> bool:
         """Return whether a verb only gives something, or puts it there, and is none of this domain's own."""
         if is_verb(clause.verb, "giving"):
             return relation.relation == TO
-        return not self._is_verb(clause.verb) or clause.verb in section("placing")
+        return not self.knows_verb(clause.verb) or clause.verb in section("placing")
 
     @staticmethod
     def _is_single(phrase: NounPhrase) -> bool:
@@ -281,7 +285,7 @@ class GoalReader:
         """Return the verb of a compound noun: ``change_oil`` of an *oil change*; empty for other nouns."""
         first, _, last = noun.rpartition("_")
         verb = f"{last}_{first}"
-        return verb if first and self._is_verb(verb) else ""
+        return verb if first and self.knows_verb(verb) else ""
 
     def _laid_mark(self, noun: str, clause: Clause) -> str | None:
         """Return the state of what is given a mark: "put a price on it", of things that are ``price_tagged``."""
@@ -303,14 +307,14 @@ class GoalReader:
                 return replace(clause, direct=(thing,), objects=(thing, person), relations=to, phrases=phrases)
         return None
 
-    def _is_verb(self, word: str) -> bool:
+    def knows_verb(self, word: str) -> bool:
         """Return whether a table has the verb."""
         return any(table.of(word) for table in self.tables)
 
     def names_deed(self, word: str) -> bool:
         """Return whether a word says what is done here: "a soda, already opened"."""
         verb = participle(word)
-        return verb is not None and self._is_verb(verb) and not is_verb(verb, "leaving")  # "on your left"
+        return verb is not None and self.knows_verb(verb) and not is_verb(verb, "leaving")  # "on your left"
 
     def _phrasal(self, clause: Clause) -> Clause | None:
         """Return a clause whose verb and preposition are one verb here: "operate on the cat", "let it out of the cage".
@@ -319,12 +323,12 @@ class GoalReader:
         """
         for relation in clause.relations:
             verb = f"{clause.verb}_{relation.relation.partition('_')[0]}"
-            if not self._is_verb(verb):
+            if not self.knows_verb(verb):
                 continue
             if relation.source is None and not clause.direct:
                 others = tuple(r for r in clause.relations if r != relation)
                 return replace(clause, verb=verb, direct=(relation.target,), relations=others)
-            if relation.source in clause.direct and not self._is_verb(clause.verb):
+            if relation.source in clause.direct and not self.knows_verb(clause.verb):
                 return replace(clause, verb=verb)
         return None
 
@@ -370,16 +374,20 @@ class GoalReader:
         asked = self.states.read(reading)
         if not isinstance(asked, Refusal):
             return self.rows.finished(asked, None, reading)
-        done = self.lexicon.verb(clause.result) if clause.result and is_verb(clause.verb, "finished") else None
-        if (
-            asked.kind is RefusalKind.NOT_UNDERSTOOD
-            and done is not None
-            and done[1] in words_of("outcomes", "participle")
-        ):
-            said = replace(clause, verb=done[0], result=None, implied=False)
+        if asked.kind is not RefusalKind.NOT_UNDERSTOOD or not is_verb(clause.verb, "finished"):
+            return asked
+        for verb in self._leading_to(clause.result or ""):
+            said = replace(clause, verb=verb, result=None, implied=False)
             found = self.read(said, reading.state, reading.memory, awaited=reading.awaited, decisions=reading.decisions)
-            return asked if isinstance(found, Refusal) else found
+            if not isinstance(found, Refusal):
+                return found
         return asked
+
+    def _leading_to(self, result: str) -> list[str]:
+        """Return the verbs that leave things in a state: *lay* for *laid*, *open* and *unlock* for *open*."""
+        done = self.lexicon.verb(result) if result else None
+        own = [done[0]] if done is not None and done[1] in words_of("outcomes", "participle") else []
+        return [*own, *(verb for verb in table("results") if result in results(verb) and self.knows_verb(verb))]
 
     def knows(self, noun: str) -> bool:
         """Return whether the domain has a word for a noun, be there such a thing here or not."""
@@ -407,10 +415,10 @@ class GoalReader:
     def _by_tables(self, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refusal:
         """Return the goal by the first source that knows the verb, or else by the first that knows a relative of it."""
         failure: Refusal | None = None
-        knows = {id(table): any(map(table.of, own)) for table in self.tables}
+        knows = {id(source): any(map(source.of, own)) for source in self.tables}
         # a weaker source is asked only where the surer ones know nothing
-        for table in sorted(self.tables, key=lambda table: not knows[id(table)]):
-            found = self._by_table(table, own, reading)
+        for source in sorted(self.tables, key=lambda each: not knows[id(each)]):
+            found = self._by_table(source, own, reading)
             if isinstance(found, ClauseGoal) or (found and found.kind is not RefusalKind.NOT_UNDERSTOOD):
                 return found
             failure = failure or found

@@ -35,8 +35,7 @@ def _joined_words(name: str) -> tuple[str, ...]:
     whose shortest word is the longest.
     """
     words = builtin()
-    placed = any(name.endswith(place) and words.is_part(name.removesuffix(place)) for place in section("short_places"))
-    if (len(name) < _JOINED_LENGTH and not placed) or not name.isalpha() or words.knows(name):
+    if (len(name) < _JOINED_LENGTH and not _is_short_sentence(name, words)) or not name.isalpha() or words.knows(name):
         return (name,)
     cuts = range(_SHORTEST_WORD, len(name) - _SHORTEST_WORD + 1)
     begun = [(name[:cut], name[cut:]) for cut in cuts if words.is_part(name[:cut])]
@@ -48,6 +47,13 @@ def _joined_words(name: str) -> tuple[str, ...]:
         key=lambda found: (found[-1] in ends, min(map(len, found)), len(found[0])),
         default=(name,),
     )
+
+
+def _is_short_sentence(name: str, words: Lexicon) -> bool:
+    """Return whether a short name ends in a preposition, or begins with a form of *be* or *have*: ``iswet``."""
+    placed = any(name.endswith(place) and words.is_part(name.removesuffix(place)) for place in section("short_places"))
+    leads = (*section("be"), *section("having"))
+    return placed or any(name.startswith(lead) and words.is_part(name.removeprefix(lead)) for lead in leads)
 
 
 def words_in_name(name: str) -> frozenset[str]:

@@ -53,7 +53,7 @@ class Bracketer(Corrections):
             K.ADJ: self._adjective, K.ADV: self._adverb, K.FILLER: self._drop, K.SKIP: self._drop,
         }  # fmt: skip
         self._outer: dict[Kind, Handler] = shared | {
-            K.STOP: self._stop, K.TO: self._infinitive, K.NEG: self._negation, K.ENSURE: self._ensure,
+            K.STOP: self._stop, K.TO: self._infinitive, K.NEG: self._negative, K.ENSURE: self._ensure,
             K.LET: self._let, K.SUBJECT: self._speaker, K.AUX: self._auxiliary, K.FINITE: self._auxiliary,
             K.PARTICIPLE: self._participle, K.ING: self._ing, K.V: self._deed, K.N: self._noun,
             K.COMMA: self._comma, K.CC: self._joint, K.PRON: self._pronoun,
@@ -266,6 +266,11 @@ class Bracketer(Corrections):
         token.kind, token.stem, token.form = K.V, token.text, "base"
         return self._deed(at)
 
+    def _negative(self, at: int) -> int:
+        """Drop a negation that only makes a question polite; read any other."""
+        self.tokens[at].kind = K.FILLER if self._asks_denied(at) else K.NEG
+        return at + 1 if self.kind(at) is K.FILLER else self._negation(at)
+
     def _negation(self, at: int) -> int:
         """Bracket what must not be done: "don't open it", "not the mug"."""
         token = self.tokens[at]
@@ -344,6 +349,8 @@ class Bracketer(Corrections):
         """Return whether speakers report about themselves: "I'm thirsty", "I spilled it", "I'll get it later"."""
         if self.among(at, "self_forms"):
             return True
+        if self.among(at, "addressee") and self.kind(verb) is K.ING and self._is(at, verb):
+            return not self.follows(verb + 1, "IDLE* INF")  # "you're sitting there"
         past = verb < len(self.tokens) and self.tokens[verb].form == "ed" and self.kind(verb) is not K.ADJ
         if self.among(at, "tellers") and self._reports(at, verb, past=past):
             return True
@@ -403,7 +410,7 @@ class Bracketer(Corrections):
     def _begin_question(self, at: int, subject: int) -> None:
         """Begin a unit with an auxiliary behind a comma: "a tea, can you make it?", "Joe, you can wash it"."""
         asked = self.kind(subject) is K.SUBJECT or self.among(self.back(at), "addressee")
-        if self._verb is None and self._last() is K.COMMA and asked:
+        if self._verb is None and self._last() is K.COMMA and asked and self._named():
             self.out[-1].kind = K.SEP
             self._begin()
 
@@ -423,10 +430,12 @@ class Bracketer(Corrections):
 
     def _is_question(self, at: int) -> bool:
         """Return whether a question begins that asks for nothing: "Is the lamp on?"."""
-        starts = (not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}) and self._last() in BREAKS
+        begins = not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}
+        begins = begins or (self.kind(at - 1) is K.COMMA and self._verb is None and not self._named())
+        starts = begins and self._last() in BREAKS
         opens = self.among(at, "questions") and self.kind(at) is not K.V and self.kind(at + 1) is not K.ING
         opens = opens and not (self.among(at, "getting") and self._done_to(at))
-        wonders = self.among(at, "whats") and self.follows(at + 1, "AUX SUBJECT")
+        wonders = self.among(at, "whats") and self.follows(at + 1, "NP* AUX (SUBJECT|PRON|DET BREAK)")
         return starts and (opens or wonders) and self.asked(at)
 
     def _question(self, at: int) -> int:
@@ -478,15 +487,14 @@ class Bracketer(Corrections):
         token = self.tokens[at]
         if token.stem in section("forgetting") and self.kind(at + 1) in NP:
             return self._skip(at, self._clause_end(at), CORRECTED)  # "no, forget the tea"
-        if token.stem in section("wishing"):
-            self._told = self._told and token.stem in section("liking") and not self._is_modal(at)
+        wishes = token.stem in section("wishing")
+        self._told = self._told and not (wishes and (token.stem not in section("liking") or self._is_modal(at)))
         if self._is_topic(at):
-            return at + 1
-        if (token.stem in section("wishing") and self._wishes_state(at)) or self._has_done(at):
+            return self._statement(at) if self._asked else at + 1
+        if (wishes and self._wishes_state(at)) or self._has_done(at):
             return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
         if token.stem in section("causing") and self._causes(at):
-            token.kind = K.LET
-            return self._let(at) if self.kind(at + 1) is not K.V else at + 1
+            return self._cause(at)
         token.told = token.told or self._is_told(at)
         self._go_there(at)
         self.out.append(token)
@@ -501,9 +509,20 @@ class Bracketer(Corrections):
         alone = self.kind(self.first(at + 1, "V|LET|FINITE|AUX|STOP|COMMA|REL")) in (K.STOP, K.COMMA, K.REL)
         return deed and alone and self._verb is None and self._named() and self.out[-1].kind in HEADS
 
+    def _cause(self, at: int) -> int:
+        """Emit "make it play" as "let it play"; drop "make" of "make close the door"."""
+        self.tokens[at].kind = K.LET
+        return self._let(at) if self.kind(at + 1) is not K.V else at + 1
+
     def _is_topic(self, at: int) -> bool:
-        """Read a wish for what was named as a state of that: "the curtain I want open"; return whether it is one."""
-        topic = self._verb is None and self._named() and self._wished_ahead(at)
+        """Return whether a verb is about what was named: "could Ann wait outside?", "the curtain I want open".
+
+        The state that is wished for is marked as one.
+        """
+        named = self._verb is None and self._named()
+        if named and self._asked:
+            return True
+        topic = named and self._wished_ahead(at)
         self.tokens[at + topic].kind = K.STATE if topic and self.kind(at + 1) is not K.P else self.kind(at + topic)
         return topic
 

@@ -125,6 +125,10 @@ class ClauseEnds(Words):
         done = self.kind(verb) is K.PARTICIPLE and self.among(verb - 1, "having") and at + 1 < verb
         return done or (self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX)
 
+    def _asks_denied(self, at: int) -> bool:
+        """Return whether a negation only makes a question polite: "you couldn't open it, could you?"."""
+        return self.among(at, "frame_negations") and self.asked(at) and self.among(self.back(at), "addressee")
+
     def _is_modal(self, at: int) -> bool:
         """Return whether a verb stands right behind "would" or the like."""
         return any(self.among(i, "frame_modals") for i in range(max(at - 2, 0), at))

@@ -7,6 +7,7 @@ of the text, up to a bounded look ahead.
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 from tmd.language.clause import NOWHERE, PUT, Span
 from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section, singular
@@ -29,6 +30,9 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _partitives(Words(tokens))
     for token in tokens:
         token.kind = K.CC if token.kind is K.NEG and token.text in section("choices") else token.kind  # "nor"
+    for before, token in pairwise(tokens):
+        if before.kind is K.AUX and token.kind is K.CC and token.text in section("then_words"):
+            token.kind = K.ADV  # "is then filled"
     _settings(Words(tokens))
     _firsts(Words(tokens), lexicon)
     tokens = _numbered(Words(tokens))
@@ -77,8 +81,11 @@ def _finite(words: Words) -> None:
 def _finite_stem(words: Words, at: int) -> str:
     """Return the stem of a verb of placing, or of getting with several things: "both plants get some water"."""
     several = words.kind(at - 1) is K.N and singular(words.tokens[at - 1].text) != words.tokens[at - 1].text
-    gets = several and words.stem_among(at, "receiving") and words.follows(at + 1, "DET|NUM")
-    return words.tokens[at].stem if gets else _placing(words, at)
+    token = words.tokens[at]
+    base = singular(token.text)
+    gets = several and words.stem_among(at, "receiving")
+    gets = gets or (base in section("receiving") and base != token.text)
+    return (token.stem or base) if gets and words.follows(at + 1, "DET|NUM") else _placing(words, at)
 
 
 def _placing(words: Words, at: int) -> str:

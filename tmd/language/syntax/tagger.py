@@ -406,6 +406,8 @@ def _spelled(token: Token, lexicon: Lexicon) -> str:
     word = token.text
     if word.endswith("'s") and word not in section("be") | section("whole"):
         word, token.form = word[:-2], "possessive"
+    if word.endswith("s'"):
+        token.form = "possessive"
     word = pairs("slips").get(word, word).rstrip("'")
     if _STRETCHED.search(word) and not lexicon.knows(word):  # "pleeease"
         word = _STRETCHED.sub(r"\1", word)
