@@ -73,6 +73,17 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("At the end of the day I want the yawl scrubbed.", {"(scrubbed yawl)"}, set()),
         ("Every boat, except the ferry, goes to dock 3.", {"(moored yawl dock3)", "(moored ferry dock1)"}, set()),
         ("Scrub the ferry, Tom's still busy on the other one.", {"(scrubbed ferry)"}, {"(scrubbed yawl)"}),
+        ("Both boats get a scrub.", {"(scrubbed ferry)", "(scrubbed yawl)"}, set()),
+        ("Scrub the ferry, the yawl doesn't need it.", {"(scrubbed ferry)"}, {"(scrubbed yawl)"}),
+        ("You couldn't scrub the yawl, could you?", {"(scrubbed yawl)"}, {"(scrubbed ferry)"}),
+        ("If the yawl is still at dock 2, could you tow it to dock 3?", {"(moored yawl dock3)"}, set()),
+        ("If the yawl is at dock 3, could you scrub it?", set(), {"(scrubbed yawl)"}),
+        (
+            "Two things need to happen today: scrub the ferry and the yawl.",
+            {"(scrubbed ferry)", "(scrubbed yawl)"},
+            set(),
+        ),
+        ("You're looking at a dirty ferry. Scrub it.", {"(scrubbed ferry)"}, set()),
         ("Season's over: yawl uncovered, ferry covered.", {"(covered ferry)"}, {"(covered yawl)"}),
     ],
 )

@@ -85,6 +85,7 @@ def test_requests_end_as_they_ask(folder: Path, text: str, held: set[str], gone:
     ("name", "parts"),
     [
         ("redbike", ("red", "bike")),
+        ("iswet", ("is", "wet")),
         ("RedBike_2", ("red", "bike", "2")),
         ("doorisopen", ("door", "is", "open")),
         ("moveto", ("move", "to")),

@@ -258,6 +258,8 @@ def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleSte
         # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
         waiting = Clause(the_word("verbs", "waiting"), span=clause.span, text=clause.text)
         yield replace(_step(waiting, number, clause, main=False), optional=True)
+    for inner in _meanwhile(clause):
+        yield _step(inner, number, clause, main=False)
     for word, inner in _said(clause, "later"):
         # "before you leave" says when, and is nothing to be done where nobody knows how
         optional = not is_condition(word, "needed") or is_verb(inner.verb, "parting")
@@ -265,6 +267,14 @@ def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleSte
         loose = is_condition(word, "loose")
         step = _step(inner, number, clause, main=False)
         yield replace(step, optional=optional, awaited=awaited, jointly=jointly, loose=loose)
+
+
+def _meanwhile(clause: Clause) -> Iterator[Clause]:
+    """Yield what shall be done meanwhile: "while you mop the hall"; not "while you are there", "while it boils"."""
+    for condition in clause.conditions:
+        asked = is_condition(condition.word, "meanwhile") and not condition.negated
+        if asked and not section("addressee").isdisjoint(condition.text.lower().split()[:2]):
+            yield from (inner for inner in condition.clauses if inner.verb != BE and inner.direct)
 
 
 def _said(clause: Clause, kind: str) -> Iterator[tuple[str, Clause]]:

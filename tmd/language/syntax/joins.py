@@ -30,9 +30,11 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _partitives(Words(tokens))
     for token in tokens:
         token.kind = K.CC if token.kind is K.NEG and token.text in section("choices") else token.kind  # "nor"
-    for before, token in pairwise(tokens):
+    for before, token in pairwise(t for t in tokens if t.kind is not K.ADV):
         if before.kind is K.AUX and token.kind is K.CC and token.text in section("then_words"):
             token.kind = K.ADV  # "is then filled"
+        if before.text in section("be") and token.text in section("owned"):
+            before.text = first_of("having")  # "the pot that's got water in it"
     _settings(Words(tokens))
     _firsts(Words(tokens), lexicon)
     tokens = _numbered(Words(tokens))
