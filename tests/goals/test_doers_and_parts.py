@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+import tmd
 from tests.goals.conftest import assert_ends, end, goals, plain_world, said
 
 DOMAIN = """
@@ -14,7 +15,8 @@ DOMAIN = """
   (:types hand boat part dock tint - object)
   (:predicates (at ?h - hand ?d - dock) (moored ?b - boat ?d - dock) (lies ?p - part ?d - dock)
                (has ?h - hand ?p - part) (free ?h - hand) (mounted ?p - part ?b - boat)
-               (open_slot ?b - boat) (scrubbed ?b - boat) (hull ?b - boat ?t - tint) (covered ?b - boat))
+               (open_slot ?b - boat) (scrubbed ?b - boat) (hull ?b - boat ?t - tint) (covered ?b - boat)
+               (leaking ?b - boat))
   (:action stroll :parameters (?h - hand ?x ?y - dock) :precondition (at ?h ?x)
     :effect (and (at ?h ?y) (not (at ?h ?x))))
   (:action tow :parameters (?h - hand ?b - boat ?x ?y - dock) :precondition (and (at ?h ?x) (moored ?b ?x))
@@ -33,6 +35,8 @@ DOMAIN = """
     :effect (and (has ?h ?p) (open_slot ?b) (not (mounted ?p ?b)) (not (free ?h))))
   (:action paint :parameters (?h - hand ?b - boat ?d - dock ?t - tint) :precondition (and (at ?h ?d) (moored ?b ?d))
     :effect (and (hull ?b ?t) (forall (?o - tint) (when (not (= ?o ?t)) (not (hull ?b ?o))))))
+  (:action caulk :parameters (?h - hand ?b - boat ?d - dock) :precondition (and (at ?h ?d) (moored ?b ?d))
+    :effect (not (leaking ?b)))
   (:action cover :parameters (?h - hand ?b - boat ?d - dock) :precondition (and (at ?h ?d) (moored ?b ?d))
     :effect (covered ?b))
   (:action uncover :parameters (?h - hand ?b - boat ?d - dock) :precondition (and (at ?h ?d) (moored ?b ?d))
@@ -42,7 +46,8 @@ PROBLEM = """
 (define (problem noon) (:domain boatyard)
  (:objects Ana Tom - hand ferry yawl - boat old_rudder new_rudder - part dock1 dock2 dock3 - dock white green - tint)
  (:init (at Ana dock1) (at Tom dock2) (free Ana) (free Tom) (moored ferry dock1) (moored yawl dock2) (covered yawl)
-        (mounted old_rudder ferry) (lies new_rudder dock3) (open_slot yawl) (hull ferry white) (hull yawl white))
+        (mounted old_rudder ferry) (lies new_rudder dock3) (open_slot yawl) (hull ferry white) (hull yawl white)
+        (leaking yawl))
  (:goal (and)))
 """
 
@@ -92,6 +97,20 @@ def test_the_state_that_is_asked_for(folder: Path, text: str, held: set[str], go
 
 
 @pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("Scrub the ferry with the new rudder.", "cannot be done here"),
+        ("Caulk the ferry.", "ferry is not 'leaking' anyway"),
+        ("Put the new rudder into dock 9.", "dock 9"),
+    ],
+)
+def test_what_no_action_takes_and_what_is_so_anyway(folder: Path, text: str, reason: str) -> None:
+    found = tmd.load_domain(str(folder)).ground(text, folder / "problem.pddl")
+    assert not found.plans
+    assert reason in found.reason
+
+
+@pytest.mark.parametrize(
     ("environment", "text", "held", "gone"),
     [
         (
@@ -115,6 +134,12 @@ def test_the_state_that_is_asked_for(folder: Path, text: str, held: set[str], go
         ),
         ("kitchen1", "The milk can come out of the fridge, dinner is late.", set(), {"(at milk1 fridge1 in)"}),
         ("room1", "Get the movie in.", {"(at dvd1 console1 in)"}, set()),
+        (
+            "room4",
+            "Every glass in the room goes on the trolley.",
+            {"(at glass1 trolley1 on)", "(at glass2 trolley1 on)"},
+            set(),
+        ),
         ("room4", "The curtain I'd like open.", {"(opened window1_curtain)"}, set()),
         ("room5", "Floor lamp on high, the other lamp off.", {"(set_to floor_lamp1_knob high)"}, {"(active lamp1)"}),
     ],

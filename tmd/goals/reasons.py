@@ -53,7 +53,9 @@ def why_impossible(condition: Formula, binding: Mapping[str, str], grounder: Gro
         GroundAtom(split_predicate(atom.predicate)[0], tuple(binding.get(term, term) for term in atom.terms))
         for atom in atoms_in(condition)
     )
-    closed = (atom for atom in wanted if not any(a.startswith("?") for a in atom.args))
+    closed = [atom for atom in wanted if not any(a.startswith("?") for a in atom.args)]
+    if isinstance(condition, Not) and closed and not grounder.can_hold(closed[0]):
+        return f"{_fact(Atom(closed[0].predicate, closed[0].args), {}, so=False)} anyway"
     reasons = [why_never(atom, grounder.task) for atom in closed if not grounder.can_hold(atom)]
     # a broken condition says more than that something is of another type
     broken = [reason for reason in reasons if _OF_TYPE not in reason]

@@ -64,7 +64,7 @@ class Referents:
 
     def relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
         """Return the relations in which a noun stands, each with what it is related to."""
-        said = tuple(dict.fromkeys((*self._without_rooms(clause), *clause.stated)))
+        said = tuple(dict.fromkeys((*self.without_rooms(clause), *clause.stated)))
         found = [(r.relation, r.target) for r in said if r.source == name or (r.source is None and not name)]
         if clause.setting and name in (*clause.direct, ""):
             found.append((SETTING, clause.setting.split()[-1]))
@@ -99,17 +99,24 @@ class Referents:
             for r, t in relations
         ]
 
-    def _without_rooms(self, clause: Clause) -> Sequence[Relation]:
+    def without_rooms(self, clause: Clause) -> Sequence[Relation]:
         """Return all relations but that to the room, where everything is: "in the room on the shelf" is on the shelf.
+
+        So is what is "in here", where nothing was spoken of.
 
         Where a thing is to be put nowhere else, the room stays, and nothing is called so.
         """
-        rooms = [r for r in clause.relations if r.target in words_of("rooms") and is_relation(r.relation, "inside")]
-        inside = {r.target: r.source for r in rooms if not self.nouns.things(r.target, 0)}
+        rooms = [r for r in clause.relations if is_relation(r.relation, "inside") and self._is_here(r.target, clause)]
+        inside = {r.target: r.source for r in rooms}
         others = [r for r in clause.relations if r.target not in inside]
         if not others and clause.verb in section("placing"):
             return clause.relations
         return [r._replace(source=inside.get(r.source, r.source) if r.source else None) for r in others]
+
+    def _is_here(self, noun: str, clause: Clause) -> bool:
+        if noun == IT:
+            return not clause.antecedents.get(noun)
+        return noun in words_of("rooms") and not self.nouns.things(noun, 0)
 
     def units(self, reading: ClauseReading) -> list[Unit]:
         """Return what the verb acts on, one by one, with the relations of each."""

@@ -10,11 +10,11 @@ from typing import TypeAlias
 from tmd.goals.clause_goal import ClauseReading, RowUse, words
 from tmd.goals.reading.noun_phrases import Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
-from tmd.goals.sources.table import RELATION, GoalRow
+from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow, split_predicate
 from tmd.goals.words import NEGATED, PREPOSITIONS, is_relation, results, words_of
 from tmd.language.clause import Quantifier
 from tmd.pddl.ground_formula import FALSE, TRUE, atoms_of, conjunction, disjunction
-from tmd.pddl.model import Atom, Formula, GroundAtom, Not
+from tmd.pddl.model import Atom, Formula, GroundAtom, Not, predicates_of
 
 Requirement: TypeAlias = Callable[[Mapping[str, str]], Formula]
 """The further condition, given what the slots are filled with."""
@@ -122,6 +122,8 @@ class Requirements:
         instrument = is_relation(said.relation, "tool") and (said.acted_on or self._never(said))
         if not instrument or any(map(self.nouns.is_constant, said.names)):
             return None
+        if self._is_idle(said):
+            return [lambda _: FALSE]  # "milk the cow with the shears"
         held = (self.nouns.state_of(results("hold"), name) for name in said.names)
         formula = disjunction(f for f in held if f is not None)
         if formula not in (FALSE, TRUE):
@@ -132,6 +134,19 @@ class Requirements:
             whole = [other for name in said.names for other in (name, *self.grounder.relatives(name, 0))]
             self._on_the_way(said, sorted(words_of("relations", "resting")), whole)
         return None if any(self.nouns.contents(n, said.reading.state) for n in said.names) else []
+
+    def _is_idle(self, said: _Said) -> bool:
+        """Return whether no action that brings a row's condition about takes such a thing beside what it is about."""
+        if said.row.source != ACTIONS:
+            return False
+        wanted = {split_predicate(name)[0] for name in predicates_of(said.row.condition)}
+        for action in self.world.task.problem.domain.actions:
+            made = [effect.atom for effect in action.effects if effect.atom.predicate in wanted]
+            about = {term for atom in made for term in atom.terms}
+            beside = [p for p in action.parameters if made and p.name not in about]
+            if any(self.grounder.is_a(name, p.types) for p in beside for name in said.names):
+                return False
+        return True
 
     def _there(self, said: _Said) -> list[Requirement] | None:
         """Require a place or a tool that no slot takes on the way; a substance is where its vessel is."""

@@ -578,7 +578,11 @@ class RowReader:
         if self.nouns.guess:
             return None
         clause = reading.clause
-        further = [(r.relation, r.target) for r in clause.relations if r.source and r.source not in clause.direct]
+        further = [
+            (r.relation, r.target)
+            for r in self.referents.without_rooms(clause)
+            if r.source and r.source not in clause.direct
+        ]
         for relation, target in (*leftover, *further):
             named = not (self.referents.points_back(target) or is_noun(target, "degrees") or is_none(target, clause))
             fewest = 1 + clause.phrase(target).other  # "the other table", where there is one

@@ -25,7 +25,7 @@ _DEED = "V|LET|AUX|FINITE|ENSURE|NEG|STOP"
 
 def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Join the words that are one word of the grammar."""
-    tokens = _copulas(tokens)
+    tokens = _copulas(_without_commas(Words(tokens)))
     _finite(Words(tokens))
     _partitives(Words(tokens))
     for token in tokens:
@@ -44,6 +44,19 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _sentences(tokens)
     _mark_early(Words(tokens))
     return tokens
+
+
+def _without_commas(words: Words) -> list[Token]:
+    """Drop the commas between the adjectives of a noun: "the big, red mug"."""
+    kept = []
+    for at, token in enumerate(words.tokens):
+        begin = at
+        while words.kind(begin - 1) is K.ADJ:
+            begin -= 1
+        listed = token.kind is K.COMMA and begin < at and words.kind(begin - 1) is K.DET
+        if not (listed and words.follows(at + 1, "ADJ* N")):
+            kept.append(token)
+    return kept
 
 
 def _copulas(tokens: list[Token]) -> list[Token]:
