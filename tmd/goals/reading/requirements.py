@@ -14,7 +14,7 @@ from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow, split_predicate
 from tmd.goals.words import NEGATED, PREPOSITIONS, is_relation, results, words_of
 from tmd.language.clause import Quantifier
 from tmd.pddl.ground_formula import FALSE, TRUE, atoms_of, conjunction, disjunction
-from tmd.pddl.model import Atom, Formula, GroundAtom, Not, predicates_of
+from tmd.pddl.model import Atom, Formula, GroundAtom, Not, TypedName, predicates_of
 
 Requirement: TypeAlias = Callable[[Mapping[str, str]], Formula]
 """The further condition, given what the slots are filled with."""
@@ -136,17 +136,21 @@ class Requirements:
         return None if any(self.nouns.contents(n, said.reading.state) for n in said.names) else []
 
     def _is_idle(self, said: _Said) -> bool:
-        """Return whether no action that brings a row's condition about takes such a thing beside what it is about."""
-        if said.row.source != ACTIONS:
+        """Return whether no action with the outcome of a verb takes such a thing beside what it is about.
+
+        Where something is put, a tool is for what was done before: "use the microwave, then leave it on the counter".
+        """
+        if said.row.source != ACTIONS or any(slot.is_place for slot in said.row.places):
             return False
-        wanted = {split_predicate(name)[0] for name in predicates_of(said.row.condition)}
+        return not any(self.grounder.is_a(name, p.types) for p in self._means(said.row) for name in said.names)
+
+    def _means(self, row: GoalRow) -> Iterator[TypedName]:
+        """Yield the parameters, beside what a row is about, of the actions that bring its condition about."""
+        wanted = {split_predicate(name)[0] for name in predicates_of(row.condition)}
         for action in self.world.task.problem.domain.actions:
             made = [effect.atom for effect in action.effects if effect.atom.predicate in wanted]
             about = {term for atom in made for term in atom.terms}
-            beside = [p for p in action.parameters if made and p.name not in about]
-            if any(self.grounder.is_a(name, p.types) for p in beside for name in said.names):
-                return False
-        return True
+            yield from (p for p in action.parameters if made and p.name not in about)
 
     def _there(self, said: _Said) -> list[Requirement] | None:
         """Require a place or a tool that no slot takes on the way; a substance is where its vessel is."""
