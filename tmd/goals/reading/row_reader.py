@@ -671,7 +671,9 @@ class RowReader:
         """Return a condition for all things but some, which stay as they are: *clear the table except the cup*."""
         if rest == everything:
             return everything
-        spared = (part for part in conjuncts(everything) if part not in conjuncts(rest))
+        spared = [part for part in conjuncts(everything) if part not in conjuncts(rest)]
+        if len(spared) == len(conjuncts(everything)):
+            return FALSE  # "switch all lights off, but leave the lights on"
         return conjunction((rest, *(negation(p) for p in spared if not self.grounder.truth(p, reading.state))))
 
     def _quantified(

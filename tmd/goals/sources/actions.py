@@ -471,7 +471,9 @@ class _Words:
             verbs = words[:1] if shortened else tuple(dict.fromkeys(_verbs_of("_".join(words))))
             noun = "" if shortened or not wanted else self._noun_in(action, words)
             if noun:
-                yield from self._about_noun(action, words[0], noun, _naming(noun, action) or wanted)
+                particle = words[-1:] if words[-1] in words_of("names", "particles") else ()
+                verb = "_".join((words[0], *particle))  # "switch the light off" for ``switch_light_off``
+                yield from self._about_noun(action, verb, noun, _naming(noun, action) or wanted)
                 verbs = tuple(verb for verb in verbs if verb != words[0])
             if wanted:
                 yield from self._with_slots(action, verbs, wanted)

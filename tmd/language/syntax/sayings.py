@@ -101,7 +101,8 @@ class Saying:
 
     def _perfect(self) -> bool:
         """Return whether it says what somebody or something has done: "the little ones have left their toys there"."""
-        return self._helped("having") and bool(self.verbs) and self.verbs[0].kind is Kind.PARTICIPLE
+        lasted = any(helper.text in section("lasting") for helper in self.helpers)  # "has been out all day"
+        return lasted or (self._helped("having") and bool(self.verbs) and self.verbs[0].kind is Kind.PARTICIPLE)
 
     @property
     def talk(self) -> bool:
