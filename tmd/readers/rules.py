@@ -207,7 +207,8 @@ class RuleDialogue(Dialogue):
         each = frozenset(n for n, said in clause.phrases.items() if said.each and not said.plural)
         memory_here = self._with_named_before(step, state, progress.memory)
         progress = replace(progress, memory=memory_here, each=each)
-        stays = is_verb(clause.verb, "leaving") and self._goals.is_there(clause, state, progress.memory)
+        left = is_verb(clause.verb, "leaving") and not clause.result  # "leave the one in the hall on" says how
+        stays = left and self._goals.is_there(clause, state, progress.memory)
         if clause.mood is Mood.KEEP or stays:
             if stays or clause.result or not self._goals.goes_elsewhere(clause, state, progress.memory):
                 return self._kept(step, state, progress)
