@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import chain
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Decisions, lost_amount, words
@@ -118,7 +119,7 @@ class GoalReader:
             found = self.read(self._settled(clause), state, memory, decisions=decisions)
             if not isinstance(found, Refusal) or any(is_relation(r.relation, "place") for r in clause.relations):
                 return found  # "mug on the table" says where it shall be
-        treated = self._treated(clause) or self._dative(clause) or self._phrasal(clause)
+        treated = self._undone(clause) or self._treated(clause) or self._dative(clause) or self._phrasal(clause)
         if treated is not None:
             return self.read(treated, state, memory, decisions=decisions)
         if self._is_state(clause):
@@ -246,6 +247,16 @@ class GoalReader:
         placed = (r for r in clause.relations if r.source in clause.direct)
         somewhere = any(not is_relation(r.relation, "composing") for r in placed)
         return clause.implied and is_verb(clause.verb, "having") and somewhere
+
+    @staticmethod
+    def _undone(clause: Clause) -> Clause | None:
+        """Return "shut whatever doors are open" as to shut the open doors: the state is what the verb takes away."""
+        taken = f"-{clause.result}" in chain.from_iterable(map(results, (clause.verb, *family(clause.verb))))
+        if not (clause.result and taken and clause.direct):
+            return None
+        said = clause.phrase(clause.direct[0])
+        told = replace(said, quantifier=Quantifier.ALL, attributes=(*said.attributes, clause.result))
+        return replace(clause, result=None, phrases={**clause.phrases, told.name: told})
 
     def _treated(self, clause: Clause) -> Clause | None:
         """Return "give the fern some water", "put a label on it" as to water or label it, where that is a verb here."""
@@ -376,18 +387,24 @@ class GoalReader:
             return self.rows.finished(asked, None, reading)
         if asked.kind is not RefusalKind.NOT_UNDERSTOOD or not is_verb(clause.verb, "finished"):
             return asked
-        for verb in self._leading_to(clause.result or ""):
+        for verb in self._leading_to(clause.result or "", own=clause.verb == BE):
             said = replace(clause, verb=verb, result=None, implied=False)
             found = self.read(said, reading.state, reading.memory, awaited=reading.awaited, decisions=reading.decisions)
             if not isinstance(found, Refusal):
                 return found
         return asked
 
-    def _leading_to(self, result: str) -> list[str]:
-        """Return the verbs that leave things in a state: *lay* for *laid*, *open* and *unlock* for *open*."""
+    def _leading_to(self, result: str, *, own: bool) -> list[str]:
+        """Return the verbs that leave things in a state: *lay* for *laid*, *open* and *unlock* for *open*.
+
+        Args:
+            result: The state.
+            own: Only the verb of which the state is the participle.
+        """
         done = self.lexicon.verb(result) if result else None
-        own = [done[0]] if done is not None and done[1] in words_of("outcomes", "participle") else []
-        return [*own, *(verb for verb in table("results") if result in results(verb) and self.knows_verb(verb))]
+        named = [done[0]] if done is not None and done[1] in words_of("outcomes", "participle") else []
+        further = () if own else (verb for verb in table("results") if result in results(verb))
+        return [*named, *filter(self.knows_verb, further)]
 
     def knows(self, noun: str) -> bool:
         """Return whether the domain has a word for a noun, be there such a thing here or not."""
