@@ -141,7 +141,7 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
             pieces[-1] = (hull([pieces[-1][0], token.span]), reason)
         else:
             pieces.append((token.span, reason))
-    return tuple(Skipped(text[s.start : s.end], s, reason) for s, reason in pieces)
+    return tuple(Skipped(text[s.start : s.end].lstrip(",; "), s, reason) for s, reason in pieces)
 
 
 def _is_idle(token: Token, *, inside: bool) -> bool:

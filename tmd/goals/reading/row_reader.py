@@ -458,7 +458,9 @@ class RowReader:
 
     def _with_rows(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read:
         """Return the goal of one thing by the row with the most slots that fits and can hold."""
-        failure: Refusal | None = None
+        failure = self._short(unit, reading)
+        if failure is not None:
+            return failure
         fitting = self.fitting.of(rows, unit, reading)
         tried = self.fitting.unfit(rows, unit, reading)
         impossible: set[str] = set()
@@ -481,6 +483,16 @@ class RowReader:
         if failure is None:
             failure = Refusal(RefusalKind.NOT_UNDERSTOOD, *_misfit(rows, unit, reading))
         return replace(failure, rows=tuple(tried))
+
+    def _short(self, unit: Unit, reading: ClauseReading) -> Refusal | None:
+        """Return a refusal of *both eggs* where there is one egg, also if only what is in it is asked for."""
+        phrase = reading.clause.phrase(unit.direct or "")
+        kinds = self.world.mentions.kinds
+        names = [n for n in self.nouns.things(phrase.name, reading.state) if kinds.get(n) == phrase.name]
+        measures = any(is_relation(relation, "partitive") for relation, _ in unit.relations)  # "two spoons of sugar"
+        if measures or self.nouns.guess or not 0 < len(names) < (phrase.number or 1):
+            return None
+        return self._not_so_many(Referent(phrase.name, tuple(names), Mode.NUMBER, phrase.number or 1))
 
     def _is_anywhere(self, row: GoalRow, found: Formula, reading: ClauseReading) -> bool:
         """Return whether a clause puts a thing without saying where, and it is somewhere by now."""
@@ -707,12 +719,16 @@ class RowReader:
             return conjunction(left)
         return disjunction(left or alive)
 
+    @staticmethod
+    def _not_so_many(short: Referent) -> Refusal:
+        called = "1 thing here is" if len(short.names) == 1 else f"{len(short.names)} things here are"
+        message = f"only {called} called '{words(short.noun)}', not {short.number}"
+        return Refusal(RefusalKind.NO_SUCH_THING, message)
+
     def _impossible(self, use: RowUse, pairs: Pairs) -> Refusal:
         short = next((r for _, r in pairs if r.mode is Mode.NUMBER and len(r.names) < r.number), None)
         if short is not None:
-            called = "1 thing here is" if len(short.names) == 1 else f"{len(short.names)} things here are"
-            message = f"only {called} called '{words(short.noun)}', not {short.number}"
-            return Refusal(RefusalKind.NO_SUCH_THING, message)
+            return self._not_so_many(short)
         binding = {variable: referent.names[0] for variable, referent in pairs}
         reason = why_impossible(use.row.condition, {**binding, RELATION: use.said[0]}, self.grounder)
         return self._cannot(use.reading, f": {reason}")
