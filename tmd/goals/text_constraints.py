@@ -13,6 +13,7 @@ from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.referents import ANY_TYPE, is_none
 from tmd.goals.words import BE, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, Clause, Mood, Parsed
+from tmd.language.lexicon.names import words_in_name
 from tmd.pddl.ground_formula import atoms_of
 from tmd.pddl.model import Atom, Formula, GroundAtom, Not
 from tmd.pddl.task import Bits, Cube
@@ -64,8 +65,9 @@ class ConstraintReader:
             found |= avoided
         for clause in parsed.clauses:
             excepted = self._excepted(clause, parsed, state, memory)
-            untouched = frozenset(self._done_without(clause, state) | excepted)
-            found |= TextConstraints(kept=tuple(self._places(excepted, state)), untouched=untouched)
+            parts = tuple(self._parts_as_they_are(clause, excepted, state))
+            untouched = frozenset(self._done_without(clause, state) | (set() if parts else excepted))
+            found |= TextConstraints(kept=parts or tuple(self._places(excepted, state)), untouched=untouched)
             other = any(clause.phrase(noun).other for noun in clause.direct)
             if clause.mood is not Mood.KEEP or clause.otherwise or clause.conditions or other:
                 continue
@@ -139,11 +141,12 @@ class ConstraintReader:
     def _not_made_so(self, goal: ClauseGoal, state: Bits) -> Iterator[Formula]:
         """Yield the literals of a goal that no instruction may make true."""
         single = len(goal.cubes) == 1 or all(c.positive.bit_count() == 1 for c in goal.cubes)
-        for atom, bit, stands in self._signed(goal):
-            if stands and not state & bit and single:
-                yield _literal(atom)
-            elif not stands and state & bit:
-                yield _literal(atom, holds=False)
+        signed = list(self._signed(goal))
+        made = [atom for atom, bit, stands in signed if stands and not state & bit and single]
+        # "put the film in, but don't play it": how things are is forbidden rather than where they are
+        things = [sum(not self.reader.nouns.is_constant(name) for name in atom.args) for atom in made]
+        yield from (_literal(atom) for atom, count in zip(made, things, strict=True) if count == min(things))
+        yield from (_literal(atom, holds=False) for atom, bit, stands in signed if not stands and state & bit)
 
     def _signed(self, goal: ClauseGoal) -> Iterator[tuple[GroundAtom, int, bool]]:
         """Yield the atoms of a goal, each with its bit, and whether some case has it positive."""
@@ -179,6 +182,14 @@ class ConstraintReader:
         others = (noun for other in parsed.clauses if other is not clause for noun in other.resolved())
         spoken = self._with_parts(name for noun in others for name in self.reader.nouns.things(noun, state))
         return {name for name in names - spoken if not self.reader.nouns.is_constant(name)}
+
+    def _parts_as_they_are(self, clause: Clause, names: Collection[str], state: Bits) -> Iterator[Formula]:
+        """Yield how parts are that only facts speak of: the light of the hall, through which one may go."""
+        told = {noun for noun in clause.direct if self.reader.nouns.is_only_told_of(noun)}
+        for atom in (fact for name in sorted(names) for fact in self.reader.nouns.facts_about(name) if told):
+            bit = self.task.index.get(atom)
+            if bit is not None and not told.isdisjoint(words_in_name(atom.predicate)):
+                yield _literal(atom, holds=bool(state >> bit & 1))
 
     def _with_parts(self, names: Iterable[str]) -> set[str]:
         """Return things, their parts, and the parts of others that work them: a tap, and its handle."""

@@ -233,13 +233,16 @@ class _Says:
         if parts & words_of("located"):
             return self.anywhere or bool(self.words & words_of("relations", "resting"))
         if parts & _KNOWN:
-            return self.anywhere
+            return self.anywhere or self._owned(parts, changes=changes)
         if self.inside and not (self.things and self.words & words_of("relations", "partitive")):
             return not self.things and alone
-        if changes and self._fastened(parts):
-            return True
         joins = bool(self.words & words_of("relations", "joining")) and self.things  # "the door to the hall"
-        return self.anywhere and (changes or joins)
+        return (changes and self._fastened(parts)) or (self.anywhere and (changes or joins))
+
+    def _owned(self, parts: Collection[str], *, changes: bool) -> bool:
+        """Return whether a predicate says for ever what one thing is of: "the window in the hall" is of the hall."""
+        resting = self.things and not changes and bool(self.words & words_of("relations", "resting"))
+        return resting and not words_of("relations", "partitive").isdisjoint(parts)
 
     def _fastened(self, parts: Collection[str]) -> bool:
         """Return whether a predicate says that one thing was fastened to another: "the battery in the van"."""

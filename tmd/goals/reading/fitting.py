@@ -144,7 +144,7 @@ class Fitting:
             (relation, target)
             for relation, target in unit.relations
             if relations_said(relation, slot.prepositions)
-            and not self._untrue(relation, target, unit, reading)
+            and not self._is_told(relation, target, unit, reading)
             and not (is_relation(relation, "accompanying") and is_none(target, clause))
         ]
         if len(said) > 1:
@@ -155,12 +155,16 @@ class Fitting:
         elided = self._elided(slot, unit, reading)
         return [(elided, None)] if elided else []
 
-    def _untrue(self, relation: str, target: str, unit: Unit, reading: ClauseReading) -> bool:
-        """Return whether a clause states a place where nothing is that it may mean: it is no place to put things."""
+    def _is_told(self, relation: str, target: str, unit: Unit, reading: ClauseReading) -> bool:
+        """Return whether a clause states a place where something is, or nothing that it may mean: nothing goes there.
+
+        "Bring me the book that is on the shelf."
+        """
         if is_noun(unit.direct or "", "everything"):
             return False  # "what is in the pot" may be a substance
         stated = Relation(relation, unit.direct, target) in reading.clause.stated
-        return stated and not self.referents.tells_which(unit.direct, relation, target, reading)
+        given = any(r.target in PERSONS for r in reading.clause.relations)
+        return stated and (given or not self.referents.tells_which(unit.direct, relation, target, reading))
 
     def _elided(self, slot: Slot, unit: Unit, reading: ClauseReading) -> str | None:
         """Return the relation of a place that was not said: "take a cup, add sugar" is into what was spoken of last."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from enum import StrEnum
 from functools import cached_property
+from itertools import combinations, islice
 
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.facts import Facts
@@ -17,8 +18,8 @@ from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section, singular
 from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, number_in_name, same
-from tmd.pddl.ground_formula import FALSE, TRUE
-from tmd.pddl.model import GroundAtom
+from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction
+from tmd.pddl.model import Formula, GroundAtom
 from tmd.pddl.task import Bits
 from tmd.world.world import CONTAINED, World
 
@@ -26,6 +27,8 @@ _SLIP_LENGTH = 5
 """Shorter words are never taken for misspelt ones."""
 _SLIP_RATIO = 0.8
 """Least likeness of a misspelt word."""
+_MOST_CHOICES = 200
+"""Maximum number of ways of choosing two of many things."""
 
 
 class Mode(StrEnum):
@@ -186,7 +189,10 @@ class Nouns(Facts):
 
     def _likeliest(self, noun: str, state: Bits, types: tuple[str, ...] | None) -> list[str] | None:
         """Return the objects of the best match; ``None`` where the domain knows that it is nothing that is here."""
-        matches = self._fitting(self._matches(noun, state), types)
+        matches = self._matches(noun, state)
+        # "crate 1" is crate1, also where another thing of that kind fits better
+        whole = bool(matches) and split_name(matches[0].name) == split_name(noun)
+        matches = matches if whole and number_in_name(noun) is not None else self._fitting(matches, types)
         best = [m.name for m in matches if (m.score, m.how) == (matches[0].score, matches[0].how)]
         how = matches[0].how if matches else ""
         if how == NAME and not self.guess and self._of_another_class(noun, best):
@@ -429,6 +435,11 @@ def _says_nothing(word: str) -> bool:
 def _is_slip(word: str, called: Sequence[str]) -> bool:
     """Return whether a word is another one misspelt."""
     return len(word) >= _SLIP_LENGTH and bool(get_close_matches(word, called, 1, _SLIP_RATIO))
+
+
+def so_many_of(parts: Sequence[Formula], number: int) -> Formula:
+    """Return that some number of conditions hold."""
+    return disjunction(conjunction(way) for way in islice(combinations(parts, number), _MOST_CHOICES))
 
 
 def mode_of(phrase: NounPhrase, *, group: bool, thing: bool, place: bool = False) -> tuple[Mode, int]:

@@ -88,7 +88,7 @@ class Referents:
         """Return whether a noun names somebody who is here."""
         kinds = self.world.mentions.types
         named = self.nouns.things(noun, 0) if noun not in PERSONS else ()
-        return any(not words_of("names", "people").isdisjoint(kinds.get(name, ())) for name in named)
+        return any(not section("people").isdisjoint(kinds.get(name, ())) for name in named)
 
     def _measured(self, relations: Sequence[tuple[str, str]], clause: Clause) -> list[tuple[str, str]]:
         """Return relations to what measures hold: "coffee with two spoons of sugar" is with sugar."""
@@ -311,6 +311,8 @@ class Referents:
 
     def unplaced(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
         """Return whether a relation says a place where what is acted on is not yet."""
+        if relation.startswith(NEGATED):
+            return False
         unplaced = is_relation(relation, "unplaced") or is_unknown_relation(relation)
         place = unplaced and bool(self.targets(target, reading))
         return place and not self.tells_which(unit.direct, relation, target, reading)
@@ -762,10 +764,10 @@ class Referents:
 
     def _where_it_was_said(self, noun: str, names: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
         """Return those things that are where the clause says: where no mug is on the table, *the one on it* is none."""
+        named = self.likeliest(noun, reading.clause)
         for relation, place in self.relations_of(noun, reading.clause):
-            where = self.targets(place, reading)
-            if is_relation(relation, "place") and where:
-                names = self.described(Referent(noun, names), relation, where, reading)
+            if is_relation(relation, "place") and self.targets(place, reading):
+                names = self._described(Referent(named, names), (relation, place), reading)
         return names
 
     def _is_kind(self, noun: str, names: Iterable[str]) -> bool:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
-from itertools import combinations, islice, product
+from itertools import islice, product
 from operator import or_
 from typing import TypeAlias
 
@@ -14,7 +14,7 @@ from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, RowUse, Unit, text_of, words
 from tmd.goals.preferences import ANTECEDENT, PLACE, TELLS_WHICH
 from tmd.goals.reading.fitting import Fitting
-from tmd.goals.reading.noun_phrases import Mode, Referent
+from tmd.goals.reading.noun_phrases import Mode, Referent, so_many_of
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Pairs, Requirements
 from tmd.goals.reasons import forms, placed, why_impossible
@@ -39,8 +39,6 @@ from tmd.planning.unsolvable import Impossible
 _NEVER_OTHERWISE = Or((FALSE,))
 """Marks what holds of a thing because the contrary never can: as good as FALSE where that thing alone is meant."""
 _DEAD = (FALSE, _NEVER_OTHERWISE)
-_MOST_CHOICES = 200
-"""Maximum number of ways of choosing two of many things."""
 Read: TypeAlias = "tuple[Formula, GoalRow] | Refusal"
 
 
@@ -200,7 +198,8 @@ class RowReader:
         parts = formula.parts if isinstance(formula, And) else (formula,)
         held = [part for part in parts if isinstance(part, Atom)]
         gone = [Not(Atom(f.predicate, f.args)) for f in self._left(held, unit, reading)]
-        if len(held) < len(parts) or (len(held) > 1 and len(gone) != len(held)):
+        whither = any(r in section("arrivals") for r, _ in unit.relations)
+        if whither or len(held) < len(parts) or (len(held) > 1 and len(gone) != len(held)):
             return formula
         return conjunction([*held, *gone] if len(held) == 1 else gone)
 
@@ -488,11 +487,13 @@ class RowReader:
         """Return a refusal of *both eggs* where there is one egg, also if only what is in it is asked for."""
         phrase = reading.clause.phrase(unit.direct or "")
         kinds = self.world.mentions.kinds
-        names = [n for n in self.nouns.things(phrase.name, reading.state) if kinds.get(n) == phrase.name]
+        named = self.nouns.things(phrase.name, reading.state)
+        some = any(kinds.get(n) == phrase.name for n in named)
+        names = self.referents.every_kind_of(phrase.name, reading.clause, reading.state) if some else ()
         measures = any(is_relation(relation, "partitive") for relation, _ in unit.relations)  # "two spoons of sugar"
         if measures or self.nouns.guess or not 0 < len(names) < (phrase.number or 1):
             return None
-        return self._not_so_many(Referent(phrase.name, tuple(names), Mode.NUMBER, phrase.number or 1))
+        return self._not_so_many(Referent(phrase.name, names, Mode.NUMBER, phrase.number or 1))
 
     def _is_anywhere(self, row: GoalRow, found: Formula, reading: ClauseReading) -> bool:
         """Return whether a clause puts a thing without saying where, and it is somewhere by now."""
@@ -706,8 +707,7 @@ class RowReader:
                 kept = alive if referent.loose or FALSE not in parts.values() else list(parts.values())
                 return conjunction(kept) if kept else FALSE
             case Mode.NUMBER:
-                ways = islice(combinations(alive, referent.number), _MOST_CHOICES)
-                return disjunction(conjunction(way) for way in ways)
+                return so_many_of(alive, referent.number)
             case Mode.NONE:
                 return conjunction(parts.values()) if len(parts) == 1 else disjunction(alive)
         return self._any_of(alive, reading) if referent.definite else disjunction(alive)

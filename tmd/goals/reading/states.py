@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseReading, text_of, words
 from tmd.goals.grounder import Moments
-from tmd.goals.reading.noun_phrases import Bound, Mode, Referent
+from tmd.goals.reading.noun_phrases import Bound, Mode, Referent, so_many_of
 from tmd.goals.reading.referents import ANY_TYPE, Referents
 from tmd.goals.sources.table import GoalRow, Slot
 from tmd.goals.words import BE, IT, NEGATED, is_noun, is_pronoun, is_relation, is_verb, the_word
@@ -117,6 +117,8 @@ class States:
                 alive.append(conjunction((state, *related)))
         if not alive:
             return self._unsaid(referent, reading)
+        if referent.mode is Mode.NUMBER:  # "two lamps are on"
+            return so_many_of(alive, referent.number)
         return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)
 
     def _all_related(

@@ -77,7 +77,7 @@ class _Words:
         self.made = {effect.atom.predicate for a in domain.actions for effect in a.effects if effect.positive}
         self._fixed: dict[tuple[str, ...], list[str]] = {}  # the constants of each type, asked for thousands of times
         self.passing = passing_predicates(domain)
-        actors, people = words_of("names", "actors"), words_of("names", "people")
+        actors, people = words_of("names", "actors"), section("people")
         # people act where most actions have one; elsewhere things are done for them
         peopled = [a for a in domain.actions if any(self._kinds(p) & people for p in a.parameters)]
         self.actors = actors | people if 2 * len(peopled) > len(domain.actions) else actors

@@ -685,7 +685,8 @@ class Bracketer(Corrections):
 
     def _reasoned(self) -> None:
         """Set aside what the rest of a sentence is for: "I hate draughts, it is cold, so shut the window"."""
-        if self._verb is not None and (self._told or self._verb.told or self._verb.stem in section("wishing")):
+        told = self._told or (self._verb is not None and (self._verb.told or self._verb.stem in section("wishing")))
+        if told and any(t.kind not in LINKS for t in self.out[self._subject :]):
             self._take_back(self._subject, REASON)
         if self._verb is not None:
             return

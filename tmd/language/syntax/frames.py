@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from tmd.language.lexicon.lexicon import Lexicon, first_of, section
+from tmd.language.lexicon.lexicon import Lexicon, first_of, section, singular
 from tmd.language.syntax.tokens import NP, Kind, Token, Words
 
 K = Kind
@@ -28,6 +28,8 @@ class Frames(Words):
 
     def run(self) -> list[Token]:
         """Return the words that are in no frame."""
+        if section("people").isdisjoint(self._lexicon.kinds):
+            self._somebody()
         kept: list[Token] = []
         at = 0
         while at < len(self.tokens):
@@ -39,6 +41,28 @@ class Frames(Words):
                 end += 1
             at = end
         return kept
+
+    def _somebody(self) -> None:
+        """Read people who are not here as "somebody", where they are what a clause is about: "my son is thirsty"."""
+        for at in reversed(range(len(self.tokens))):
+            start = at
+            while self.follows(start - 1, "DET|ADJ|N") and start:
+                start -= 1
+            begins = not start or self.follows(start - 1, "STOP|COMMA|CC|SUB") or self.among(start - 1, "reasoning")
+            if begins and self.kind(at) is K.N and self._is_person(at):
+                gone = self.tokens[start:at]
+                person = self.tokens[at]
+                person.kind, person.text = K.SUBJECT, first_of("somebody")
+                person.parts += [part for token in gone for part in (token.span, *token.parts)]
+                del self.tokens[start:at]
+
+    def _is_person(self, at: int) -> bool:
+        """Return whether a subject is a person: by its noun, or a name that is no word and has or wants something."""
+        token, verb = self.tokens[at], self.past(at + 1, "IDLE*")
+        wants = self.among(verb, "having", "needing") or self.stem_among(verb, "wishing")
+        named = (token.capital or not at or self.follows(at - 1, "STOP")) and not self._lexicon.knows(token.text)
+        known = singular(token.text) in section("people") and not self._lexicon.names_thing(token.text)
+        return (known and (wants or self.follows(verb, "AUX|FINITE"))) or (named and wants)
 
     def _parenthesis(self, at: int) -> int:
         """Return where words go on behind talk that adds nothing: "I think", "let me see"."""

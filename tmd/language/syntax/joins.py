@@ -123,6 +123,9 @@ def _partitives(words: Words) -> None:
         if words.kind(at - 1) is K.NUM and words.among(at, "counters"):
             of.kind = token.kind = K.FILLER  # "two pieces of cutlery" are two
             continue
+        if _is_that_of(words, at):
+            of.kind, token.kind = K.OF, K.PRON
+            continue
         listed = words.among(at, "partitives") and token.kind in (K.N, K.PRON, K.DET, K.ADJ)
         if listed or (token.kind is K.NUM and words.kind(at - 1) is not K.N):
             counts = token.kind is not K.N or words.among(at, "quantifiers", "numbers", "none_words")
@@ -131,6 +134,11 @@ def _partitives(words: Words) -> None:
                 words.tokens[at + 3].kind = K.FILLER  # "one of the two lamps": how many there are picks none of them
         elif token.kind in HEADS:
             of.kind = K.OF
+
+
+def _is_that_of(words: Words, at: int) -> bool:
+    """Return whether "one" is a thing that belongs to what follows: "the hall's door and the one of the cellar"."""
+    return words.among(at, "one_words") and words.kind(at - 1) is K.DET and words.follows(at + 2, "DET IDLE* N")
 
 
 def _firsts(words: Words, lexicon: Lexicon) -> None:

@@ -308,8 +308,9 @@ class TextReading:
         draft.relative |= said.verb.stem == BE
         named = [p for p in said.direct if not p.pronoun]
         relation = WHERE if opener.text in section("where_words") else said.owning()
+        denied = NEGATED * (opener.negated and relation not in (WITH, WHERE))  # "the mug that Ann is not using"
         if named and relation:
-            targets = [(relation, p) for p in named]
+            targets = [(denied + relation, p) for p in named]
         else:
             targets = said.placed(NEGATED * opener.negated)
             if said.verb.stem == BE and said.result and not named:

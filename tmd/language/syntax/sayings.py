@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from itertools import zip_longest
 
 from lark import Tree
@@ -67,8 +67,13 @@ class Saying:
         settled = section("belonging") | section("staying") | section("returning")
         placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
         placed = placed or self._goes()
-        duty = any(t.text in section("duties") for t in words) and not self._somebody()  # "we have guests"
-        return wished or placed or duty or any(said() for said in (self._wants, self._released, self._receives))
+        return wished or placed or any(said() for said in (self._duty, self._wants, self._released, self._receives))
+
+    def _duty(self) -> bool:
+        """Return whether it says what has to be so; but not "we have guests", "the cat has a cold"."""
+        words = [*self.verbs, *self.helpers]
+        alone = len(words) == 1 and words[0].text in section("having")
+        return any(t.text in section("duties") for t in words) and not (alone or self._somebody())
 
     def _receives(self) -> bool:
         """Return whether it says what things get: "both plants get some water"."""
@@ -79,11 +84,17 @@ class Saying:
     def _released(self) -> bool:
         """Return whether it says what may be done with its subject by now: "the lid can come off", "can be washed"."""
         free = any(t.text in section("asking") for t in self.helpers) and about_things(self.subject)
-        done = bool(self.verbs) and self.verbs[-1].kind is Kind.PARTICIPLE and self._helped("be")
-        moved = bool(self.verbs) and self.verbs[-1].stem in pairs("demand_verbs")
-        means = section("with_words") | section("by_words")  # "the lamp can be turned off with the switch"
-        told = any(t.text in means for node in self.rest for t in leaves(node))
+        last = self.verbs[-1] if self.verbs else None
+        said = {t.text for node in self.rest for t in leaves(node)}
+        done = self._helped("be") and (self._permitted(said) if last is None else last.kind is Kind.PARTICIPLE)
+        moved = last is not None and last.stem in pairs("demand_verbs")
+        told = not said.isdisjoint(section("with_words") | section("by_words"))  # "can be turned off with the switch"
         return free and (done or moved) and not (told or self.denied or self._somebody())
+
+    def _permitted(self, said: Collection[str]) -> bool:
+        """Return whether it says in which state its subject can be: "the lamp can be off now"."""
+        can = any(t.text in section("permitting") for t in self.helpers)
+        return can and not section("end_states").isdisjoint(said)
 
     def _goes(self) -> bool:
         """Return whether it says where things are to go or may stay: "is going on the shelf", "can wait there"."""
