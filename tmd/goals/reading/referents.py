@@ -766,7 +766,8 @@ class Referents:
         """Return those things that are where the clause says: where no mug is on the table, *the one on it* is none."""
         named = self.likeliest(noun, reading.clause)
         for relation, place in self.relations_of(noun, reading.clause):
-            if is_relation(relation, "place") and self.targets(place, reading):
+            there = is_relation(relation, "place") or is_relation(relation, "partitive")  # "the one of the shed"
+            if there and self.targets(place, reading):
                 names = self._described(Referent(named, names), (relation, place), reading)
         return names
 

@@ -57,12 +57,13 @@ class Frames(Words):
                 del self.tokens[start:at]
 
     def _is_person(self, at: int) -> bool:
-        """Return whether a subject is a person: by its noun, or a name that is no word and has or wants something."""
+        """Return whether a subject is a person: by its noun, or a name that is no word and has or needs something."""
         token, verb = self.tokens[at], self.past(at + 1, "IDLE*")
-        wants = self.among(verb, "having", "needing") or self.stem_among(verb, "wishing")
+        needs = self.kind(verb) is K.AUX and self.among(verb, "having", "needing")
         named = (token.capital or not at or self.follows(at - 1, "STOP")) and not self._lexicon.knows(token.text)
         known = singular(token.text) in section("people") and not self._lexicon.names_thing(token.text)
-        return (known and (wants or self.follows(verb, "AUX|FINITE"))) or (named and wants)
+        says = self.follows(verb, "AUX|FINITE") and not self.stem_among(verb, "wishing")  # "my aunt wants the lamp on"
+        return (named and needs) or (known and says)
 
     def _parenthesis(self, at: int) -> int:
         """Return where words go on behind talk that adds nothing: "I think", "let me see"."""
