@@ -13,7 +13,6 @@ from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.referents import ANY_TYPE, is_none
 from tmd.goals.words import BE, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, Clause, Mood, Parsed
-from tmd.language.lexicon.names import words_in_name
 from tmd.pddl.ground_formula import atoms_of
 from tmd.pddl.model import Atom, Formula, GroundAtom, Not
 from tmd.pddl.task import Bits, Cube
@@ -186,9 +185,9 @@ class ConstraintReader:
     def _parts_as_they_are(self, clause: Clause, names: Collection[str], state: Bits) -> Iterator[Formula]:
         """Yield how parts are that only facts speak of: the light of the hall, through which one may go."""
         told = {noun for noun in clause.direct if self.reader.nouns.is_only_told_of(noun)}
-        for atom in (fact for name in sorted(names) for fact in self.reader.nouns.facts_about(name) if told):
+        for atom in (fact for name in sorted(names) for fact in self.reader.nouns.facts_about(name)):
             bit = self.task.index.get(atom)
-            if bit is not None and not told.isdisjoint(words_in_name(atom.predicate)):
+            if bit is not None and any(self.reader.nouns.speaks_of(atom.predicate, noun) for noun in told):
                 yield _literal(atom, holds=bool(state >> bit & 1))
 
     def _with_parts(self, names: Iterable[str]) -> set[str]:

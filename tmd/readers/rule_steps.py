@@ -19,7 +19,8 @@ from tmd.goals.words import (
     words_of,
 )
 from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Relation, Skipped
-from tmd.language.lexicon.lexicon import builtin, section
+from tmd.language.lexicon.lexicon import builtin, section, singular
+from tmd.language.lexicon.names import split_name
 from tmd.readers.interface import Step
 
 DOER = "a plan chooses who does it"
@@ -58,18 +59,30 @@ def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
         known: Whether a noun means something here.
     """
     inner = tuple(replace(c, clauses=tuple(about_things(said, known) for said in c.clauses)) for c in clause.conditions)
-    clause = replace(clause, conditions=inner)
+    clause = _with_numbers(replace(clause, conditions=inner), known)
     for noun in clause.objects:
         phrase = clause.phrase(noun)
         one = not phrase.plural and phrase.quantifier is Quantifier.PLAIN and not phrase.attributes
         if is_noun(noun, "vague") and one and not any(r.source == noun for r in clause.stated):
             clause = clause.renamed(noun, IT)  # but "the thing that is in the sink" is what is there
     acted_on = clause.direct or tuple(r.target for r in clause.relations if r.source is None)  # "operate on him"
-    for noun in acted_on:
+    places = tuple(r.target for r in clause.relations if is_relation(r.relation, "resting"))  # "put a rug on her"
+    for noun in (*acted_on, *places):
         if noun in PERSONS and any(map(known, clause.antecedents.get(noun, ())[:1])):
             clause = clause.renamed(noun, IT)
         elif is_noun(noun, "everybody") and not known(noun):
             clause = clause.renamed(noun, the_word("nouns", "whole"))
+    return clause
+
+
+def _with_numbers(clause: Clause, known: Callable[[str], bool]) -> Clause:
+    """Return a clause with numbers as things of the kind that it speaks of: "all rooms but number 3"."""
+    for noun in clause.objects:
+        number = split_name(noun)[-1]
+        alone = number.isdecimal() and noun not in clause.direct and not known(noun)
+        kinds = [split_name(other)[-1] for other in clause.direct] if alone else []
+        named = next((name for kind in kinds if known(name := f"{singular(kind)}_{number}")), noun)
+        clause = clause.renamed(noun, named)
     return clause
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from tmd.goals.grounder import Grounder, Moments
-from tmd.goals.sources.actions import participle
+from tmd.goals.sources.actions import participle, plain_words
 from tmd.goals.sources.table import RELATION, GoalTable
 from tmd.goals.words import (
     BE,
@@ -22,7 +22,7 @@ from tmd.goals.words import (
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
-from tmd.pddl.model import OBJECT, Atom, Formula, GroundAtom
+from tmd.pddl.model import OBJECT, Atom, Formula, GroundAtom, hierarchy
 from tmd.pddl.task import Bits
 from tmd.world.world import World
 
@@ -119,8 +119,9 @@ class Facts:
     def _is_never(self, word: str, name: str) -> bool:
         """Return whether a predicate is for such things, is named so, and holds of this one in no state."""
         kinds = {OBJECT, *self.world.mentions.types.get(name, ())}
-        unary = (p for p in self.world.task.problem.domain.predicates if len(p.parameters) == 1)
-        return any(words_in_name(p.name) == {word} and not kinds.isdisjoint(p.parameters[0].types) for p in unary)
+        domain = self.world.task.problem.domain
+        unary = (p for p in domain.predicates if len(p.parameters) == 1 and not kinds.isdisjoint(p.parameters[0].types))
+        return any(plain_words(p, hierarchy(domain)) == (word,) for p in unary)
 
     def _with_near(self, name: str) -> Iterator[str]:
         """Yield a thing and, where they are asked for, its nearest relatives."""

@@ -20,7 +20,6 @@ from tmd.goals.words import (
     words_of,
 )
 from tmd.language.clause import PERSONS, Quantifier, Relation
-from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.pddl.model import predicates_of
 
 
@@ -127,7 +126,7 @@ class Fitting:
         """Return whether a row may be meant by what is acted on: a door is not lowered like a load at its dock."""
         if row.source != ACTIONS or row.noun is not None or not self.nouns.is_only_told_of(noun):
             return True
-        return any(split_name(noun)[-1] in words_in_name(name) for name in predicates_of(row.condition))
+        return any(self.nouns.speaks_of(name, noun) for name in predicates_of(row.condition))
 
     def _same(self, noun: str, said: str | None, reading: ClauseReading) -> bool:
         """Return whether two nouns are the same, or name the same things here: *kettle*, *kettel*."""

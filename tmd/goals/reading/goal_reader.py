@@ -16,7 +16,7 @@ from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
-from tmd.goals.sources.actions import actor_types, participle
+from tmd.goals.sources.actions import actor_types, participle, plain_words
 from tmd.goals.sources.table import ACTIONS, GoalTable
 from tmd.goals.words import (
     BE,
@@ -39,6 +39,7 @@ from tmd.language.clause import BRING, PERSONS, PUT, TO, Clause, NounPhrase, Qua
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE
+from tmd.pddl.model import hierarchy
 from tmd.pddl.task import Bits
 from tmd.world.world import World
 
@@ -172,7 +173,8 @@ class GoalReader:
     @cached_property
     def _mark_states(self) -> Mapping[str, str]:
         """The words in the names of predicates of one thing for what it has: a label is on what is ``labelled``."""
-        names = [split_name(p.name) for p in self.domain.predicates if len(p.parameters) == 1]
+        types = hierarchy(self.domain)
+        names = [plain_words(p, types) for p in self.domain.predicates if len(p.parameters) == 1]
         having = words_of("rows", "having")
         had = {"_".join(rest): rest[-1] for first, *rest in names if rest and first in having}
         # "a price is on each" where things are ``price_tagged``

@@ -11,7 +11,7 @@ from itertools import combinations, islice
 
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.facts import Facts
-from tmd.goals.sources.actions import participle
+from tmd.goals.sources.actions import participle, told_nouns
 from tmd.goals.sources.table import GoalTable
 from tmd.goals.words import ends_as, is_idle, is_noun, is_relation, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
@@ -162,7 +162,7 @@ class Nouns(Facts):
     def _with_part(self, noun: str) -> tuple[str, ...]:
         """Return the things that a part is only told of: rooms, for *doors*, where ``door_open`` is said of rooms."""
         facts = {
-            name: [f for f in self.facts_about(name) if _tells_of(noun, f, name)]
+            name: [f for f in self.facts_about(name) if self.tells_of(noun, f, name)]
             for name in self.world.profiles.objects
         }
         having = tuple(n for n, told in facts.items() if any(f.predicate not in self.grounder.changing for f in told))
@@ -171,6 +171,18 @@ class Nouns(Facts):
         if owner and not having:  # "the attic door"
             having = tuple(m.name for m in self.mentions.ranked(owner) if m.name in self._with_part(part))
         return having
+
+    @cached_property
+    def _told(self) -> Mapping[str, frozenset[str]]:
+        return told_nouns(self.world.task.problem.domain)
+
+    def speaks_of(self, predicate: str, noun: str) -> bool:
+        """Return whether a predicate, or an action that changes it, has a noun in its name."""
+        return split_name(noun)[-1] in words_in_name(predicate) or noun in self._told.get(predicate, ())
+
+    def tells_of(self, noun: str, fact: GroundAtom, name: str) -> bool:
+        """Return whether a fact speaks of a part of a thing by its name, or by that of an action."""
+        return _tells_of(noun, fact, name) or (len(fact.args) == 1 and noun in self._told.get(fact.predicate, ()))
 
     def is_only_told_of(self, noun: str) -> bool:
         """Return whether a noun names nothing itself, but a part that facts about other things speak of."""

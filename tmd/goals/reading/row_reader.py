@@ -598,6 +598,9 @@ class RowReader:
         ]
         for relation, target in (*leftover, *further):
             named = not (self.referents.points_back(target) or is_noun(target, "degrees") or is_none(target, clause))
+            known = any(self.nouns.things(n, reading.state) or self.nouns.substances(n) for n in clause.meant(target))
+            if named and is_relation(relation, "excepting") and not known:
+                return self.referents.missing(Referent(target, ()), reading)
             fewest = 1 + clause.phrase(target).other  # "the other table", where there is one
             if named and is_relation(relation, "naming") and len(self.referents.targets(target, reading)) < fewest:
                 return self.referents.missing(Referent(target, ()), reading)

@@ -35,6 +35,7 @@ from tmd.pddl.model import (
     Not,
     Predicate,
     TypedName,
+    TypeHierarchy,
     hierarchy,
 )
 
@@ -65,6 +66,29 @@ def rows_of_actions(domain: Domain) -> GoalTable:
 def actor_types(domain: Domain) -> frozenset[str]:
     """Return the types of those who act, and are not acted on."""
     return _Words(domain).actors
+
+
+def plain_words(predicate: Predicate, types: TypeHierarchy) -> tuple[str, ...]:
+    """Return the words of a predicate's name that say something of its arguments: *fed*, of ``horse_has_been_fed``.
+
+    Args:
+        predicate: The predicate.
+        types: The types of the domain.
+    """
+    kinds = {one for p in predicate.parameters for kind in p.types for one in types.ancestors(kind)}
+    words = split_name(predicate.name)
+    while len(words) > 1 and (words[0] in kinds or words[0] in section("be")):
+        words = words[1:]
+    perfect = len(words) > 2 and words[0] in section("having") and words[1] in section("be")
+    return words[2:] if perfect else words
+
+
+def told_nouns(domain: Domain) -> Mapping[str, frozenset[str]]:
+    """Return for each predicate of one thing the nouns of parts that its name, or that of an action, speaks of.
+
+    The lights of rooms, where ``light-on`` makes them ``lit``; the troughs of paddocks, with ``water_trough_is_full``.
+    """
+    return _Words(domain).told()
 
 
 class _Words:
@@ -132,6 +156,22 @@ class _Words:
         located = (p for p in self.domain.predicates if len(p.parameters) == 2 and words_in_name(p.name) <= words)
         return frozenset(chain.from_iterable(p.parameters[-1].types for p in located))
 
+    def told(self) -> Mapping[str, frozenset[str]]:
+        """Return for each predicate of one thing the nouns that are only spoken of with it."""
+        found: dict[str, set[str]] = {p.name: set() for p in self.domain.predicates if len(self.things(p)) == 1}
+        for predicate in (p for p in self.domain.predicates if p.name in found):
+            *nouns, last = (w for w in plain_words(predicate, self.types) if w not in section("be"))
+            if nouns and last in words_of("part_states") | section("end_states"):
+                found[predicate.name] |= {"_".join(nouns), nouns[-1]}
+        for action in self.domain.actions:
+            words = split_name(action.name)
+            noun = self._noun_in(action, words)
+            named = words[0] if len(words) == 2 and words[1] in words_of("names", "particles") else noun
+            for effect in self._brought_about(action) if named else ():
+                if effect.atom.predicate in found:
+                    found[effect.atom.predicate] |= {named, named.rpartition("_")[2]}
+        return {name: frozenset(map(singular, nouns)) for name, nouns in found.items() if nouns}
+
     # ------------------------------------------------------------------ states
 
     def states(self) -> Iterator[GoalRow]:
@@ -157,7 +197,8 @@ class _Words:
     def parts(self) -> Iterator[GoalRow]:
         """Yield ``put the lid on X`` for a predicate such as ``lid_on``, and ``put soap in X`` for ``has_soap``."""
         for predicate in self.domain.predicates:
-            first, *words = split_name(predicate.name)
+            plain = plain_words(predicate, self.types)
+            first, *words = plain
             if words and first in words_of("rows", "having") and len(self.things(predicate)) == 1:
                 noun, there = "_".join(words), self._atom(predicate, {self.things(predicate)[0].name: "?y"})
                 if predicate.name in self.fluent:
@@ -165,8 +206,11 @@ class _Words:
                     into = Slot("?y", _ROWS["vessel"])
                     row = self._row((*_ROWS["lay"], *_ROWS["pour"]), (into,), there, f"put {noun} in Y", why)
                     yield replace(row, noun=noun)
+                    out = Slot("?y", _ROWS["whence"])
+                    row = self._row(_ROWS["take"], (out,), Not(there), f"take {noun} from Y", why)
+                    yield replace(row, noun=noun)
                 continue
-            noun, _, preposition = "_".join(split_name(predicate.name)).rpartition("_")
+            noun, _, preposition = "_".join(plain).rpartition("_")
             if predicate.name not in self.fluent or len(self.things(predicate)) != 1 or not noun:
                 continue
             there = self._atom(predicate, {self.things(predicate)[0].name: "?y"})
@@ -393,7 +437,7 @@ class _Words:
         undoes it: to unmute a channel takes ``muted`` away.
         """
         for predicate in self.domain.predicates:
-            first, *rest = split_name(predicate.name)
+            first, *rest = plain_words(predicate, self.types)
             if rest and first in words_of("names", "covering"):
                 first, *rest = rest  # "mop the gallery", with ``floor_mopped``
             verb = participle(first)
@@ -486,7 +530,7 @@ class _Words:
         # a bed is not the bed sheets
         kinds = {word for p in action.parameters for kind in self._kinds(p) for word in (kind, split_name(kind)[-1])}
         # what is a verb as well may be one: ``press-mute``, ``saddle_up``
-        return singular("_".join(nouns)) if nouns and kinds.isdisjoint((*nouns, *map(singular, nouns))) else ""
+        return singular("_".join(word for word in nouns if kinds.isdisjoint((word, singular(word)))))
 
     def _about_noun(self, action: ActionSchema, verb: str, noun: str, wanted: Sequence[Effect]) -> Iterator[GoalRow]:
         """Yield rows for an action whose name has a noun: "put the chocks under the plane" for ``set_chocks``."""
@@ -626,6 +670,8 @@ def _verbs_of(name: str) -> Iterator[str]:
     words = name.split("_")
     if len(words) == 1:
         return
+    if words[1] in words_of("names", "particles"):
+        yield "_".join(words[:2])  # "muck out", with ``muck_out_stall``
     if _is_preposition(words[-1]):
         yield "_".join(words[:-1])
     if words[-1] not in words_of("names", "particles"):

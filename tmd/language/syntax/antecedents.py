@@ -250,7 +250,7 @@ def _own(pronoun: str, clause: Clause, draft: ClauseDraft, before: Collection[st
 def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
     """Return a separate clause with its pronouns' antecedents among the clauses before it."""
     names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
-    places = [name for name in clause.objects if is_pronoun(name)]
+    places = [name for name in clause.objects if is_pronoun(name) or name in section("animate")]
     telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
     ranked = {pronoun: _ranked_alone(pronoun, names, telling, clause, before) for pronoun in places}
     antecedents = {name: tuple(found) for name, found in ranked.items() if found}
