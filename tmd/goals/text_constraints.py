@@ -73,8 +73,10 @@ class ConstraintReader:
             preserved = self.preserved(clause, state, memory)
             if isinstance(preserved, Refusal):
                 return preserved
-            left = () if clause.result else self._kept_things(clause, state)
-            found |= TextConstraints(kept=tuple(preserved), left=left)
+            alone = clause.result in words_of("outcomes", "alone")  # "leave the north window alone"
+            left = self._kept_things(clause, state) if alone or not clause.result else ()
+            untouched = frozenset(self._with_parts(left)) if alone else frozenset()
+            found |= TextConstraints(kept=tuple(preserved), left=left, untouched=untouched)
         return replace(found, left=(*found.left, *sorted(found.untouched)))
 
     def _meant(self, noun: str, clause: Clause, state: Bits) -> tuple[str, ...]:

@@ -167,8 +167,9 @@ class _Words:
             words = split_name(action.name)
             noun = self._noun_in(action, words)
             named = words[0] if len(words) == 2 and words[1] in words_of("names", "particles") else noun
+            acted_on = next((p.name for p in action.parameters if not self.actor(p)), "")
             for effect in self._brought_about(action) if named else ():
-                if effect.atom.predicate in found:
+                if effect.atom.predicate in found and acted_on in effect.atom.terms:
                     found[effect.atom.predicate] |= {named, named.rpartition("_")[2]}
         return {name: frozenset(map(singular, nouns)) for name, nouns in found.items() if nouns}
 
