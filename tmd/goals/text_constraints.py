@@ -67,17 +67,24 @@ class ConstraintReader:
             parts = tuple(self._parts_as_they_are(clause, excepted, state))
             untouched = frozenset(self._done_without(clause, state) | (set() if parts else excepted))
             found |= TextConstraints(kept=parts or tuple(self._places(excepted, state)), untouched=untouched)
-            other = any(clause.phrase(noun).other for noun in clause.direct)
-            if clause.mood is not Mood.KEEP or clause.otherwise or clause.conditions or other:
-                continue
-            preserved = self.preserved(clause, state, memory)
-            if isinstance(preserved, Refusal):
-                return preserved
-            alone = clause.result in words_of("outcomes", "alone")  # "leave the north window alone"
-            left = self._kept_things(clause, state) if alone or not clause.result else ()
-            untouched = frozenset(self._with_parts(left)) if alone else frozenset()
-            found |= TextConstraints(kept=tuple(preserved), left=left, untouched=untouched)
+            left = self._left(clause, state, memory)
+            if isinstance(left, Refusal):
+                return left
+            found |= left
         return replace(found, left=(*found.left, *sorted(found.untouched)))
+
+    def _left(self, clause: Clause, state: Bits, memory: Memory) -> TextConstraints | Refusal:
+        """Return what *leave it as it is* asks for; what is left alone is not handled either."""
+        other = any(clause.phrase(noun).other for noun in clause.direct)
+        if clause.mood is not Mood.KEEP or clause.otherwise or clause.conditions or other:
+            return TextConstraints()
+        preserved = self.preserved(clause, state, memory)
+        if isinstance(preserved, Refusal):
+            return preserved
+        alone = clause.result in words_of("outcomes", "alone")
+        left = self._kept_things(clause, state) if alone or not clause.result else ()
+        untouched = frozenset(self._with_parts(left)) if alone else frozenset()
+        return TextConstraints(kept=tuple(preserved), left=left, untouched=untouched)
 
     def _meant(self, noun: str, clause: Clause, state: Bits) -> tuple[str, ...]:
         """Return the things that a noun of a clause may mean, by where they are: "the sock on the sofa"."""

@@ -78,8 +78,9 @@ def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
 def _with_numbers(clause: Clause, known: Callable[[str], bool]) -> Clause:
     """Return a clause with numbers as things of the kind that it speaks of: "all rooms but number 3"."""
     for noun in clause.objects:
-        number = split_name(noun)[-1]
-        alone = number.isdecimal() and noun not in clause.direct and not known(noun)
+        *called, number = split_name(noun)
+        plain = all(is_noun(word, "numbered") for word in called)
+        alone = plain and number.isdecimal() and noun not in clause.direct and not known(noun)
         kinds = [split_name(other)[-1] for other in clause.direct] if alone else []
         named = next((name for kind in kinds if known(name := f"{singular(kind)}_{number}")), noun)
         clause = clause.renamed(noun, named)

@@ -598,13 +598,17 @@ class RowReader:
         ]
         for relation, target in (*leftover, *further):
             named = not (self.referents.points_back(target) or is_noun(target, "degrees") or is_none(target, clause))
-            known = any(self.nouns.things(n, reading.state) or self.nouns.substances(n) for n in clause.meant(target))
-            if named and is_relation(relation, "excepting") and not known:
-                return self.referents.missing(Referent(target, ()), reading)
-            fewest = 1 + clause.phrase(target).other  # "the other table", where there is one
-            if named and is_relation(relation, "naming") and len(self.referents.targets(target, reading)) < fewest:
+            if named and self._is_not_there(relation, target, reading):
                 return self.referents.missing(Referent(target, ()), reading)
         return None
+
+    def _is_not_there(self, relation: str, target: str, reading: ClauseReading) -> bool:
+        """Return whether nothing here is called so that is excepted, or that a relation leads to."""
+        if is_relation(relation, "excepting"):
+            meant = reading.clause.meant(target)
+            return not any(self.nouns.things(n, reading.state) or self.nouns.substances(n) for n in meant)
+        fewest = 1 + reading.clause.phrase(target).other  # "the other table", where there is one
+        return is_relation(relation, "naming") and len(self.referents.targets(target, reading)) < fewest
 
     def _combination(self, use: RowUse) -> Formula | Refusal:
         reading = use.reading

@@ -158,20 +158,27 @@ class _Words:
 
     def told(self) -> Mapping[str, frozenset[str]]:
         """Return for each predicate of one thing the nouns that are only spoken of with it."""
-        found: dict[str, set[str]] = {p.name: set() for p in self.domain.predicates if len(self.things(p)) == 1}
-        for predicate in (p for p in self.domain.predicates if p.name in found):
-            *nouns, last = (w for w in plain_words(predicate, self.types) if w not in section("be"))
-            if nouns and last in words_of("part_states") | section("end_states"):
-                found[predicate.name] |= {"_".join(nouns), nouns[-1]}
+        unary = {p.name: p for p in self.domain.predicates if len(self.things(p)) == 1}
+        found = {name: set(self._part_in(predicate)) for name, predicate in unary.items()}
         for action in self.domain.actions:
-            words = split_name(action.name)
-            noun = self._noun_in(action, words)
-            named = words[0] if len(words) == 2 and words[1] in words_of("names", "particles") else noun
             acted_on = next((p.name for p in action.parameters if not self.actor(p)), "")
-            for effect in self._brought_about(action) if named else ():
-                if effect.atom.predicate in found and acted_on in effect.atom.terms:
-                    found[effect.atom.predicate] |= {named, named.rpartition("_")[2]}
+            changed = {e.atom.predicate for e in self._brought_about(action) if acted_on in e.atom.terms}
+            for name in changed & unary.keys():
+                found[name].update(self._part_acted_on(action))
         return {name: frozenset(map(singular, nouns)) for name, nouns in found.items() if nouns}
+
+    def _part_in(self, predicate: Predicate) -> tuple[str, ...]:
+        """Return a compound noun and its head before a state: ``water_trough_is_full``."""
+        *nouns, last = (w for w in plain_words(predicate, self.types) if w not in section("be"))
+        stated = bool(nouns) and last in words_of("part_states") | section("end_states")
+        return ("_".join(nouns), nouns[-1]) if stated else ()
+
+    def _part_acted_on(self, action: ActionSchema) -> tuple[str, ...]:
+        """Return a compound noun and its head in an action's name: ``fill_water_trough``, ``light-on``."""
+        words = split_name(action.name)
+        first = len(words) == 2 and words[1] in words_of("names", "particles")
+        noun = words[0] if first else self._noun_in(action, words)
+        return (noun, noun.rpartition("_")[2]) if noun else ()
 
     # ------------------------------------------------------------------ states
 
