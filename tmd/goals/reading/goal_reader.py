@@ -288,7 +288,8 @@ class GoalReader:
         """Return whether a verb only gives something, or puts it there, and is none of this domain's own."""
         if is_verb(clause.verb, "giving"):
             return relation.relation == TO
-        return not self.knows_verb(clause.verb) or clause.verb in section("placing")
+        known = any(map(self.knows_verb, (clause.verb, *family(clause.verb))))
+        return not known or clause.verb in section("placing")
 
     @staticmethod
     def _is_single(phrase: NounPhrase) -> bool:
