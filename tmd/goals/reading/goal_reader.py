@@ -288,8 +288,8 @@ class GoalReader:
         """Return whether a verb only gives something, or puts it there, and is none of this domain's own."""
         if is_verb(clause.verb, "giving"):
             return relation.relation == TO
-        known = any(map(self.knows_verb, (clause.verb, *family(clause.verb))))
-        return not known or clause.verb in section("placing")
+        phrasal = clause.verb.rpartition("_")[2] in words_of("names", "particles")  # "switch the light off"
+        return not (phrasal or self.knows_verb(clause.verb)) or clause.verb in section("placing")
 
     @staticmethod
     def _is_single(phrase: NounPhrase) -> bool:
