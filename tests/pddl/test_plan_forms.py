@@ -206,6 +206,49 @@ root 9
     ),
     "JSON texts": json.dumps({"plan": [*(step.pddl().upper() for step in PLAN), "(reach-goal)"], "error": "none"}),
     "JSON calls": json.dumps([str(step) for step in PLAN]),
+    "Action of Python": "[" + ", ".join(f"Action({', '.join((s.name, *s.args))})" for s in PLAN) + "]\n",
+    "Action with a list": "".join(f"Action({s.name!r}, {list(s.args)})\n" for s in PLAN),
+    "Action with names": "plan = [\n" + "".join(f"  Action(name={s.name!r}, args={s.args}),\n" for s in PLAN) + "]\n",
+    "Action with named objects": "Action(name='board', parameters={'q': 'north', 'c': 'red'})\n"
+    "Action('sail', {'b': 'south', 'a': 'north'})\nAction('rest')\nAction('board', {'c': 'blue', 'q': 'south'})\n",
+    "instances of unified-planning": "SequentialPlan([\n"
+    + "".join(f"  up.plans.ActionInstance({s.name}, ({', '.join(s.args)})),\n" for s in PLAN)
+    + "])\n",
+    "pairs": f"{[(s.name, s.args) for s in PLAN]}\n",
+    "semicolons between": "; ".join(s.pddl() for s in PLAN) + "\n",
+    "words in a row": "First " + "; then ".join(" ".join((s.name, *s.args)) for s in PLAN) + ".\n",
+    "arrows": " -> ".join(" ".join((s.name, *s.args)) for s in PLAN) + "\n",
+    "operators of SHOP": "((" + " ".join(f"(!{s.name.upper()} {' '.join(s.args).upper()}) 1.0" for s in PLAN) + "))\n",
+    "states between": "State 0: (at red north)\n"
+    + "".join(f"Action {n}: {s}\nState {n}: (on red)\n" for n, s in enumerate(PLAN)),
+    "table with effects": "| step | effect |\n|---|---|\n" + "".join(f"| `{s}` | on(red) |\n" for s in PLAN),
+    "PANDA's brackets": "0 board[red,north]\n1 sail[north,south]\n2 rest[]\n3 board[blue,south]\n",
+    "quotes of a printer": "{\u201cplan\u201d: ["
+    + ", ".join(f"\u201c{' '.join((s.name, *s.args))}\u201d" for s in PLAN)
+    + "]}\n",
+    "JSON numbers": json.dumps({"plan": {f"step {n}": " ".join((s.name, *s.args)) for n, s in enumerate(PLAN)}}),
+    "JSON arguments in a text": json.dumps([{"action": s.name, "args": " ".join(s.args)} for s in PLAN]),
+    "JSON actions in steps": json.dumps(
+        {"steps": [{"id": n, "action": {"name": s.name, "args": s.args}} for n, s in enumerate(PLAN, start=1)]}
+    ),
+    "JSON equations": json.dumps(
+        [
+            {"name": "board", "params": ["?q=north", "?c=red"]},
+            {"name": "sail", "params": ["?a=north", "?b=south"]},
+            {"name": "rest", "params": []},
+            {"name": "board", "params": ["?c=blue", "?q=south"]},
+        ]
+    ),
+    "YAML named objects": "- board: {q: north, c: red}\n- sail: {a: north, b: south}\n- rest: {}\n"
+    "- board: {c: blue, q: south}\n",
+    "JSON named objects": json.dumps(
+        [
+            {"action": "board", "parameters": {"q": "north", "?c": "red"}},
+            {"action": "sail", "b": "south", "a": "north"},
+            {"action": "rest", "parameters": {}},
+            {"action": "board", "parameters": {"c": "blue", "q": "south"}},
+        ]
+    ),
     "JSON steps": json.dumps([{"start": 0.0, "parameters": list(step.args), "action": step.name} for step in PLAN]),
     "JSON words": json.dumps({"actions": [[step.name, *step.args] for step in PLAN]}),
 }

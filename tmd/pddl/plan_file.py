@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from itertools import islice, pairwise
@@ -31,15 +32,27 @@ _HEAD = re.compile(
     rf"|[(\[#]?{_TIME}(?:\s*([:.),\]])|(?=\s))|[A-Za-z]\)(?=\s))?\s*(?:[-–—>:]+\s+)?"
 )
 # ``(name argument ...)`` or ``name(argument, ...)``, neither of them around another group.
-_GROUP = re.compile(r"([A-Za-z0-9_][\w-]*)?(\s*)\(([^()]*)\)")
+_GROUP = re.compile(r"((?<![\w-])[A-Za-z0-9_][\w-]*)?(\s*)\(([^()]*)\)")
 _BARE = re.compile(r"[A-Za-z0-9_][\w-]*(?:[\s,]+[A-Za-z0-9_][\w-]*)*")
+# What stands between steps that are words on one line.
+_BETWEEN = re.compile(r"(?:[\s,;.]|[-=]*>|[→⇒]|(?<![\w-])(?:and|then|first|finally)(?![\w-]))+", re.IGNORECASE)
 # A remark behind the words of a step does not begin with a word.
 _REMARK = re.compile(r"[\s,]*(?:[^\w\s,].*)?", re.DOTALL)
 _DURATION = re.compile(rf"\s*\[\s*(?:D:)?\s*{_TIME}(?:[;\s][^\]]*)?\]", re.IGNORECASE)
 _BRACKETS = re.compile(r"\[[^\]]*\]")
-# A step in other brackets, and the name of a parameter before its object.
-_OTHER_BRACKETS = re.compile(r"[\[{<]([\s,\w-]+)[\]}>]")
-_NAMED = re.compile(r"\??([A-Za-z_][\w-]*)\s*[=:]\s*\??(?=\w)")
+# A step in other brackets, or its arguments in them, and the name of a parameter before its object.
+_OTHER_BRACKETS = re.compile(r"((?<![\w-])[A-Za-z0-9_][\w-]*)?[\[{<]([\s,\w-]+)[\]}>]")
+_NAMED = re.compile(r"(?<![\w-])\??([A-Za-z_][\w-]*)\s*[=:]\s*\??(?=\w)")
+# Steps as values of programs, ``Action('grasp', ['mug1'])``: a constructor, an action, and its arguments in brackets.
+_CONSTRUCTOR = re.compile(r"(?<![\w.])([A-Za-z_][\w.]*)\((?=\s*(?:\w+\s*=\s*)?[\"']?([A-Za-z0-9_][\w-]*)[\"']?\s*[,)])")
+_ARGUMENTS = re.compile(
+    r"\(\s*(\w+\s*=\s*)?([\"']?([A-Za-z0-9_][\w-]*)[\"']?\s*,?\s*)(\w+\s*=\s*)?[\[({]([^()\[\]{}]*)[\])}]\s*,?\s*\)"
+)
+# A step behind another one and a ``;``, which is no comment then.
+_NEXT = re.compile(r"(?<=\));(?=\s*\(([^()]*)\))")
+_QUOTES = str.maketrans("\u201c\u201d\u2018\u2019", "\"\"''")
+# The keys of steps that are numbered: ``1``, ``step_2``.
+_NUMBER = re.compile(r"\D*([0-9]{1,9})")
 # What language models think before they answer, and the blocks of their answers.
 _THOUGHTS = re.compile(r"<think(?:ing)?>.*?</think(?:ing)?>", re.DOTALL | re.IGNORECASE)
 _FENCED = re.compile(r"^[ \t]*```[^\n]*\n(.*?)```", re.DOTALL | re.MULTILINE)
@@ -109,29 +122,41 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
         TmdError: There is no plan, it is cut off, something in the place of a step is none, or only some steps have a
             time.
     """
-    text = _THOUGHTS.sub(lambda thought: re.sub(r"[^\n]", " ", thought[0]), text)
     reader = _Reader(file, _Vocabulary.of(problem))
-    value = _json(text)
-    plans = [] if value is not None else reader.plans_of_text(text)
-    likely = value is not None or not plans or _MAY_BE_DATA.search(text)
-    data = list(_JsonReader(text, reader).plans(_data(text) if value is None else value)) if likely else []
-    if max(map(reader.known, data), default=0) > max(map(reader.known, plans), default=-1):
-        plans, value = data, text
+    text = reader.vocabulary.in_steps(_THOUGHTS.sub(lambda thought: _blanks(thought[0]), text).translate(_QUOTES))
+    plans, of_data = _plans(text, reader)
     whole = [plan for plan in plans if not plan.cut]
     if not plans:
         raise reader.no_plan(text)
     if not whole:
         raise plans[-1].cut_off()
-    if value is not None:  # a record of a text has clauses as well, which look like steps
+    if of_data:  # a record of a text has clauses as well, which look like steps
         whole = [plan for plan in whole if reader.known(plan) == len(plan.steps)] or whole
         plans = [plan for plan in plans if plan in whole or plan.cut]
-    chosen = whole[-1 if value is None else 0]
+    chosen = whole[0 if of_data else -1]
     steps = _in_time([step for step in chosen.steps if not reader.vocabulary.added(step.instruction)])
     return Plan(
         tuple(step.instruction for step in steps),
         tuple(step.place for step in steps),
         (*_choice(chosen, plans, file), *_overlap(steps)),
     )
+
+
+def _plans(text: str, reader: _Reader) -> tuple[list[_Found], bool]:
+    """Return the plans in a text, and whether they stand in data.
+
+    Raises:
+        TmdError: Something in the place of a step is none.
+    """
+    value = _json(text)
+    plans = [] if value is not None else reader.plans_of_text(text)
+    data: list[_Found] = []
+    if value is not None or not plans or _MAY_BE_DATA.search(text):
+        with suppress(TmdError) if plans else nullcontext():  # what looks like data may be lists of Python
+            data = list(_JsonReader(text, reader).plans(_data(text) if value is None else value))
+    if max(map(reader.known, data), default=0) > max(map(reader.known, plans), default=-1):
+        return data, True
+    return plans, value is not None
 
 
 def _json(text: str) -> Any | None:  # noqa: ANN401 - any JSON
@@ -208,6 +233,28 @@ class _Vocabulary:
         known = self.predicates | self.objects
         return len(words) > 1 and words[0] not in known and self.objects.issuperset(words[1:])
 
+    def in_steps(self, text: str) -> str:
+        """Return ``text`` with constructors of steps, such as ``Action("grasp", ["mug1"])``, as groups."""
+
+        def constructor(found: re.Match[str]) -> str:
+            known = found[1].lower() not in self.parameters and found[2].lower() in self.parameters
+            return f"{_blanks(found[1])}(" if known else found[0]
+
+        def arguments(found: re.Match[str]) -> str:
+            inner = re.split(r"\W", found[5].lstrip("\"' ").lower(), maxsplit=1)[0]
+            if found[3].lower() not in self.parameters or inner in self.parameters:
+                return found[0]
+            before = f"({_blanks(found[0][1 : found.start(2) - found.start()])}{found[2]}"
+            start, end = found.start(5) - found.start(), found.end(5) - found.start()
+            return f"{before.ljust(start)}{found[5]}{_blanks(found[0][end:-1])})"
+
+        def following(found: re.Match[str]) -> str:
+            words = self.words(found[1])
+            return " " if words and self.has(words) else found[0]
+
+        text = text.replace("(!", "( ")  # so hierarchical planners write what an agent does
+        return _NEXT.sub(following, _ARGUMENTS.sub(arguments, _CONSTRUCTOR.sub(constructor, text)))
+
     def words(self, text: str) -> list[str]:
         """Return the words of what may be a step.
 
@@ -237,6 +284,10 @@ class _Vocabulary:
             end = joint.start() + 1
             if text[1:end] in self.objects:
                 yield from ([text[1:end], *names] for names in self._arguments(text[end:], count - 1))
+
+    def denies(self, name: str) -> bool:
+        """Return whether ``name`` is that of a predicate, and of no action."""
+        return name in self.predicates and name not in self.parameters
 
     def may_begin(self, name: str) -> bool:
         """Return whether ``name`` may be that of an action."""
@@ -348,6 +399,7 @@ class _Reader:
         place = Location(self.file, number, 1)
         start = Decimal(head[1] or head[3]) if ":" in (head[2], head[4]) else None
         line.steps = [] if _ORDER.search(code) else self._groups(source, code, place, head, start)
+        line.steps = line.steps or self._in_a_row(source, place, head.end())
         bare = self._bare(code, head.end())
         if bare and not any(
             self.vocabulary.has((step.instruction.name, *step.instruction.args)) for step in line.steps
@@ -365,10 +417,25 @@ class _Reader:
             return []
         return self.vocabulary.words(found[0])
 
+    def _in_a_row(self, source: str, place: Location, position: int) -> list[_Step]:
+        """Return the steps of a line that consists of several ones, in words."""
+        text = source.translate(_MARKS)
+        gaps = [match.span() for match in _BETWEEN.finditer(text, position) if match[0].strip()]
+        starts, ends = [position, *(end for _, end in gaps)], [*(start for start, _ in gaps), len(text)]
+        parts = [(start, text[start:end].lower().split()) for start, end in zip(starts, ends, strict=True)]
+        parts = [(start, words) for start, words in parts if words]
+        if len(parts) < 2 or not all(self.vocabulary.has(words) for _, words in parts):
+            return []
+        return [_Step(_instruction(words), shifted(place, start), source) for start, words in parts]
+
     def _round(self, brackets: re.Match[str]) -> str:
         """Return a step in round brackets; anything else as it is."""
-        words = self.vocabulary.words(brackets[1])
-        return f"({brackets[1]})" if words and self.vocabulary.has(words) else brackets[0]
+        name, inside = brackets[1] or "", brackets[2]
+        words = self.vocabulary.words(inside)
+        if name:
+            call = self.vocabulary.words(f"{name} {inside}")
+            return f"{name}({inside})" if self.vocabulary.has(call) else brackets[0]
+        return f"({inside})" if words and self.vocabulary.has(words) else brackets[0]
 
     def _groups(
         self, source: str, code: str, place: Location, head: re.Match[str], start: Decimal | None
@@ -378,12 +445,7 @@ class _Reader:
         Raises:
             TmdError: A step is not closed, or has something else than names.
         """
-        unclosed = _OPEN.search(code, head.end())
-        if unclosed and self.vocabulary.may_begin(unclosed[1].lower()):
-            hint = "add the missing ); if the text ends here, give all of it"
-            raise TmdError(
-                "this step is not closed", location=shifted(place, unclosed.start()), source=source, hint=hint
-            )
+        self._check_end(source, code, place, head.end())
         found = [self._group(group) for group in _GROUP.finditer(code)]
         known = any(words and self.vocabulary.has(words) for words, _, _ in found)
         rest = list(code)
@@ -401,6 +463,18 @@ class _Reader:
                 steps.append(_Step(_instruction(words), where, source, start, stop))
         return steps
 
+    def _check_end(self, source: str, code: str, place: Location, position: int) -> None:
+        """Make sure that the last step of a line is closed.
+
+        Raises:
+            TmdError: It is not.
+        """
+        unclosed = _OPEN.search(code, position)
+        if unclosed and self.vocabulary.may_begin(unclosed[1].lower()):
+            hint = "add the missing ); if the text ends here, give all of it"
+            where = shifted(place, unclosed.start())
+            raise TmdError("this step is not closed", location=where, source=source, hint=hint)
+
     def _group(self, group: re.Match[str]) -> tuple[list[str], int, int]:
         """Return the words of a group, with a name in front if they are a call, and its columns from 0.
 
@@ -410,10 +484,10 @@ class _Reader:
         if group[1]:
             call = self.vocabulary.words(f"{group[1]} {group[3]}")
             known = bool(inside) and self.vocabulary.has(inside)
-            if self.vocabulary.has(call) or (not group[2] and not known):
+            if self.vocabulary.has(call) or (not group[2] and not known and not self.vocabulary.denies(call[0])):
                 return call, group.start(), group.end()
-        # numbers, keywords and variables are no actions
-        step = bool(inside) and not re.match(r"[:?]|[0-9.]*$", inside[0])
+        # numbers, keywords, variables and predicates are no actions
+        step = bool(inside) and not re.match(r"[:?]|[0-9.]*$", inside[0]) and not self.vocabulary.denies(inside[0])
         return inside if step else [], group.start(3) - 1, group.end()
 
 
@@ -447,6 +521,10 @@ def _split(lines: Iterable[_Line]) -> list[_Found]:
             plans.append(_Found())
         apart = not line.steps
     return plans
+
+
+def _blanks(text: str) -> str:
+    return re.sub(r"[^\n]", " ", text)
 
 
 def _code(line: str) -> str:
@@ -486,6 +564,8 @@ class _JsonReader:
             TmdError: Something in the place of a step is none.
         """
         before = self._position
+        if isinstance(value, dict) and len(value) > 1 and all(map(_NUMBER.fullmatch, value)):
+            value = list(value.values())
         found = self._of_list(value) if isinstance(value, list) else []
         if isinstance(value, str):
             place = self._place(value)
@@ -523,6 +603,10 @@ class _JsonReader:
         """Return a step as a line of text; the empty line for anything else."""
         if isinstance(value, str):
             return _on_a_line(value)
+        return self._of_named(value) or self._of_words(value) or self._of_texts(value)
+
+    def _of_texts(self, value: Any) -> str:  # noqa: ANN401 - any JSON
+        """Return the step that is one of the texts in ``value``, or whose words may be, with names of nothing too."""
         steps = [text for text in map(_on_a_line, _texts(value, 1)) if self._reader.plans_of_text(text)]
         if isinstance(value, dict) and len(steps) == 1:
             (plan,) = self._reader.plans_of_text(steps[0])[:1]
@@ -532,6 +616,28 @@ class _JsonReader:
         if any(self._reader.plans_of_text(text) for text in words if not NAME.fullmatch(text)):
             return ""  # a list of steps
         return self._reader.vocabulary.step_of([word for word in words if NAME.fullmatch(word)])
+
+    def _of_words(self, value: Any) -> str:  # noqa: ANN401 - any JSON
+        """Return the step whose words are the texts of an object, some in one text; the empty text for none."""
+        if not isinstance(value, dict):
+            return ""
+        vocabulary = self._reader.vocabulary
+        split = [re.split(r"[\s,]+", _NAMED.sub("", text.lower())) for text in _texts(value, 4)]
+        words = [word for part in split if len(part) == 1 or vocabulary.objects.issuperset(part) for word in part]
+        others = (" ".join(part) for part in split if len(part) > 1 and not vocabulary.objects.issuperset(part))
+        step = "" if any(map(self._reader.plans_of_text, others)) else vocabulary.step_of(words)
+        return step if step and vocabulary.has(step[1:-1].split()) else ""
+
+    def _of_named(self, value: Any) -> str:  # noqa: ANN401 - any JSON
+        """Return the step whose objects have the names of its parameters, in any order; the empty text for none."""
+        vocabulary = self._reader.vocabulary
+        named = {key.lower().removeprefix("?"): word.lower() for key, word in _pairs(value, 3)}
+        for action in (text.lower() for text in _texts(value, 2)):
+            parameters = vocabulary.parameters.get(action, ())
+            words = [action, *(named.get(parameter, "") for parameter in parameters)]
+            if parameters and vocabulary.has(words):
+                return f"({' '.join(words)})"
+        return ""
 
 
 def _on_a_line(text: str) -> str:
@@ -544,6 +650,18 @@ def _texts(value: Any, depth: int = 99) -> list[str]:  # noqa: ANN401 - any JSON
         return [value]
     inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
     return [text for item in inner for text in _texts(item, depth - 1)] if depth else []
+
+
+def _pairs(value: Any, depth: int) -> Iterator[tuple[str, str]]:  # noqa: ANN401 - any JSON
+    """Yield the keys with a text, and what is written as ``key=text``, within so many others."""
+    listed = value if isinstance(value, list) else ()
+    inner = value.items() if isinstance(value, dict) else ((None, item) for item in listed)
+    for key, item in inner:
+        if isinstance(item, str):
+            found = _NAMED.match(item)
+            yield (found[1], item[found.end() :].strip()) if found else (key or "", item)
+        elif isinstance(item, dict | list) and depth:
+            yield from _pairs(item, depth - 1)
 
 
 def _choice(chosen: _Found, plans: Sequence[_Found], file: str) -> list[str]:
