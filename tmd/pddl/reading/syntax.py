@@ -57,6 +57,8 @@ S = TypeVar("S")
 T = TypeVar("T")
 Report: TypeAlias = Callable[[TmdError], None]
 """Takes a fault, so that reading can go on."""
+# Kinds of faults that are made in the same way all over a file.
+_HABITS = frozenset({"not-supported", "unknown-section"})
 
 
 class Reporting:
@@ -78,7 +80,7 @@ class Reporting:
         try:
             return read(*arguments, **named)
         except TmdError as error:
-            self.report(error)
+            self.fault(error)
             return otherwise
 
 
@@ -95,10 +97,25 @@ class Source(Reporting):
     code: tuple[str, ...] = ()
     """The lines without comments and text that is not PDDL, as long as before."""
     once: dict[str, TmdError] = field(default_factory=dict, compare=False, repr=False)
+    times: dict[str, int] = field(default_factory=dict, compare=False, repr=False)
+    """How often each habit of the author was found."""
     reported: set[str] = field(default_factory=set, compare=False, repr=False)
     """The names of which was warned: once is enough."""
     sections: dict[str, Group] = field(default_factory=dict, compare=False, repr=False)
     """The first group of each head within ``(define``."""
+
+    def fault(self, error: TmdError) -> None:
+        """Raise ``error``, or report it and return; a habit of the author is reported once, with all its edits."""
+        found = self.once.get(error.message) if error.code in _HABITS else None
+        if found is None:
+            if error.code in _HABITS:
+                self.once[error.message] = error
+            Reporting.fault(self, error)  # dataclasses with slots have no super()
+            return
+        message = error.message
+        times = self.times[message] = self.times.get(message, 0) + 1
+        found.message = f"{message} (and {times} more time{'s' if times > 1 else ''})"
+        found.edits += tuple(error.edits)
 
     def line(self, location: Location | None) -> str | None:
         """Return the source line at ``location``, if it lies in this text."""
@@ -344,6 +361,8 @@ _OPERATORS = CONNECTIVES | {
     "define", "increase", "decrease", "assign", "scale-up", "scale-down", "preference", "oneof", "probabilistic",
     "=", "<", ">", "<=", ">=", "+", "-", "*", "/", "either", "always", "sometime", "!", "~",
 }  # fmt: skip
+# Words that are not called where the others are, ``and(on(a, b), clear(a))``.
+_NEVER_CALLED = _OPERATORS - {"and", "or", "not", "imply", "when"} | {"minimize", "maximize"}
 # A plain name as planners take it; in PDDL it begins with a letter.
 NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _WITH_ATOMS = CONNECTIVES | {":init", ":goal", ":predicates", ":precondition", ":effect"}
@@ -367,13 +386,18 @@ class _Open:
         return self.parts[0].text if self.parts and isinstance(self.parts[0], Word) else ""
 
 
+def _shown(parts: Sequence[Node]) -> str:
+    """Return the text of a group with these parts."""
+    return f"({' '.join(part.text if isinstance(part, Word) else _shown(part.parts) for part in parts)})"
+
+
 def _reopened(group: Group) -> _Open:
     return _Open(group.location, list(group.parts), False)
 
 
 def _may_be_name(word: str) -> bool:
     """Return whether a word before a parenthesis may be the name of a call."""
-    return bool(NAME.fullmatch(word)) and word not in _OPERATORS - {"not"} and word not in ("minimize", "maximize")
+    return bool(NAME.fullmatch(word)) and word not in _NEVER_CALLED
 
 
 def _around_an_atom(parts: Sequence[Node]) -> Group | None:
@@ -390,9 +414,9 @@ def _around_an_atom(parts: Sequence[Node]) -> Group | None:
 
 
 def _keyword_before(around: _Open) -> bool:
-    """Return whether the last word is a condition or effect itself, as in ``:effect done()``."""
-    before = around.parts[-2] if len(around.parts) > 1 else None
-    return isinstance(before, Word) and before.text in _WITH_ATOMS
+    """Return whether the last word is a condition or effect, as in ``:effect done()``, perhaps behind others."""
+    before = next((part for part in reversed(around.parts[:-1]) if isinstance(part, Word)), None)
+    return before is not None and before.text in _WITH_ATOMS and f":{around.parts[-1].text}" not in PARTS
 
 
 def parse(text: str, file: str, report: Report | None = None) -> Document:
@@ -491,7 +515,9 @@ class _Parser:
         word = around.parts[-1] if around and around.parts else None
         if around is None or not isinstance(word, Word) or after(word) != location or not _may_be_name(word.text):
             self.stack.append(_Open(location, [], first))
-        elif len(around.parts) == 1 and around.head not in _OPERATORS:
+        elif len(around.parts) == 1 and around.head in _OPERATORS:
+            self.stack.append(_Open(location, [], first))
+        elif len(around.parts) == 1:
             self.called.append(Edit(location, shifted(location, 1), " "))
             self.stack.append(_Open(location, [], first, spread=True, called=True))
         elif around.head in _WITH_ATOMS or _keyword_before(around):
@@ -531,10 +557,7 @@ class _Parser:
         if opened.called and opened.head == "not" and len(opened.parts) > 1 and isinstance(opened.parts[1], Word):
             self.negated(opened, location)
         if opened.called and self.call.startswith("(name"):
-            words = (
-                part.text for part in (self.stack[-1] if opened.spread else opened).parts if isinstance(part, Word)
-            )
-            self.call = f"({' '.join(words)})"
+            self.call = _shown((self.stack[-1] if opened.spread else opened).parts)
         if opened.spread:
             return
         group = Group(tuple(opened.parts), opened.location, location, len(self.stack))
@@ -554,9 +577,14 @@ class _Parser:
             return
         if word.text.startswith(":"):
             self.fix_misplaced(word)
-        elif word.text in CONNECTIVES:
+        elif word.text in CONNECTIVES and not self.calls(word):
             self.fix_unopened(word)
         self.stack[-1].parts.append(word)
+
+    def calls(self, word: Word) -> bool:
+        """Return whether a parenthesis follows a word, as in ``and(on(a, b))``."""
+        behind = self.source.code[word.location.line - 1][after(word).column - 1 :]
+        return behind.startswith("(") and _may_be_name(word.text)
 
     def fix_unopened(self, word: Word) -> None:
         """Repair ``:precondition and (...)``, which lacks the parenthesis that its end closes."""
