@@ -366,6 +366,128 @@ REPAIRED = {
         "missing-section",
         "(:predicates (at ?c - can ?x - bed)",
     ),
+    "another keyword of an action": (
+        "domain",
+        ":effect (moist ?b)",
+        ":result (moist ?b)",
+        "unknown-keyword",
+        ":effect",
+    ),
+    "a keyword cut short": (
+        "domain",
+        ":precondition (and (at ?c ?b)",
+        ":pre (and (at ?c ?b)",
+        "unknown-keyword",
+        ":prec",
+    ),
+    "a keyword of durative actions": (
+        "domain",
+        ":precondition (and (at ?c ?b)",
+        ":condition (and (at ?c ?b)",
+        "unknown-keyword",
+        ":precondition",
+    ),
+    "operators": ("domain", DOMAIN, DOMAIN.replace(":action", ":operator"), "unknown-section", ":action"),
+    "another name of a section": ("problem", "(:init", "(:initial-state", "unknown-section", ":init"),
+    "define misspelt": ("domain", "(define", "(defien", "syntax", "define"),
+    "domain misspelt": ("domain", "(domain garden)", "(domian garden)", "syntax", "domain"),
+    "problem misspelt": ("problem", "(problem june)", "(porblem june)", "syntax", "problem"),
+    "requirements misspelt": ("domain", "(:requirements", "(:requirement", "unknown-section", ":requirements"),
+    "keywords without colons": (
+        "domain",
+        DOMAIN,
+        DOMAIN.replace(":parameters", "parameters"),
+        "unknown-keyword",
+        ":par",
+    ),
+    "comments of SQL": ("domain", "(full ?c - can)", "(full ?c - can) -- with water\n", "foreign-text", '";"'),
+    "unequal without parentheses": (
+        "domain",
+        "(path ?x ?y))\n",
+        "(path ?x ?y) ?x != ?y)\n",
+        "other-notation",
+        "(not (= ?x ?y))",
+    ),
+    "equal without parentheses": (
+        "domain",
+        "(path ?x ?y))\n",
+        "(path ?x ?y) (not ?x = ?y))\n",
+        "other-notation",
+        "(= ?x ?y)",
+    ),
+    "and between conditions": (
+        "domain",
+        ":precondition (and (at ?c ?x) (path ?x ?y))",
+        ":precondition (at ?c ?x) and (path ?x ?y)",
+        "other-notation",
+        "(and",
+    ),
+    "and between goals": (
+        "problem",
+        "(and (moist roses) (moist herbs))",
+        "(moist roses) && (moist herbs)",
+        "other-notation",
+        "(and",
+    ),
+    "and called": (
+        "domain",
+        PRECONDITION,
+        "and(at(?c, ?x), path(?x, ?y))",
+        "other-notation",
+        "(at ?c ?x)",
+    ),
+    "a goal without parentheses": (
+        "problem",
+        "(and (moist roses) (moist herbs))",
+        "moist roses",
+        "syntax",
+        "(moist roses)",
+    ),
+    "an effect without parentheses": ("domain", ":effect (moist ?b)", ":effect moist ?b", "syntax", "(moist ?b)"),
+    "atoms of :init without parentheses": (
+        "problem",
+        "(at tin roses) (at jug herbs) (full tin)",
+        "at tin roses\n at jug herbs\n (full tin)",
+        "syntax",
+        "(at tin roses)",
+    ),
+    "parentheses around :init": (
+        "problem",
+        "(:init (at tin roses) (at jug herbs) (full tin) (path roses herbs))",
+        "(:init ((at tin roses) (at jug herbs) (full tin) (path roses herbs)))",
+        "syntax",
+        "remove",
+    ),
+    "true in :init": ("problem", "(full tin)", "(= (full tin) true)", "other-notation", "(full tin)"),
+    "no value of a keyword": (
+        "domain",
+        ":precondition (and (at ?c ?b) (full ?c))",
+        ":precondition",
+        "syntax",
+        ":precondition (and)",
+    ),
+    "no value of :parameters": (
+        "domain",
+        "(?c - can ?b - bed)\n    :precondition (and (at ?c ?b)",
+        "\n    :precondition (and (at ?c ?b)",
+        "free-variable",
+        ":parameters (?c - can ?b - bed)",
+    ),
+    "an undeclared type": ("domain", "(:types can bed)", "(:types can)", "unknown-type", 'add "bed"'),
+    "a predicate of two words": (
+        "domain",
+        "(at ?c - can ?b - bed)",
+        "(at ?c - can ?b - bed) (is wet ?b - bed)",
+        "bad-name",
+        "is-wet",
+    ),
+    "names of two words in quotes": (
+        "problem",
+        "(problem june)",
+        '(problem "first of june")',
+        "foreign-text",
+        "remove",
+    ),
     "plural": (
         "domain",
         ":precondition (and (at ?c ?b)",
@@ -433,6 +555,43 @@ TOLD = {
         "foreign-text",
         "one of the two",
     ),
+    "numbers compared": (
+        "domain",
+        "(full ?c))\n",
+        "(full ?c) (weight ?c) >= 2)\n",
+        "not-supported",
+        "before their terms",
+    ),
+    "numbers compared in parentheses": (
+        "domain",
+        "(full ?c))\n",
+        "(full ?c) ((weight ?c) >= 2))\n",
+        "not-supported",
+        "before their terms",
+    ),
+    "numbers assigned": (
+        "domain",
+        ":effect (moist ?b)",
+        ":effect (and (moist ?b) (weight ?c) -= 1)",
+        "not-supported",
+        "total-cost",
+    ),
+    "durative actions": ("domain", DOMAIN, DOMAIN.replace(":action", ":durative-action"), "not-supported", ""),
+    "two types that are ancestors": (
+        "domain",
+        "(:types can bed)",
+        "(:types can - bed bed - can)",
+        "type-cycle",
+        "another",
+    ),
+    "a name that is commented out": (
+        "problem",
+        "roses herbs - bed",
+        "roses - bed ; herbs - bed\n",
+        "unknown-object",
+        "begins a comment",
+    ),
+    "a type near by chance": ("domain", "(:types can bed)", "(:types can bend)", "unknown-type", "bend"),
     "left out": ("problem", "(path roses herbs))", "(path roses herbs) ...)", "syntax", "left out"),
 }
 
@@ -460,6 +619,33 @@ def test_a_habit_is_told_once_for_all_actions(tmp_path: Path) -> None:
     assert _wrong(check_paths(paths, fix=True).diagnostics) == []
 
 
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("(not (at ?c ?x))", "(not(at ?c ?x))"),
+        (f":precondition {PRECONDITION}", ":precondition(and(at ?c ?x)(path ?x ?y))"),
+        (":effect (moist ?b)", ":effect(moist ?b)"),
+        (":typing)", ":typing :universal-preconditions)"),
+        (":effect (moist ?b)", ":effect (and(moist ?b)(not(full ?c)))"),
+    ],
+)
+def test_blanks_before_parentheses_may_be_left_out(tmp_path: Path, old: str, new: str) -> None:
+    assert check_paths(_written(tmp_path, "domain", old, new)).diagnostics == ()
+
+
+@pytest.mark.parametrize("value", ["(length roses herbs 2)", "(length roses herbs) = 2", "(= 2 (length roses herbs))"])
+def test_values_are_written_with_an_equation(tmp_path: Path, value: str) -> None:
+    costly = DOMAIN.replace("  (:action carry", "  (:functions (total-cost) (length ?x ?y - bed))\n  (:action carry")
+    costly = costly.replace("(not (at ?c ?x))", "(not (at ?c ?x)) (total-cost) += (length ?x ?y)")
+    paths = _written(tmp_path, "domain", DOMAIN, costly.replace(":typing)", ":typing :action-costs)"))
+    paths[1].write_text(PROBLEM.replace("(path roses herbs))", f"(path roses herbs) {value})"))
+    told = _wrong(check_paths(paths).diagnostics)
+    assert [d.code for d in told] == ["other-notation"] * 2
+    assert {d.hint for d in told} >= {"write (= (length roses herbs) 2)"}
+    assert _wrong(check_paths(paths, fix=True).diagnostics) == []
+    assert "(increase (total-cost) (length ?x ?y))" in paths[0].read_text()
+
+
 @pytest.mark.parametrize("name", REPAIRED)
 def test_a_slip_is_told_once_and_repaired(tmp_path: Path, name: str) -> None:
     *change, kind, hint = REPAIRED[name]
@@ -483,6 +669,10 @@ def test_a_slip_is_told_once_with_its_cure(tmp_path: Path, name: str) -> None:
         ("<html>\n", "download"),
         ("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 120\n", "git lfs pull"),
         ("404: Not Found", "address"),
+        ('{"domain": "garden", "actions": []}\n', "define"),
+        ("from unified_planning.shortcuts import *\n", "define"),
+        ('<?xml version="1.0"?>\n<pddl/>\n', "define"),
+        ("Sorry, there is no such domain.\n", "define"),
     ],
 )
 def test_a_file_of_another_kind_is_named(tmp_path: Path, text: str, cure: str) -> None:

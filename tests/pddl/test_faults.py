@@ -253,7 +253,7 @@ PROBLEM_FAULTS = {
     ),
     "missing parenthesis": ("(at spoon table))", "(at spoon table)", 4, 3, "never closed", "add"),
     "unknown section": ("(:objects", "(:object", 3, 3, "is not a section", '":objects"'),
-    "an atom in two pairs": ("(at cup shelf)", "((at cup shelf))", 4, 11, "found a parenthesis", None),
+    "an atom in two pairs": ("(at cup shelf)", "((at cup shelf))", 4, 10, "no parentheses around", "remove them"),
     "a domain instead": ("(problem one)", "(domain one)", 1, 9, "found (domain ...)", None),
 }
 
@@ -345,7 +345,8 @@ def test_a_domain_without_requirements_is_strips() -> None:
         (b"(define \x1b[31m", 1, 9, "control character 0x1b"),
         (b"", 1, 1, "there is no domain here"),
         (b"; only a comment\n", 1, 1, "there is no domain here"),
-        (b"hello", 1, 1, "stands outside all parentheses"),
+        (b"hello", 1, 1, "this is prose, not PDDL"),
+        (b"hello ()", 1, 1, "stands outside all parentheses"),
         (b"(define)", 1, 1, "expected (define (domain name) ...)"),
         (b"()", 1, 1, "expected (define (domain name) ...)"),
     ],

@@ -108,16 +108,17 @@ def _is_error(fault: TmdError) -> bool:
 
 
 # A kind of fault, and the kind and a part of the message of what only follows from it.
-_ECHOES = {
-    "unknown-requirement": ("missing-requirement", ""),
-    "unknown-function": ("missing-requirement", ":action-costs"),
-    "type-cycle": ("parent-after-child", ""),
-    "missing-section": ("missing-requirement", ":typing"),
-    "other-notation": ("missing-requirement", ":equality"),
-    "unknown-section": ("missing-section", ""),
-    "not-supported": ("missing-requirement", ":action-costs"),
-    "bad-name": ("domain-mismatch", ""),
-}
+_ECHOES = (
+    ("unknown-requirement", "missing-requirement", ""),
+    ("unknown-function", "missing-requirement", ":action-costs"),
+    ("type-cycle", "parent-after-child", ""),
+    ("missing-section", "missing-requirement", ":typing"),
+    ("other-notation", "missing-requirement", ":equality"),
+    ("unknown-section", "missing-section", ""),
+    ("unknown-section", "missing-requirement", ""),
+    ("not-supported", "missing-requirement", ":action-costs"),
+    ("bad-name", "domain-mismatch", ""),
+)
 
 
 # Faults of a name in a domain that are not repeated in its problems.
@@ -126,7 +127,8 @@ _ONCE = frozenset({"odd-name", "wrong-arity", "unknown-type", "unknown-predicate
 
 def _without_echoes(faults: list[TmdError], others: Sequence[TmdError] = ()) -> list[TmdError]:
     """Return ``faults`` without those that only follow from them, or from ``others``."""
-    found = [_ECHOES[fault.code] for fault in (*faults, *others) if fault.code in _ECHOES]
+    codes = {fault.code for fault in (*faults, *others)}
+    found = [(echo, part) for code, echo, part in _ECHOES if code in codes]
     if any(fault.code == "unclosed-parenthesis" and fault.edits for fault in faults):
         found.append(("not-supported", "nested terms"))  # they are the groups behind the one that is not closed
     found += [(fault.code, f'"{_quoted(fault)}"') for fault in others if fault.code in _ONCE]

@@ -198,7 +198,7 @@ def _costs_missing(problem: Problem, source: Source) -> Iterator[TmdError]:
         found = solutions(action.parameters, And(tuple(lasting)), problem.init, objects, {})
         missing = sorted({instantiate(action.cost, binding) for binding in found} - problem.function_values.keys())
         if missing:
-            more = f" (nor have {len(missing) - 1} others)" if len(missing) > 1 else ""
+            more = f", and {len(missing) - 1} more lack one" if len(missing) > 1 else ""
             message = f'{missing[0]} has no value{more}, and action "{action.name}" needs it'
             place = problem.metric_location or problem.location
             yield source.error(message, place, f"add (= {missing[0]} 1) to :init", "cost-missing")

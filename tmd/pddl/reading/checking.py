@@ -38,7 +38,7 @@ from tmd.pddl.model import (
     walk,
 )
 from tmd.pddl.reading.missing_types import apart, narrowest, typed, types_needed
-from tmd.pddl.reading.syntax import Source, Word, nearest, shifted
+from tmd.pddl.reading.syntax import NO_BLANKS, Source, Word, nearest, shifted
 
 # Of a declaration that a hint proposes.
 _LONGEST_HINT = 150
@@ -202,8 +202,11 @@ class _Check:
             self.undeclared.setdefault(name, place)
         elif not self.again(("type", name), place):
             names = [OBJECT, *self.hierarchy.parents]
-            hint = nearest(name, names, what="types")
-            self.fault(f'unknown type "{name}"', place, hint, "unknown-type", slip=("type", name))
+            hint, edits = nearest(name, names, what="types"), []
+            if not (hint and hint.startswith("did")):
+                hint = _or_cure(hint, f'add "{name}" to (:types ...) of the domain')
+                edits = [] if self.of_problem else [self.source.declaration(":types", name)]
+            self.fault(f'unknown type "{name}"', place, hint, "unknown-type", edits, slip=("type", name))
 
     def types_missing(self) -> None:
         """Report that the domain uses types and declares none."""
@@ -252,7 +255,8 @@ class _Check:
         dash = self.dash(location)
         listed = [t for t in self.domain.types if t.parent == name and self.dash(t.location) == dash]
         if len(cycle) > 1 or location is None or dash is None:
-            self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*cycle, name)), "type-cycle")
+            hint = f"{' < '.join((*cycle, name))}: give one of them another parent"
+            self.fault(f'type "{name}" is its own ancestor', location, hint, "type-cycle")
         elif len(listed) == 1:
             message, hint = f'type "{name}" is its own parent', f"write {name} - {OBJECT}"
             parent = self.source.type_of(location, name) or location
@@ -325,6 +329,9 @@ class _Check:
             behind = list(islice(self.source.tokens(end), 3))
             if [token.lower() for token, _ in behind] == [":parameters", "(", ")"]:
                 edits = [Edit(behind[2][1], behind[2][1], typed)]
+            elif len(behind) > 1 and behind[0][0].lower() == ":parameters" and behind[1][0] != "(":
+                end = shifted(behind[0][1], len(":parameters"))
+                edits = [Edit(end, end, f" ({typed})")]
             elif behind and behind[0][0].lower() != ":parameters":
                 edits = [Edit(end, end, f" :parameters ({typed})")]
         message = f'action "{action.name}" has no parameters for {", ".join(self.unbound)}'
@@ -416,7 +423,8 @@ class _Check:
         if self.again(slip, place):
             return
         if atom.predicate in ("true", "nil"):
-            self.fault(f'"({atom.predicate})" is not PDDL', place, "write (and)", "other-notation", slip=slip)
+            edits = [Edit(place, shifted(place, len(atom.predicate)), "and")] if place and not atom.terms else []
+            self.fault(f'"({atom.predicate})" is not PDDL', place, "write (and)", "other-notation", edits, slip)
             return
         names = (term if term.startswith("?") else f"?x{number}" for number, term in enumerate(atom.terms, start=1))
         typed_names = (TypedName(name, given or ()).typed() for name, given in zip(names, types, strict=True))
@@ -435,8 +443,11 @@ class _Check:
             return False
         start, end = self.word(atom, 0), self.word(atom, 1)
         edits = [Edit(shifted(start, len(atom.predicate)), end, "-")] if start and end else []
-        if not self.again((what, joined), start, edits):
-            self.fault("a name has no blanks", start, f"write {joined}", "bad-name", edits, (what, joined))
+        message = NO_BLANKS.format(joined)
+        if message in self.source.once:
+            self.source.once[message].edits += tuple(edits)
+        elif not self.again((what, joined), start, edits):
+            self.fault(message, start, f"write {joined}", "bad-name", edits, (what, joined))
         return True
 
     def of_action(self, name: str) -> str | None:
@@ -513,7 +524,11 @@ class _Check:
                 hint = f'did you mean "{variable}"?'
             else:
                 where = ":objects" if self.of_problem else ":constants"
-                hint = _or_cure(hint, f'declare "{TypedName(term, tuple(wanted)).typed()}" under ({where} ...)')
+                hidden = self.source.hidden(where, term)
+                cure = f'declare "{TypedName(term, tuple(wanted)).typed()}" under ({where} ...)'
+                hint = (
+                    _or_cure(hint, cure) if hidden is None else f'";" in line {hidden} begins a comment, and hides it'
+                )
             self.fault(f'unknown object "{term}"', place, hint, "unknown-object", edits, slip)
         return None
 
@@ -550,7 +565,8 @@ class _Check:
             self.one_type(declared, "object")
             if constants.get(declared.name, declared.types) != declared.types:
                 message = f'"{declared.name}" is a constant of another type'
-                self.fault(message, declared.location, "rename the object", "duplicate-name")
+                self.fault(message, declared.location, "remove it here, or rename the object", "duplicate-name")
+                self.known_objects[declared.name] = None
 
     def types_first(self, problem: Problem) -> bool:
         """Return whether types stand before their objects, ``cart - k1 k2``, which is reported."""

@@ -25,9 +25,9 @@ _MARKS = re.compile(
     r"|(?P<escape>\\[nrt\"])"
     r"|(?P<slash>\\(?=[()]))"
     r"|(?P<text>(?<!\():[a-z-]+\s+\"[^\"\n]*\s[^\"\n]*\")"
-    r"|(?P<quoted>(?<![\w?-])[\"'`\u2018-\u201f]\??[\w-]+[\"'`\u2018-\u201f](?![\w-]))"
+    r"|(?P<quoted>(?<![\w?-])[\"'`\u2018-\u201f]\??[\w-]+(?:[ ][\w-]+){0,2}[\"'`\u2018-\u201f](?![\w-]))"
     r"|(?P<dollar>(?<![^\s()])\$(?=[a-z]))"
-    r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?m:^[ \t]*)--[ \t])[^\n]*))",
+    r"|(?P<remark>(?<![^\s()])(?://|[\#%]+[ \t]|(?:(?m:^[ \t]*)|(?<=\))[ \t]+)--[ \t])[^\n]*))",
     re.DOTALL | re.IGNORECASE,
 )
 _TOLD = {
@@ -52,6 +52,13 @@ _OTHER_FILES = {
     "a pointer of Git LFS": (re.compile(r"version https://git-lfs"), "get the file with: git lfs pull"),
     "the answer that there is no such file": (re.compile(r"\s*404\b"), "look at its address"),
 }
+# The same for texts without a definition.
+_OTHER_LANGUAGES = {
+    "JSON": (re.compile(r"\s*[\[{]\s*[\"{\[\]}]"), "write (define ...)"),
+    "XML": (re.compile(r"\s*<\?xml\b"), "write (define ...)"),
+    "Python": (re.compile(r"(?:\s*#[^\n]*\n)*\s*(?:from|import|def|class)\s+\w"), "write (define ...)"),
+    "prose": (re.compile(r"\s*[^\s;(][^();]*\Z"), "write (define ...)"),
+}
 # The kinds that mean nothing before the definition.
 _WITHIN = frozenset({"text", "quoted", "dollar", "slash"})
 _DEFINE = re.compile(r"\(\s*define\b", re.IGNORECASE)
@@ -65,7 +72,8 @@ _PARENTHESIS = re.compile(r"[()]")
 
 def other_file(text: str) -> tuple[str, str] | None:
     """Return what a text is that is no PDDL at all, and the cure."""
-    return next(((what, cure) for what, (begin, cure) in _OTHER_FILES.items() if begin.match(text)), None)
+    kinds = _OTHER_FILES if _DEFINE.search(text) else {**_OTHER_FILES, **_OTHER_LANGUAGES}
+    return next(((what, cure) for what, (begin, cure) in kinds.items() if begin.match(text)), None)
 
 
 def pddl_lines(lines: Sequence[str], file: str) -> tuple[tuple[str, ...], list[TmdError]]:
@@ -188,8 +196,7 @@ class _Text:
             end = "" if self.kept[match.end() :].lstrip(" \t").startswith("\n") else "\n"
             yield self.edit(*match.span(), f"; {match[0].split(chr(34))[1]}{end}")
         elif kind == "quoted":
-            yield self.edit(match.start(), match.start() + 1)
-            yield self.edit(match.end() - 1, match.end())
+            yield self.edit(*match.span(), match[0][1:-1].replace(" ", "-"))
         elif kind == "dollar":
             yield self.edit(*match.span(), "?")
         elif kind == "remark":
@@ -236,7 +243,8 @@ class _Text:
         for match, end in zip(others, ends, strict=True):
             path = str(self._file_for(match))
             new = Location(path, 0, 0)
-            edits.append(Edit(new, new, self.kept[match.start() : end].strip() + "\n"))
+            text = re.sub(r"[ \t]+$", "", self.kept[match.start() : end], flags=re.MULTILINE)
+            edits.append(Edit(new, new, text.strip() + "\n"))
         edits.append(self.edit(len(self.kept[: others[0].start()].rstrip()), len(self.kept.rstrip())))
         kind, name = others[0].groups()
         message = f'this file has {len(others) + 1} definitions: here begins the {kind.lower()} "{name}"'
@@ -283,7 +291,7 @@ def _plain(text: str) -> str:
 
 
 def _unquoted(text: str) -> str:
-    return f" {text[1:-1]} "
+    return f" {text[1:-1].replace(' ', '-')} "
 
 
 def _blanks(text: str) -> str:

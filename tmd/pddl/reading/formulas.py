@@ -30,9 +30,11 @@ from tmd.pddl.model import (
     TypedName,
     free_variables,
 )
+from tmd.pddl.reading.infix import ONLY_COSTS, UNEQUAL, in_prefix
 from tmd.pddl.reading.syntax import (
     CONNECTIVES,
     NAME,
+    NO_BLANKS,
     Document,
     Group,
     Node,
@@ -196,6 +198,7 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
         if isinstance(node, Word) and node.text == "-":
             behind = rest[-1] if rest else node
             types = source.recover((OBJECT,), _read_types, rest, node.location, source)
+            types = _with_blank(behind, types, rest, source) if variables else types
             if not waiting:
                 edits = [source.removal(node.location, after(behind))]
                 hint = "write names before it, or remove it"
@@ -208,12 +211,26 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
     return tuple(found)
 
 
+def _with_blank(first: Node, types: tuple[str, ...], rest: list[Node], source: Source) -> tuple[str, ...]:
+    """Return the types of a list, where a type of two words, which is reported, is its second one."""
+    second = rest[-1] if rest and isinstance(first, Word) else first
+    if second is first or not isinstance(second, Word) or second.text not in types_of(source):
+        return types
+    rest.pop()
+    joined = f"{types[0]}-{second.text}"
+    edits = [Edit(after(first), second.location, "-")]
+    source.fault_once(NO_BLANKS.format(joined), second.location, f"write {joined}", "bad-name", edits)
+    return (second.text,)
+
+
 def _apart(node: Word, rest: list[Node], variables: bool, source: Source) -> Word:
     """Return the first of the words that are written as one; the rest begins with the others then."""
     if variables:
         node = _before_glued_type(node, rest, source)
     if ":" in node.text and node.text[0] != ":":
         node = _before_colon(node, rest, source)
+    if len(node.text) > 1 and node.text[-1] == "-" and rest and (isinstance(rest[-1], Group) or rest[-1].text != "-"):
+        return _before_dash(node, rest, source)
     if len(node.text) > 1 and node.text[0] == "-":
         rest.append(_after_dash(node, source))
         return Word("-", node.location)
@@ -282,6 +299,15 @@ def _after_dash(node: Word, source: Source) -> Word:
     return Word(node.text[1:], place)
 
 
+def _before_dash(node: Word, rest: list[Node], source: Source) -> Word:
+    """Return the name in ``name-``, which wants a space; the rest begins with the dash then."""
+    name, place = node.text[:-1], shifted(node.location, len(node.text) - 1)
+    message, hint = f'some tools want a space between "{name}" and "-"', f'write "{name} -"'
+    source.warn(message, node.location, hint, "glued-dash", [Edit(place, place, " ")])
+    rest.append(Word("-", place))
+    return Word(name, node.location)
+
+
 def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list[Word]:
     """Return the name at ``node``; nothing where it is none and faults are collected."""
     if not variables and isinstance(node, Word) and is_variable(node.text) and len(node.text) > 1:
@@ -335,8 +361,7 @@ _CONNECTIVES = {
     "there-exists": "exists", "thereexists": "exists", "\u2227": "and", "\u2228": "or", "\u00ac": "not",
     "\u2192": "imply", "\u21d2": "imply", "\u2200": "forall", "\u2203": "exists",
 }  # fmt: skip
-_UNEQUAL = frozenset({"!=", "<>", "/=", "=/=", "~=", "neq", "not-equal", "not=", "\u2260"})
-_SIGNS = _UNEQUAL | {"=", "=="}
+_SIGNS = UNEQUAL | {"=", "=="}
 
 
 def _not_in_parentheses(node: Word, source: Source, what: str) -> TmdError:
@@ -353,15 +378,23 @@ def _in_pddl(node: Group, source: Source) -> Group:
     if not node.parts:
         return node
     head, *rest = node.parts
+    if isinstance(head, Group) and len(node.parts) > 2 and len(written := in_prefix(node.parts, source)) < 2:
+        return _only_group(written, node)
     if isinstance(head, Group):
         return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
     if head.text == "not" or head.text[0] in "!~\u00ac":
         return _negation(node, head, rest, source)
     if len(rest) == 2 and node.head in _TIMES:
         return _timeless(node, rest[0], rest[1], source)
-    if len(rest) == 2 and node.head in _ASSIGNED and isinstance(rest[0], Group):
-        return _truth_value(node, rest[0], rest[1], source)
+    if len(rest) == 2 and node.head in ASSIGNED and isinstance(rest[0], Group):
+        return truth_value(node, rest[0], rest[1], source)
     return _connective(node, head, rest, source)
+
+
+def _only_group(written: Sequence[Node], node: Group) -> Group:
+    """Return the group that is left of ``node``; the empty conjunction where what was in it is not supported."""
+    (group,) = written or [_group(node, Word("and", node.location))]
+    return group if isinstance(group, Group) else node
 
 
 def _negation(node: Group, head: Word, rest: Sequence[Node], source: Source) -> Group:
@@ -371,6 +404,8 @@ def _negation(node: Group, head: Word, rest: Sequence[Node], source: Source) -> 
         shown = source.text(node.location, after(node)).replace(head.text[0], "", 1)
         _of_pddl(node, f"(not {shown})", head.text[0], source)
         return _group(node, Word("not", node.location), atom)
+    if head.text == "not" and len(rest) > 2 and len(written := in_prefix(rest, source)) < len(rest):
+        return _group(node, head, *(written or [_group(node, Word("and", node.location))]))
     if head.text == "not" and len(rest) > 1 and all(isinstance(part, Word) for part in rest):
         edits = enclosed(rest[0], rest[-1])
         hint = f"write (not ({source.text(rest[0].location, after(rest[-1]))}))"
@@ -399,7 +434,7 @@ def _connective(node: Group, head: Word, rest: Sequence[Node], source: Source) -
 # How the times of durative actions begin, and the words behind that.
 _TIMES = {"at": ("start", "end"), "over": ("all",)}
 # What some write to make an atom true or false.
-_ASSIGNED = ("=", "==", "assign", "set")
+ASSIGNED = ("=", "==", "assign", "set")
 
 
 def _timeless(node: Group, time: Node, inner: Node, source: Source) -> Group:
@@ -412,7 +447,7 @@ def _timeless(node: Group, time: Node, inner: Node, source: Source) -> Group:
     return _in_pddl(inner, source)
 
 
-def _truth_value(node: Group, atom: Group, value: Node, source: Source) -> Group:
+def truth_value(node: Group, atom: Group, value: Node, source: Source) -> Group:
     """Return ``(= (p) true)``, which is reported, as ``(p)``, and ``(= (p) false)`` as ``(not (p))``."""
     if isinstance(value, Group) or value.text not in ("true", "false"):
         return node
@@ -445,7 +480,7 @@ def _equation(node: Group, sign: str, terms: Sequence[Node], source: Source) -> 
     """Return an equation or its negation that is written in another notation, which is reported."""
     shown = f"(= {' '.join(source.text(term.location, after(term)) for term in terms)})"
     equation = _group(node, Word("=", node.location), *terms)
-    if sign in _UNEQUAL:
+    if sign in UNEQUAL:
         shown, equation = f"(not {shown})", _group(node, Word("not", node.location), equation)
     _of_pddl(node, shown, sign if node.head == sign else f"({node.head} {sign} ...)", source)
     return equation
@@ -476,7 +511,10 @@ def _of_pddl(node: Node, plain: str, found: str, source: Source) -> None:
 # The other words that are not supported may be names of predicates, and then have no conditions in them.
 _NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">=", "\u2264", "\u2265"})
 _EFFECT_WORDS = frozenset({"assign", "change", "decrease", "scale-up", "scale-down", "oneof", "probabilistic"})
-_ONLY_COSTS = "of numeric fluents only total-cost is supported"
+
+
+def _hint_for(feature: str) -> str | None:
+    return ONLY_COSTS if "numeric" in feature else None
 
 
 def read_condition(node: Node, source: Source) -> Formula:
@@ -514,7 +552,7 @@ def read_condition(node: Node, source: Source) -> Formula:
     if head == "when":
         raise source.error('"when" belongs in effects', place, 'write "imply" in conditions', "when-in-condition")
     if head in UNSUPPORTED and (head in _NEVER_PREDICATES or any(isinstance(p, Group) for p in parts)):
-        raise unsupported(source, UNSUPPORTED[head], head, place)
+        raise unsupported(source, UNSUPPORTED[head], head, place, _hint_for(UNSUPPORTED[head]))
     return read_atom(node, source)
 
 
@@ -533,7 +571,7 @@ def read_only_condition(document: Document) -> Formula:
 
 
 def _read_parts(parts: Sequence[Node], source: Source) -> tuple[Formula, ...]:
-    read = (source.recover(None, read_condition, p, source) for p in parts)
+    read = (source.recover(None, read_condition, p, source) for p in in_prefix(parts, source))
     return tuple(part for part in read if part is not None)
 
 
@@ -601,7 +639,7 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
     node = _in_pddl(node, source)
     head, parts = node.head, node.parts[1:]
     if head == "and" or not node.parts:
-        for part in parts:
+        for part in in_prefix(parts, source):
             source.recover(None, _read_effect, part, source, around, found)
     elif head == "forall":
         node = _quantifier(node, source, "effect")
@@ -622,7 +660,7 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
         _read_cost(node, source, around, found)
     elif head in _EFFECT_WORDS:
         what = UNSUPPORTED[head]
-        raise unsupported(source, what, head, node.location, _ONLY_COSTS if "numeric" in what else None)
+        raise unsupported(source, what, head, node.location, _hint_for(what))
     elif head in ("or", "exists", "imply", "="):
         hint = "it belongs in conditions"
         raise source.error(f'"{head}" cannot be an effect', node.location, hint, "not-an-effect")
@@ -665,14 +703,14 @@ def _read_cost(node: Group, source: Source, around: _Around, found: Effects) -> 
     target, amount = node.parts[1:]
     name = target.head if isinstance(target, Group) else target.text
     if name != TOTAL_COST:
-        raise unsupported(source, "numeric fluents", name, node.location, _ONLY_COSTS)
+        raise unsupported(source, "numeric fluents", name, node.location, ONLY_COSTS)
     if around.parameters or around.conditions:
         raise unsupported(source, "costs that depend on conditions", "increase", node.location)
     if found.cost is not None:
         raise source.error("the cost of this action is given twice", node.location)
     if isinstance(amount, Group):
         if amount.head in ("+", "-", "*", "/"):
-            raise unsupported(source, "numeric expressions", amount.head, amount.location, _ONLY_COSTS)
+            raise unsupported(source, "numeric expressions", amount.head, amount.location, ONLY_COSTS)
         found.cost = read_atom(amount, source)
         return
     found.cost = read_number(amount, source)

@@ -6,7 +6,7 @@ Supported: typed ADL with action costs. Everything else is refused by its name. 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
@@ -24,7 +24,6 @@ from tmd.pddl.model import (
     Axiom,
     Domain,
     Formula,
-    GroundAtom,
     Predicate,
     Problem,
     TypeDeclaration,
@@ -35,18 +34,19 @@ from tmd.pddl.reading.checking import check_domain, check_problem, undeclared_re
 from tmd.pddl.reading.formulas import (
     UNSUPPORTED,
     Effects,
-    read_atom,
     read_condition,
     read_effects,
     read_name,
-    read_number,
     read_only_condition,
     read_parameters,
     read_typed_list,
     types_of,
     unsupported,
 )
+from tmd.pddl.reading.infix import atom_of_words, joined
+from tmd.pddl.reading.initial_state import InitReader
 from tmd.pddl.reading.syntax import (
+    NO_BLANKS,
     PARTS,
     Document,
     Group,
@@ -56,6 +56,7 @@ from tmd.pddl.reading.syntax import (
     Word,
     after,
     enclosed,
+    meant,
     nearest,
     parse,
     read_text,
@@ -74,6 +75,8 @@ def only_part(group: Group, source: Source) -> Node:
     if group.head == ":goal" and parts and all(isinstance(part, Group) for part in parts):
         source.fault(_joined(message, parts, source))
         return Group((Word("and", group.location), *parts), group.location, group.end, group.depth)
+    if group.head == ":goal" and (whole := joined(parts, source) or atom_of_words(parts, source) if parts else None):
+        return whole
     raise source.error(message, group.location, "write one")
 
 
@@ -93,7 +96,7 @@ def read_title(nodes: Sequence[Node], place: Location, source: Source, what: str
         return name
     joined = "-".join(word.text for word in words)
     edits = [Edit(after(one), other.location, "-") for one, other in pairwise(words)]
-    source.fault_at("a name has no blanks", words[1].location, f"write {joined}", "bad-name", edits)
+    source.fault_once(NO_BLANKS.format(joined), words[1].location, f"write {joined}", "bad-name", edits)
     return Word(joined, name.location)
 
 
@@ -122,8 +125,9 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
             )
         elif node.text not in REQUIREMENTS:
             message = f'"{node.text}" is not a known requirement'
-            hint = nearest(node.text, [*REQUIREMENTS, *UNSUPPORTED])
-            source.fault_at(message, node.location, hint, "unknown-requirement", _meant(node, REQUIREMENTS))
+            hint, edits = _meant(node, REQUIREMENTS)
+            hint = hint or nearest(node.text, [word for word in UNSUPPORTED if word[0] == ":"]) or "remove it"
+            source.fault_at(message, node.location, hint, "unknown-requirement", edits)
             continue
         if node.text not in names:
             names.append(node.text)
@@ -157,8 +161,8 @@ def read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
         if typed.name != OBJECT:
             found.append(TypeDeclaration(typed.name, typed.types[0], typed.location))
         elif typed.types[0] != OBJECT:
-            message = '"object" is the root of all types and has no parent'
-            source.fault_at(message, typed.location, code="type-cycle")
+            message, hint = '"object" is the root of all types and has no parent', 'remove "object" here'
+            source.fault_at(message, typed.location, hint, "type-cycle")
     declared = _with_undeclared_parents(_each_once(found, source), source)
     if source.report is not None:
         _warn_of_children_first(found, source)
@@ -303,8 +307,8 @@ def read_action(group: Group, source: Source) -> ActionSchema:
     """Read ``(:action name ...)``; what is left out is empty."""
     if len(group.parts) < 2:
         raise source.error("this action has no name", group.location)
-    named = _words_before_keyword(group.parts[1:])
-    name = read_title(named or group.parts[1:2], group.location, source, "the name of an action")
+    named = group.parts[1:2] + tuple(_words_before_keyword(group.parts[2:]))
+    name = read_title(named, group.location, source, "the name of an action")
     parts = _parts_of_action(group, len(named) + 1, name.text, source)
     effects = Effects()
     precondition: Formula = TRUE
@@ -368,10 +372,14 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
             continue
         value = nodes[0] if nodes else None
         if value is None or (isinstance(value, Word) and value.text.startswith(":")):
-            source.fault_at(f'nothing follows "{keyword.text}"', keyword.location)
+            empty, end = "()" if keyword.text == ":parameters" else "(and)", after(keyword)
+            edits = [Edit(end, end, f" {empty}")] if keyword.text in PARTS else []
+            hint = f"write {keyword.text} {empty}" if edits else None
+            if keyword.text == ":parameters" and "?" in source.text(keyword.location, group.end):
+                continue  # the variables without parameters are reported
+            source.fault_at(f'nothing follows "{keyword.text}"', keyword.location, hint, "syntax", edits)
             continue
-        if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
-            value = nodes[0] = _in_parentheses(nodes, source)
+        value = _whole_value(keyword, value, nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
         parts.setdefault(_part_meant(keyword.text), nodes.pop(0))
         if keyword.text not in PARTS:  # what else belongs to it is not reported as well
@@ -380,6 +388,20 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
             found.append((PARTS.index(keyword.text), keyword.text, keyword.location, after(value)))
     warn_of_order(found, source)
     return parts
+
+
+def _whole_value(keyword: Word, value: Node, nodes: list[Node], source: Source) -> Node:
+    """Return the value that ``nodes`` begin with, and keep it alone: it may lack parentheses, or a word before it."""
+    until = list(takewhile(lambda node: isinstance(node, Group) or not node.text.startswith(":"), nodes))
+    whole: Node | None = None
+    if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
+        return _in_parentheses(nodes, source)
+    if keyword.text in PARTS[1:] and len(until) > 1:
+        whole = joined(until, source) or atom_of_words(until, source)
+    if whole is None:
+        return value
+    nodes[: len(until)] = [whole]
+    return whole
 
 
 # The effects of STRIPS before PDDL.
@@ -392,22 +414,26 @@ _EFFECT = "write :effect (and (added ...) (not (deleted ...)))"
 
 def _part_meant(keyword: str) -> str:
     """Return the part of an action that a keyword means, so that its value is not reported as missing as well."""
-    if keyword in PARTS or keyword in UNSUPPORTED or keyword.replace("_", "-") in _LISTS:
+    if keyword in PARTS or (keyword in UNSUPPORTED and keyword != ":condition") or keyword.replace("_", "-") in _LISTS:
         return keyword
-    return next(iter(get_close_matches(keyword, PARTS, n=1)), keyword)
+    return meant(keyword, PARTS) or keyword
 
 
 def _words_before_keyword(nodes: Sequence[Node]) -> list[Node]:
-    return list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
+    """Return the words up to a keyword; one that lacks its colon stands before a group."""
+    words = list(takewhile(lambda node: isinstance(node, Word) and not node.text.startswith(":"), nodes))
+    group = len(words) < len(nodes) and isinstance(nodes[len(words)], Group)
+    last = words[-1] if words else None
+    return words[:-1] if group and isinstance(last, Word) and f":{last.text}" in PARTS else words
 
 
-def _in_parentheses(nodes: list[Node], source: Source) -> Group:
+def _in_parentheses(nodes: list[Node], source: Source) -> Node:
     """Return the parameters that ``nodes`` begin with, which lack their parentheses, and keep one of them."""
     words = _words_before_keyword(nodes)
-    del nodes[1 : len(words)]
     start, edits = words[0].location, enclosed(words[0], words[-1])
     source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
-    return Group(tuple(words), start, after(words[-1]), 2)
+    nodes[: len(words)] = [Group(tuple(words), start, after(words[-1]), 2)]
+    return nodes[0]
 
 
 def _without_keyword(group: Group, nodes: list[Node], parts: dict[str, Node], source: Source) -> None:
@@ -441,23 +467,23 @@ def warn_of_order(found: Sequence[_Part], source: Source) -> None:
             return
 
 
-def _meant(word: Word, names: Sequence[str]) -> list[Edit]:
-    """Return the edit that puts the nearest of ``names`` for a keyword of PDDL that is misspelt."""
-    meant = get_close_matches(word.text.replace("_", "-"), names, n=1)
-    return [replaced(word, meant[0])] if meant else []
+def _meant(word: Word, names: Sequence[str], what: str = "declared") -> tuple[str | None, list[Edit]]:
+    """Return the hint and the edit that put the nearest of ``names`` for a keyword of PDDL that is misspelt."""
+    name = meant(word.text, names)
+    return (f'did you mean "{name}"?', [replaced(word, name)]) if name else (nearest(word.text, names, what=what), [])
 
 
 def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Source) -> None:
-    if keyword.text in UNSUPPORTED:
+    if keyword.text in UNSUPPORTED and (keyword.text != ":condition" or ":duration" in seen):
         raise unsupported(source, UNSUPPORTED[keyword.text], keyword.text, keyword.location)
     if keyword.text.replace("_", "-") in _LISTS:
         message = "an action of PDDL has no lists of what is added and deleted"
         source.fault_once(message, keyword.location, _EFFECT, "unknown-keyword", ())
         return
     if keyword.text not in PARTS:
-        hint = nearest(keyword.text, PARTS, what="parts of an action")
+        hint, edits = _meant(keyword, PARTS, "parts of an action")
         message = f'"{keyword.text}" is not a part of an action'
-        source.fault_once(message, keyword.location, hint, "unknown-keyword", _meant(keyword, PARTS))
+        source.fault_once(message, keyword.location, hint, "unknown-keyword", edits)
     if keyword.text in seen:
         message = f'"{keyword.text}" appears twice in action "{action}"'
         raise source.error(message, keyword.location, code="duplicate-section")
@@ -481,9 +507,12 @@ def read_metric(group: Group, source: Source) -> bool:
     words = [n.head if isinstance(n, Group) else n.text for n in group.parts[1:]]
     if words == ["minimize", TOTAL_COST]:
         return True
-    raise unsupported(
-        source, "other metrics", " ".join(words), group.location, f"write (:metric minimize ({TOTAL_COST}))"
-    )
+    hint, edits = f"write (:metric minimize ({TOTAL_COST}))", []
+    if words[1:] == [TOTAL_COST] and words[0] in ("min", "minimise", "minimized", "minimizing"):
+        edits = [replaced(group.parts[1], "minimize")]
+        source.fault_at(f'"{words[0]}" is not a word of PDDL', group.parts[1].location, hint, "syntax", edits)
+        return True
+    raise unsupported(source, "other metrics", " ".join(words), group.location, hint)
 
 
 def read_domain(path: str | Path) -> Domain:
@@ -574,7 +603,7 @@ def parse_problem_unchecked(
     document = parse(text, file, report)
     source = document.source
     name, sections = _definition(document, "problem")
-    init = InitReader(source)
+    init = InitReader(source, {f.name for f in domain.functions} - {p.name for p in domain.predicates})
     parts: dict[str, Any] = {}
     readers: dict[str, Callable[[Group], object]] = {
         ":domain": lambda g: read_domain_name(g, domain, source),
@@ -646,8 +675,9 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     document.check_depth()
     if len(document.groups) > 1:
         source.closed_too_early(first)
-    if first.head != "define" or len(first.parts) < 2:
-        raise source.error(f"expected (define ({kind} name) ...)", first.location)
+    hint = f"write (define ({kind} name) ...)"
+    if len(first.parts) < 2 or not _is_word(first.parts[0], "define", source):
+        raise source.error(f"expected (define ({kind} name) ...)", first.location, hint)
     title, *sections = first.parts[1:]
     if isinstance(title, Word) and title.text == kind and sections and isinstance(sections[0], Word):
         title = _title_in_parentheses(title, sections.pop(0), source)
@@ -655,13 +685,27 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
         message, edit = f"expected ({kind} name), found (:{kind} ...)", replaced(title.parts[0], kind)
         source.fault_at(message, title.location, f'write "{kind}" without a colon', edits=[edit])
         title = replace(title, parts=(Word(kind, title.parts[0].location), *title.parts[1:]))
-    if not isinstance(title, Group) or title.head != kind or len(title.parts) < 2:
-        found = f", found ({title.head} ...)" if isinstance(title, Group) else ""
-        raise source.error(f"expected ({kind} name){found}", title.location)
+    if not isinstance(title, Group) or not title.parts or not _is_word(title.parts[0], kind, source):
+        found = f", found ({title.head} ...)" if isinstance(title, Group) and title.head else ""
+        raise source.error(f"expected ({kind} name){found}", title.location, hint)
+    if len(title.parts) < 2:
+        raise source.error(f"this {kind} has no name", title.location, f"write ({kind} name)")
     name = read_title(title.parts[1:], title.location, source, f"the name of a {kind}")
     groups = _sections(sections, source)
     _of_kind(kind, title.parts[0], name.text, groups, source)
     return name, groups
+
+
+def _is_word(node: Node, wanted: str, source: Source) -> bool:
+    """Return whether a node is the word ``wanted``, perhaps misspelt, which is reported."""
+    if not isinstance(node, Word) or (node.text != wanted and not get_close_matches(node.text, [wanted])):
+        return False
+    if node.text != wanted and node.text in ("domain", "problem"):
+        return False
+    if node.text != wanted:
+        message, edits = f'"{node.text}" is not a word of PDDL', [replaced(node, wanted)]
+        source.fault_at(message, node.location, f'did you mean "{wanted}"?', "syntax", edits)
+    return True
 
 
 def _sections(nodes: Sequence[Node], source: Source) -> list[Group]:
@@ -727,8 +771,9 @@ def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source:
                 edits = [replaced(group.parts[0], ":constants")]
             raise source.error(message, group.location, hint, "unknown-section", edits)
         word = group.parts[0] if head else None
-        nearby = nearest(head, known, what="sections")
-        edits = _meant(word, known) if isinstance(word, Word) and (head[0] == ":" or f":{head}" in known) else []
+        nearby, edits = nearest(head, known, what="sections"), []
+        if isinstance(word, Word) and (head[0] == ":" or f":{head}" in known):
+            nearby, edits = _meant(word, known, "sections")
         raise source.error(f"{shown} is not a section", group.location, nearby, "unknown-section", edits)
     if head in seen:
         edits = list(_moved(group, source.sections[head], source)) if head in _LISTED else []
@@ -747,100 +792,6 @@ def _moved(group: Group, first: Group, source: Source) -> Iterator[Edit]:
     end = "\n" if ";" in content.rpartition("\n")[2] else ""
     yield Edit(first.end, first.end, f"\n    {content}{end}")
     yield source.removal(group.location, after(group))
-
-
-class InitReader:
-    """Collects the initial state, where each entry stands, and the values of cost functions."""
-
-    def __init__(self, source: Source) -> None:
-        self.source = source
-        self.atoms: dict[GroundAtom, None] = {}
-        self.denied: dict[GroundAtom, None] = {}
-        self.values: dict[GroundAtom, int] = {}
-        self.twice: list[tuple[GroundAtom, Location]] = []
-        self.locations: dict[GroundAtom, Location] = {}
-
-    def read(self, group: Group) -> None:
-        """Read ``(:init ...)``.
-
-        Raises:
-            TmdError: An entry is not a ground atom or value, or contradicts another one.
-        """
-        for node in _spread(group.parts[1:], self.source):
-            self.source.recover(None, self._read_entry, node)
-        for atom in self.denied:
-            if atom in self.atoms:
-                message = f"{atom} is said to hold and not to hold"
-                hint = "remove one of the two"
-                self.source.fault_at(message, self.locations[atom], hint, "contradictory-init")
-        if self.twice:
-            atom, place = self.twice[0]
-            more = f", and so do {len(self.twice) - 1} more" if len(self.twice) > 1 else ""
-            self.source.warn(f"{atom} stands twice in :init{more}", place, "remove one of the two", "said-twice")
-
-    def _read_entry(self, node: Node) -> None:
-        if isinstance(node, Word):
-            hint = f"write ({node.text})" if node.text.strip(".") else "write out what is left out"
-            raise self.source.error(f'expected an atom, found "{node.text}"', node.location, hint)
-        if node.head in ("unknown", "oneof") and any(isinstance(p, Group) for p in node.parts):
-            raise unsupported(self.source, "uncertain initial states", node.head, node.location)
-        if node.head == "=":
-            self._read_value(node)
-        elif node.head == "at" and len(node.parts) == 3 and isinstance(node.parts[2], Group):
-            raise unsupported(self.source, "timed initial literals", "at", node.location)
-        elif node.head == "not":
-            inner = only_part(node, self.source)
-            if isinstance(inner, Word):
-                raise self.source.error("expected (not (predicate ...))", inner.location)
-            self._note(self._ground(inner), self.denied, node.location)
-        elif node.head in ("or", "forall", "exists", "imply", "when"):
-            raise self.source.error(f'"{node.head}" cannot stand in :init', node.location, "list the atoms that hold")
-        else:
-            self._note(self._ground(node), self.atoms, node.location)
-
-    def _note(self, atom: GroundAtom, where: dict[GroundAtom, None], place: Location) -> None:
-        if atom in where:
-            self.twice.append((atom, place))
-        where[atom] = None
-
-    def _ground(self, node: Group) -> GroundAtom:
-        atom = read_atom(node, self.source)
-        for term in atom.terms:
-            if term.startswith("?"):
-                hint = "write the name of an object"
-                raise self.source.error(f'variable "{term}" in :init', node.location, hint, "free-variable")
-        ground = GroundAtom(atom.predicate, atom.terms)
-        self.locations.setdefault(ground, node.location)
-        return ground
-
-    def _read_value(self, node: Group) -> None:
-        if len(node.parts) != 3 or isinstance(node.parts[1], Word):
-            raise self.source.error("expected (= (function object ...) number)", node.location)
-        number = read_number(node.parts[2], self.source)
-        if number is None:
-            raise unsupported(self.source, "object fluents", node.parts[1].head, node.location, "give a number")
-        function = self._ground(node.parts[1])
-        if function == GroundAtom(TOTAL_COST):
-            if number:
-                raise self.source.error(f"{TOTAL_COST} begins at 0", node.location)
-            return
-        if function in self.values:
-            raise self.source.error(f"the value of {function} is given twice", node.location)
-        self.values[function] = number
-
-
-def _spread(nodes: Iterable[Node], source: Source) -> list[Node]:
-    """Flatten :init, where ``(and a b)`` is the same as ``a b``; others refuse it."""
-    found: list[Node] = []
-    for node in nodes:
-        if not isinstance(node, Group) or node.head != "and":
-            found.append(node)
-            continue
-        edits = [Edit(node.location, after(node.parts[0])), Edit(node.end, after(node))]
-        message = '"and" stands in :init, which other planners refuse'
-        source.warn(message, node.location, "write its parts alone", "nested-init", edits)
-        found.extend(node.parts[1:])
-    return found
 
 
 PLACE = "--goal"

@@ -12,7 +12,7 @@ import sys
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
+from difflib import SequenceMatcher, get_close_matches
 from itertools import islice, takewhile
 from pathlib import Path
 from typing import ParamSpec, TypeAlias, TypeVar
@@ -25,6 +25,10 @@ TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+")
 """Parentheses and words; a variable always begins a new word."""
 _DEEPEST = 100
 _LONGEST_LIST_IN_HINT = 8
+NO_BLANKS = 'a name has no blanks: "{}"'
+"""The fault of a name of several words, of one message for its declaration and its uses."""
+# The likeness, of :mod:`difflib`, of two names of which one is a slip for the other.
+_LIKENESS = 0.7
 _MOST_COMPARED = 500
 
 
@@ -190,6 +194,14 @@ class Source(Reporting):
         place = after(before) if before else Location(self.file, 1, 1)
         return Edit(place, place, f"\n  ({section} {words})")
 
+    def hidden(self, section: str, name: str) -> int | None:
+        """Return the line of a section in which ``name`` stands behind a ``;``, if there is one."""
+        group = self.sections.get(section)
+        for number in range(group.location.line, group.end.line + 1) if group else ():
+            if re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", self.lines[number - 1].partition(";")[2].lower()):
+                return number
+        return None
+
     def closed_too_early(self, group: Group) -> None:
         """Raise or report that more text follows a group, which should be its last part."""
         message = f'this parenthesis closes "({group.head}" too early: more text follows'
@@ -269,12 +281,41 @@ class Document:
 def nearest(name: str, declared: Sequence[str], *, what: str = "declared") -> str | None:
     """Return a hint that names the declared name closest to ``name``, or all of them where they are few."""
     candidates = declared if len(declared) <= _MOST_COMPARED else _alike(name, declared)
-    close = get_close_matches(name, candidates, n=1, cutoff=0.6)
+    close = [other for other in get_close_matches(name, candidates, n=1, cutoff=0.6) if _is_slip(name, other)]
     if close:
         return f'did you mean "{close[0]}"?'
     if declared and len(declared) <= _LONGEST_LIST_IN_HINT:
         return f"{what}: {', '.join(declared)}"
     return None
+
+
+def _is_slip(name: str, other: str) -> bool:
+    """Return whether one name may be meant for the other: of two short ones, letters may be common by chance."""
+    differ = sum(one != two for one, two in zip(name, other, strict=False)) + abs(len(name) - len(other))
+    contained = name in other or other in name or sorted(name) == sorted(other) or differ == 1
+    return contained or SequenceMatcher(None, name, other).ratio() >= _LIKENESS
+
+
+# What some call the keywords of PDDL.
+_MEANING = {
+    ":operator": ":action", ":move": ":action", ":start": ":init", ":state": ":init", ":facts": ":init",
+    ":instances": ":objects", ":entities": ":objects", ":vars": ":parameters", ":variables": ":parameters",
+    ":args": ":parameters", ":arguments": ":parameters", ":requires": ":precondition", ":post": ":effect",
+    ":postcondition": ":effect", ":postconditions": ":effect", ":result": ":effect", ":results": ":effect",
+    ":target": ":goal", ":fluents": ":functions", ":axiom": ":derived",
+}  # fmt: skip
+
+
+def meant(word: str, names: Sequence[str]) -> str | None:
+    """Return the keyword of ``names`` that is misspelt, shortened, drawn out or called otherwise as ``word``."""
+    plain = f":{word.replace('_', '-').strip(':')}"
+    close = get_close_matches(plain, names, n=1)
+    stem = plain.removeprefix(":")
+    within = [name for name in names if len(stem) > 2 and (stem in name or name.removeprefix(":") in stem)]
+    other = _MEANING.get(plain) or _MEANING.get(plain.removesuffix("s"))
+    if close and (_is_slip(plain, close[0]) or not within):
+        return close[0]
+    return within[0] if len(within) == 1 else other if other in names else None
 
 
 def _alike(name: str, declared: Sequence[str]) -> list[str]:
@@ -416,7 +457,9 @@ def _around_an_atom(parts: Sequence[Node]) -> Group | None:
 def _keyword_before(around: _Open) -> bool:
     """Return whether the last word is a condition or effect, as in ``:effect done()``, perhaps behind others."""
     before = next((part for part in reversed(around.parts[:-1]) if isinstance(part, Word)), None)
-    return before is not None and before.text in _WITH_ATOMS and f":{around.parts[-1].text}" not in PARTS
+    last = around.parts[-1]
+    part = isinstance(last, Word) and f":{last.text}" in PARTS
+    return before is not None and before.text in _WITH_ATOMS and not part
 
 
 def parse(text: str, file: str, report: Report | None = None) -> Document:
@@ -513,14 +556,13 @@ class _Parser:
         """Begin a group: a new one, or in ``on(a b)`` that of the name before it."""
         around = self.stack[-1] if self.stack else None
         word = around.parts[-1] if around and around.parts else None
-        if around is None or not isinstance(word, Word) or after(word) != location or not _may_be_name(word.text):
+        glued = isinstance(word, Word) and after(word) == location
+        if around is None or not isinstance(word, Word) or not glued or not _may_be_name(word.text):
             self.stack.append(_Open(location, [], first))
-        elif len(around.parts) == 1 and around.head in _OPERATORS:
-            self.stack.append(_Open(location, [], first))
-        elif len(around.parts) == 1:
+        elif len(around.parts) == 1 and around.head not in _OPERATORS:
             self.called.append(Edit(location, shifted(location, 1), " "))
             self.stack.append(_Open(location, [], first, spread=True, called=True))
-        elif around.head in _WITH_ATOMS or _keyword_before(around):
+        elif len(around.parts) > 1 and (around.head in _WITH_ATOMS or _keyword_before(around)):
             self.called.append(
                 Edit(word.location, shifted(location, 1), f"({self.source.text(word.location, location)} ")
             )
