@@ -481,6 +481,20 @@ REPAIRED = {
         "bad-name",
         "is-wet",
     ),
+    "parameters without their keyword": (
+        "domain",
+        ":parameters (?c - can ?b - bed)",
+        "(?c - can ?b - bed)",
+        "syntax",
+        ":parameters (?c",
+    ),
+    "parameters without anything": (
+        "domain",
+        "(:action pour\n    :parameters (?c - can ?b - bed)",
+        "(:action pour ?c - can ?b - bed",
+        "syntax",
+        ":parameters (?c",
+    ),
     "names of two words in quotes": (
         "problem",
         "(problem june)",

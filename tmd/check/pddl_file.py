@@ -117,6 +117,7 @@ _ECHOES = (
     ("unknown-section", "missing-section", ""),
     ("unknown-section", "missing-requirement", ""),
     ("not-supported", "missing-requirement", ":action-costs"),
+    ("not-supported", "unsupported-requirement", ""),
     ("bad-name", "domain-mismatch", ""),
 )
 
@@ -131,6 +132,8 @@ def _without_echoes(faults: list[TmdError], others: Sequence[TmdError] = ()) -> 
     found = [(echo, part) for code, echo, part in _ECHOES if code in codes]
     if any(fault.code == "unclosed-parenthesis" and fault.edits for fault in faults):
         found.append(("not-supported", "nested terms"))  # they are the groups behind the one that is not closed
+    if any("durative actions" in fault.message for fault in others):
+        found.append(("not-supported", "total-time"))
     found += [(fault.code, f'"{_quoted(fault)}"') for fault in others if fault.code in _ONCE]
     kept = [f for f in faults if not any(f.code == code and part in f.message for code, part in found)]
     return list(_each_letter_once(kept))

@@ -70,9 +70,9 @@ _LINE = re.compile(r"[^\n]+")
 _PARENTHESIS = re.compile(r"[()]")
 
 
-def other_file(text: str) -> tuple[str, str] | None:
-    """Return what a text is that is no PDDL at all, and the cure."""
-    kinds = _OTHER_FILES if _DEFINE.search(text) else {**_OTHER_FILES, **_OTHER_LANGUAGES}
+def other_file(text: str, definition: bool) -> tuple[str, str] | None:
+    """Return what a text is that is no PDDL at all, and the cure; it should have a ``definition`` or a condition."""
+    kinds = _OTHER_FILES if not definition or _DEFINE.search(text) else {**_OTHER_FILES, **_OTHER_LANGUAGES}
     return next(((what, cure) for what, (begin, cure) in kinds.items() if begin.match(text)), None)
 
 

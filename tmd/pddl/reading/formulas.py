@@ -95,6 +95,7 @@ UNSUPPORTED = {
 
 def unsupported(source: Source, what: str, name: str, location: Location, hint: str | None = None) -> TmdError:
     """Return the error for a construct of PDDL that is outside the supported part."""
+    hint = hint or "tmd takes typed ADL with derived predicates and action costs"
     return source.error(f'not supported: {what}: "{name}"', location, hint, "not-supported")
 
 

@@ -46,6 +46,7 @@ from tmd.pddl.reading.formulas import (
 from tmd.pddl.reading.infix import atom_of_words, joined
 from tmd.pddl.reading.initial_state import InitReader
 from tmd.pddl.reading.syntax import (
+    NAME,
     NO_BLANKS,
     PARTS,
     Document,
@@ -93,6 +94,10 @@ def read_title(nodes: Sequence[Node], place: Location, source: Source, what: str
         raise source.error(f"expected {what}, found nothing", place)
     name = read_name(nodes[0], source, what)
     if len(nodes) == 1 or len(words) < len(nodes):
+        return name
+    strange = next((word for word in words if not NAME.fullmatch(word.text)), None)
+    if strange is not None:
+        source.fault_at(f'"{strange.text}" is no part of a name', strange.location, "remove it", "bad-name")
         return name
     joined = "-".join(word.text for word in words)
     edits = [Edit(after(one), other.location, "-") for one, other in pairwise(words)]
@@ -307,7 +312,8 @@ def read_action(group: Group, source: Source) -> ActionSchema:
     """Read ``(:action name ...)``; what is left out is empty."""
     if len(group.parts) < 2:
         raise source.error("this action has no name", group.location)
-    named = group.parts[1:2] + tuple(_words_before_keyword(group.parts[2:]))
+    words = _words_before_keyword(group.parts[2:])
+    named = [group.parts[1], *takewhile(lambda word: isinstance(word, Word) and word.text[0] != "?", words)]
     name = read_title(named, group.location, source, "the name of an action")
     parts = _parts_of_action(group, len(named) + 1, name.text, source)
     effects = Effects()
@@ -323,6 +329,26 @@ def read_action(group: Group, source: Source) -> ActionSchema:
         parameters += source.recover((), read_parameters, parts[":vars"], source)
     comment = _comment_above(group, source)
     return ActionSchema(name.text, parameters, precondition, tuple(effects.flat), effects.cost, name.location, comment)
+
+
+def _after_parameters(nodes: list[Node], source: Source) -> list[Node]:
+    """Return the parts of an action, which may begin with parameters without their keyword; that is reported."""
+    first = nodes[0] if nodes else None
+    start = first.parts[0] if isinstance(first, Group) and first.parts else first
+    if not isinstance(start, Word) or start.text[0] != "?" or first is None:
+        return nodes
+    run = [first] if isinstance(first, Group) else _words_before_keyword(nodes)
+    place, end = first.location, after(run[-1])
+    if any(isinstance(node, Word) and node.text == ":parameters" for node in nodes):
+        source.fault_at("this is no part of the name", place, 'remove it, or move it to ":parameters"')
+        return nodes[len(run) :]
+    opening, closing = ("", "") if isinstance(first, Group) else ("(", ")")
+    blank = "" if source.lines[place.line - 1][: place.column - 1].endswith((" ", "\t")) else " "
+    edits = [Edit(place, place, f"{blank}:parameters {opening}"), Edit(end, end, closing)]
+    hint = f"write :parameters {opening}{source.text(place, end)}{closing}".replace(",", "")
+    source.fault_at('":parameters" is missing here', place, hint, "syntax", edits)
+    parameters = first if isinstance(first, Group) else Group(tuple(run), place, end, 2)
+    return [Word(":parameters", place), parameters, *nodes[len(run) :]]
 
 
 def _comment_above(group: Group, source: Source) -> str:
@@ -363,7 +389,7 @@ def _with_declared_types(axiom: Axiom, predicates: Mapping[str, Predicate]) -> A
 def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> dict[str, Node]:
     """Return the node after each keyword of an action, whose parts begin with number ``begin``."""
     parts: dict[str, Node] = {}
-    nodes = list(group.parts[begin:])
+    nodes = _after_parameters(list(group.parts[begin:]), source)
     found: list[_Part] = []
     while nodes:
         keyword = nodes.pop(0)
@@ -568,7 +594,7 @@ def parse_domain_unchecked(text: str, file: str = "<text>", report: Report | Non
     Raises:
         TmdError: It is not PDDL, or not of the supported part.
     """
-    document = parse(text, file, report)
+    document = parse(text, file, report, definition=True)
     source = document.source
     name, sections = _definition(document, "domain")
     parts: dict[str, Any] = {}
@@ -600,7 +626,7 @@ def parse_problem_unchecked(
     Raises:
         TmdError: It is not PDDL, not of the supported part, or belongs to another domain.
     """
-    document = parse(text, file, report)
+    document = parse(text, file, report, definition=True)
     source = document.source
     name, sections = _definition(document, "problem")
     init = InitReader(source, {f.name for f in domain.functions} - {p.name for p in domain.predicates})

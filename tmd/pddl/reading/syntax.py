@@ -462,19 +462,20 @@ def _keyword_before(around: _Open) -> bool:
     return before is not None and before.text in _WITH_ATOMS and not part
 
 
-def parse(text: str, file: str, report: Report | None = None) -> Document:
+def parse(text: str, file: str, report: Report | None = None, *, definition: bool = False) -> Document:
     """Split ``text`` into groups.
 
     Args:
         text: The text.
         file: Names it in errors.
         report: Takes every fault; without it the first one is raised.
+        definition: Whether the text should be a domain or problem, not a condition.
 
     Raises:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
     """
     lines = split_lines(text)
-    if other := other_file(text):
+    if other := other_file(text, definition):
         source = Source(file, lines)
         raise source.error(f"this is {other[0]}, not PDDL", Location(file, 1, 1), other[1], "empty-file")
     code, foreign = pddl_lines(lines, file)
