@@ -6,13 +6,15 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.derived import strata, unfolded, without_derived
 from tmd.pddl.grounding.ground_task import ground
-from tmd.pddl.model import GroundAtom, Instruction, Problem
+from tmd.pddl.model import GroundAtom, Instruction, Problem, universe
 from tmd.pddl.reading.reader import parse_domain, parse_problem, with_goal
-from tmd.pddl.semantics import close, holds
+from tmd.pddl.semantics import bindings, close, holds, instantiate
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_domain, format_problem
 
@@ -106,3 +108,32 @@ def test_a_rule_about_fewer_objects_does_not_hold_of_others() -> None:
     assert {str(a) for a in problem.init if a.predicate == "safe"} == {"(safe t)"}
     plain = unfolded(replace(problem, goal=problem.goal))
     assert not holds(plain.goal, plain.init, plain)
+
+
+MIXED = """\
+(define (domain mixed)
+  (:requirements :adl :derived-predicates)
+  (:types hub town - object)
+  (:predicates (road ?a ?b - object) (reach ?a ?b - object) (near ?a - object) (all-near))
+  (:derived (reach ?x ?y) (or (road ?x ?y) (exists (?z - town) (and (reach ?x ?z) (reach ?z ?y)))))
+  (:derived (near ?x - hub) (reach a ?x))
+  (:derived (near ?x - town) (forall (?h - hub) (or (near ?h) (reach ?h ?x))))
+  (:derived (all-near) (forall (?h - hub) (near ?h))))
+"""
+
+
+@given(st.sets(st.tuples(st.sampled_from("abcd"), st.sampled_from("abcd"))))
+def test_derived_atoms_are_those_that_follow_one_by_one(roads: set[tuple[str, str]]) -> None:
+    text = MIXED.replace("(:predicates", "(:constants a b - town c d - hub)\n  (:predicates")
+    init = " ".join(f"(road {one} {two})" for one, two in roads)
+    domain = parse_domain(text)
+    problem = parse_problem(f"(define (problem p) (:domain mixed) (:init {init}) (:goal (and)))", domain)
+    expected = {atom for atom in problem.init if atom.predicate == "road"}
+    before: set[GroundAtom] = set()
+    while before != expected:
+        before = set(expected)
+        for axiom in domain.derived:
+            for binding in bindings(axiom.parameters, universe(problem), {}):
+                if holds(axiom.condition, frozenset(before), problem, binding):
+                    expected.add(instantiate(axiom.head, binding))
+    assert problem.init == expected

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
 from math import prod
@@ -16,6 +16,7 @@ from tmd.pddl.model import (
     ActionSchema,
     And,
     Atom,
+    Axiom,
     Equals,
     Exists,
     Forall,
@@ -32,6 +33,7 @@ from tmd.pddl.model import (
     free_variables,
     parts_of,
     universe,
+    walk,
 )
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Cube, Operator, Task
@@ -181,15 +183,59 @@ def close(state: State, problem: Problem) -> State:
     names = {axiom.head.predicate for axiom in axioms}
     found = frozenset(atom for atom in state if atom.predicate not in names)
     for stratum in strata(axioms) or ():
-        before = None
-        while found != before:
-            before = found
-            found |= {
-                instantiate(axiom.head, binding)
-                for axiom in stratum
-                for binding in solutions(axiom.parameters, axiom.condition, found, objects, {})
-            }
+        rules = _rules(stratum)
+        heads = frozenset(axiom.head.predicate for axiom in stratum)
+        new = frozenset(atom for rule in rules for atom in _following(rule, found, objects, {})) - found
+        while new:
+            found |= new
+            new = frozenset(
+                atom
+                for rule in rules
+                for start in _starts(rule, heads, new, objects)
+                for atom in _following(rule, found, objects, start)
+            ).difference(found)
     return found
+
+
+@lru_cache(maxsize=64)
+def _rules(axioms: tuple[Axiom, ...]) -> tuple[Axiom, ...]:
+    """Return axioms with a rule for each case of a disjunction, and without ``exists`` around the condition."""
+    found: list[Axiom] = []
+    waiting = list(reversed(axioms))
+    while waiting:
+        axiom = waiting.pop()
+        names = {p.name for p in axiom.parameters}
+        match axiom.condition:
+            case Or(parts):
+                waiting += [replace(axiom, condition=part) for part in reversed(parts)]
+            case Exists(parameters, part) if names.isdisjoint(p.name for p in parameters):
+                waiting.append(replace(axiom, parameters=(*axiom.parameters, *parameters), condition=part))
+            case _:
+                found.append(axiom)
+    return tuple(found)
+
+
+def _following(rule: Axiom, state: State, objects: Universe, start: Binding) -> Iterator[GroundAtom]:
+    """Yield the atoms that follow from a state by a rule of which ``start`` binds some parameters."""
+    unbound = tuple(p for p in rule.parameters if p.name not in start)
+    for binding in solutions(unbound, rule.condition, state, objects, start):
+        yield instantiate(rule.head, binding)
+
+
+def _starts(rule: Axiom, heads: Collection[str], new: State, objects: Universe) -> Iterator[Binding]:
+    """Yield bindings under which new atoms are conditions of a rule: only these can derive more atoms."""
+    parts = [formula for formula, _, _ in _signed(rule.condition, True)]
+    deep = (inner for part in parts if not isinstance(part, Atom) for inner in walk(part))
+    if any(isinstance(inner, Atom) and inner.predicate in heads for inner in deep):
+        yield {}  # which atoms count is not known
+        return
+    types = {p.name: p.types for p in rule.parameters}
+    for part in parts:
+        if isinstance(part, Atom) and part.predicate in heads:
+            for atom in new:
+                found = unified(part, atom.args, {}) if atom.predicate == part.predicate else None
+                if found is not None and all(objects.is_a(found[name], types[name]) for name in found):
+                    yield found
 
 
 _Part: TypeAlias = tuple[Formula, bool, frozenset[str]]

@@ -26,7 +26,7 @@ from tmd.pddl.model import (
     universe,
 )
 from tmd.pddl.reading.syntax import Node, Source, Word, after, read_text, split_lines
-from tmd.pddl.semantics import instantiate, solutions
+from tmd.pddl.semantics import instantiate, size, solutions
 from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
 from tmd.planning.unsolvable import reachable, relaxed_literals, unreachable_reason
@@ -219,13 +219,15 @@ def _contradictory_goal(problem: Problem, source: Source) -> list[TmdError]:
     ]
 
 
-# Problems with more instances of actions are not ground while they are checked: that takes over half a second.
+# Problems with more instances of actions, or atoms in their conditions, are not ground while they are checked: that
+# takes over a second.
 _MOST_GROUND = 10_000
+_MOST_ATOMS = 200_000
 
 
 def lint_cases(problem: Problem) -> list[TmdError]:
     """Return the condition that keeps ``problem`` from being ground, if there is one; with its place in the domain."""
-    if _instances(problem) > _MOST_GROUND:
+    if _is_large(problem):
         return []
     try:
         ground(problem)
@@ -239,15 +241,18 @@ def lint_cases(problem: Problem) -> list[TmdError]:
     return []
 
 
-def _instances(problem: Problem) -> int:
-    """Return at most how many instances the actions have."""
+def _is_large(problem: Problem) -> bool:
+    """Return whether the actions may have too many instances, or too many atoms in their conditions."""
     objects = universe(problem)
-    return sum(prod(len(objects.of(p.types)) for p in action.parameters) for action in problem.domain.actions)
+    actions = problem.domain.actions
+    instances = [prod(len(objects.of(p.types)) for p in action.parameters) for action in actions]
+    atoms = sum(size(a.precondition, objects) * many for a, many in zip(actions, instances, strict=True))
+    return sum(instances) > _MOST_GROUND or atoms > _MOST_ATOMS
 
 
 def _unreachable(problem: Problem, source: Source) -> list[TmdError]:
     """Return the proof that ``tmd plan`` gives: what relaxed reachability from the initial state never reaches."""
-    if _instances(problem) > _MOST_GROUND:
+    if _is_large(problem):
         return []
     try:
         task = ground(problem)
