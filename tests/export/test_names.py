@@ -55,6 +55,23 @@ def test_unified_planning_and_pddl_take_them(source: Planned, tmp_path: Path) ->
     assert validate(problem, parse_plan(files["plan.plan"], problem=problem).instructions).valid
 
 
+@pytest.mark.parametrize("variable", ["?2nd", "?a.b", "?_x", "?duration", "?object", "?and"])
+def test_variables_are_renamed_as_well(variable: str, val: Val) -> None:
+    from unified_planning.io import PDDLReader
+
+    domain = f"""(define (domain d0) (:requirements :adl) (:types tray)
+      (:predicates (clean {variable} - tray) (here ?x - tray))
+      (:action scrub :parameters ({variable} ?x_2nd - tray) :precondition (and (here {variable}) (here ?x_2nd))
+        :effect (clean {variable})))"""
+    problem = "(define (problem p) (:domain d0) (:objects t1 - tray) (:init (here t1)) (:goal (clean t1)))"
+    source = planned(parse_problem(problem, parse_domain(domain)), [Instruction("scrub", ("t1", "t1"))])
+    for form in ("adl", "strips", "durative"):
+        files = FORMATS[form](source)
+        assert val.valid(files["domain.pddl"], files["problem.pddl"], files["plan.plan"])
+        PDDLReader().parse_problem_string(files["domain.pddl"], files["problem.pddl"])
+    assert set(chosen_files(source, ["adl"]).renames) == {("object", variable)}
+
+
 def test_other_names_and_other_formats_keep() -> None:
     assert not chosen_files(named(), ["adl"]).renames
     assert not chosen_files(ODD[0], ["ipc", "bt"]).renames

@@ -25,7 +25,9 @@ from tmd.pddl.model import (
     TypeDeclaration,
     TypedName,
     rebuilt,
+    walk,
 )
+from tmd.pddl.reading.syntax import CONNECTIVES
 
 # Names by the kind of what they name.
 Renames: TypeAlias = Mapping[tuple[str, str], str]
@@ -40,6 +42,8 @@ _WORDS = frozenset(
         "total-cost", "total-time", "within",
     }
 )  # fmt: skip
+# The same for variables, which VAL and pddl read as the words behind their question mark.
+_WORDS_OF_VARIABLES = _WORDS | CONNECTIVES | {"either"}
 # Fields that hold names, with the kind of what they name.
 _FIELDS: Mapping[type, Mapping[str, str]] = {
     TypedName: {"name": "object", "types": "type"},
@@ -61,6 +65,7 @@ def renames(problem: Problem) -> Renames:
     declared = dict.fromkeys(_declared(problem))
     taken = {name for _, name in declared}
     seen: set[str] = set()
+    found |= _variables(problem)
     for kind, name in declared:
         refused = not _TAKEN.fullmatch(name) or name in _WORDS
         apart = kind in ("domain", "problem")
@@ -72,6 +77,26 @@ def renames(problem: Problem) -> Renames:
             found[kind, name] = new
         elif not apart:
             seen.add(name)
+    return found
+
+
+def _variables(problem: Problem) -> dict[tuple[str, str], str]:
+    """Return the new names of variables; fields have these where they have objects."""
+    found: dict[tuple[str, str], str] = {}
+    names = dict.fromkeys(
+        part.name
+        for part in walk((problem.domain, problem.goal))
+        if isinstance(part, TypedName) and part.name[0] == "?"
+    )
+    taken = set(names)
+    for variable in names:
+        plain = variable[1:]
+        if not _TAKEN.fullmatch(plain) or plain in _WORDS_OF_VARIABLES:
+            new = f"?x_{re.sub(r'[^a-z0-9_-]', '_', plain)}"
+            while new in taken:
+                new += "_1"
+            taken.add(new)
+            found["object", variable] = new
     return found
 
 

@@ -207,7 +207,8 @@ def export(
     write_directory(directory, flat, overwrite=overwrite)
     emit("".join(f"{directory / path}\n" for path in flat))
     if changed := written.renames:
-        told = ", ".join(f"{kind} {name} is {new}" for (kind, name), new in list(changed.items())[:_SHOWN])
+        pairs = [(f"{kind} {name}" if name[0] != "?" else name, new) for (kind, name), new in changed.items()]
+        told = ", ".join(f"{name} is {new}" for name, new in pairs[:_SHOWN])
         more = f" and {len(changed) - _SHOWN} more" if len(changed) > _SHOWN else ""
         emit(f"warning: other tools refuse names, which are written differently: {told}{more}\n", error=True)
     for name, error in failures.items():
