@@ -105,6 +105,13 @@ REFUSED = [
         Kind.NO_SUCH_THING,
         "nothing here is called 'unicorn'",
     ),
+    (
+        "02_table/corner2",
+        "Put the third table on the cup.",
+        0,
+        Kind.NO_SUCH_THING,
+        "there is no third table here: there",
+    ),
     ("living_room/room1", "Put the glass on the other table.", 0, Kind.NO_SUCH_THING, "there is no other table here"),
     ("04_tea/pantry1", "Put the sugar in the cup.", 0, Kind.NO_SUCH_THING, "nothing here is called 'sugar'"),
     ("02_table/corner2", "Put all the unicorns on the table.", 0, Kind.NO_SUCH_THING, "unicorn"),

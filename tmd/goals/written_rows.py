@@ -12,7 +12,7 @@ from tmd.pddl.model import Domain
 from tmd.pddl.writer import format_formula
 
 _HEAD = """\
-# What verbs mean here: a pattern, a colon, and the PDDL condition that shall hold in the end. Capitals are slots for
+# What verbs mean here: a pattern, a colon, and the PDDL condition that must hold in the end. Capitals are slots for
 # what is said, X for ?x. These rows are read off the actions in domain.pddl; change them, delete those nobody says.
 # A verb without a row here means what its name suggests. `tmd check` finds mistakes; docs/goals.md says it all.
 """

@@ -852,6 +852,11 @@ class Referents:
         if known:
             message = f"'{words(clause.verb)}' does not apply to '{said}' here"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
+        first, _, rest = noun.partition("_")
+        others = self.nouns.things(rest, reading.state) if rest and first in words_of("ordinals") else ()
+        if others:
+            count = f"are {len(others)}" if len(others) > 1 else "is one"
+            return Refusal(RefusalKind.NO_SUCH_THING, f"there is no {said} here: there {count}")
         hint = "name a thing that is there, or allow guesses"
         return Refusal(RefusalKind.NO_SUCH_THING, f"nothing here is called '{said}'", hint)
 
