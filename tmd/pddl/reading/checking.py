@@ -186,12 +186,26 @@ class _Check:
                 )
 
     def unique(self, declared: Iterable[TypeDeclaration | TypedName | Predicate | ActionSchema], what: str) -> None:
-        seen: set[str] = set()
+        seen: dict[str, TypeDeclaration | TypedName | Predicate | ActionSchema] = {}
         for item in declared:
             if item.name in seen:
-                message = f'{what} "{item.name}" is declared twice'
-                self.fault(message, item.location, "rename one of them", "duplicate-name")
-            seen.add(item.name)
+                message, same = f'{what} "{item.name}" is declared twice', item == seen[item.name]
+                hint = "remove one of them" if same else "rename one of them"
+                end = self.end(item) if same else None
+                edits = [self.source.removal(item.location, end)] if item.location and end else []
+                self.fault(message, item.location, hint, "duplicate-name", edits)
+            seen.setdefault(item.name, item)
+
+    def end(self, item: TypeDeclaration | TypedName | Predicate | ActionSchema) -> Location | None:
+        """Return the place behind a declaration that begins with itself: a name in a list, or a predicate."""
+        if isinstance(item, TypedName) and item.location is not None:
+            return shifted(item.location, len(item.name))
+        depth = 0
+        for token, place in self.source.tokens(item.location) if isinstance(item, Predicate) else ():
+            depth += {"(": 1, ")": -1}.get(token, 0)
+            if not depth:
+                return shifted(place, 1)
+        return None
 
     def type_known(self, name: str, location: Location | None) -> None:
         """Check that a type is declared; ``location`` is that of the name with this type."""
@@ -358,9 +372,13 @@ class _Check:
     def underived(self, atom: Atom, when: str) -> None:
         """Check that an atom that is made true or false is not derived."""
         if atom.predicate in self.derived:
-            message = f'"{atom.predicate}" is derived, so it cannot be made true or false {when}'
+            message, slip = (
+                f'"{atom.predicate}" is derived, so it cannot be made true or false {when}',
+                ("derived", atom.predicate),
+            )
             hint = "remove this, or the (:derived ...) of the predicate"
-            self.fault(message, atom.location, hint, "wrongly-derived")
+            if not self.again(slip, atom.location):
+                self.fault(message, atom.location, hint, "wrongly-derived", slip=slip)
 
     def formula(self, formula: Formula, scope: Mapping[str, tuple[str, ...]]) -> None:
         if isinstance(formula, Atom):

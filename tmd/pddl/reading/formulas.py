@@ -224,12 +224,20 @@ def _with_blank(first: Node, types: tuple[str, ...], rest: list[Node], source: S
     return (second.text,)
 
 
+# What some write for the dash before a type.
+_DASHES = frozenset({"->", "=>", "=", "\u2192"})
+
+
 def _apart(node: Word, rest: list[Node], variables: bool, source: Source) -> Word:
     """Return the first of the words that are written as one; the rest begins with the others then."""
     if variables:
         node = _before_glued_type(node, rest, source)
     if ":" in node.text and node.text[0] != ":":
         node = _before_colon(node, rest, source)
+    if node.text in _DASHES:
+        message, edits = f'a type stands behind a dash, not behind "{node.text}"', [replaced(node, "-")]
+        source.fault_once(message, node.location, "write name - type", "other-notation", edits)
+        return Word("-", node.location)
     if len(node.text) > 1 and node.text[-1] == "-" and rest and (isinstance(rest[-1], Group) or rest[-1].text != "-"):
         return _before_dash(node, rest, source)
     if len(node.text) > 1 and node.text[0] == "-":
@@ -263,7 +271,10 @@ def _type_first(nodes: Sequence[Node], source: Source) -> Sequence[Node]:
 
 def _without_parentheses(node: Group, source: Source) -> None:
     """Report a group where names with their types should be."""
-    edits = [Edit(node.location, shifted(node.location, 1)), Edit(node.end, shifted(node.end, 1))]
+    start, end = node.location, shifted(node.end, 1)
+    before, behind = source.lines[start.line - 1][: start.column - 1], source.lines[end.line - 1][end.column - 1 :]
+    blanks = [" " if re.search(r"[\w-]\Z", before) else "", " " if re.match(r"[\w-]", behind) else ""]
+    edits = [Edit(start, shifted(start, 1), blanks[0]), Edit(node.end, end, blanks[1])]
     hint = "write a b - type c - (either type other)"
     source.fault_once("names with their type have no parentheses", node.location, hint, "other-notation", edits)
 
@@ -361,6 +372,7 @@ _CONNECTIVES = {
     "->": "imply", "if": "when", "for-all": "forall", "foreach": "forall", "exist": "exists",
     "there-exists": "exists", "thereexists": "exists", "\u2227": "and", "\u2228": "or", "\u00ac": "not",
     "\u2192": "imply", "\u21d2": "imply", "\u2200": "forall", "\u2203": "exists",
+    "add": "and", "delete": "not", "del": "not", "remove": "not",
 }  # fmt: skip
 _SIGNS = UNEQUAL | {"=", "=="}
 
@@ -383,6 +395,12 @@ def _in_pddl(node: Group, source: Source) -> Group:
         return _only_group(written, node)
     if isinstance(head, Group):
         return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
+    if head.text in ("when", "if") and any(isinstance(part, Word) and part.text == "then" for part in rest):
+        (then, *_) = [part for part in rest if isinstance(part, Word) and part.text == "then"]
+        edits = [source.removal(then.location, after(then))]
+        source.fault_once('"then" is not PDDL', then.location, "remove it", "other-notation", edits)
+        rest.remove(then)
+        node = _group(node, head, *rest)
     if head.text == "not" or head.text[0] in "!~\u00ac":
         return _negation(node, head, rest, source)
     if len(rest) == 2 and node.head in _TIMES:

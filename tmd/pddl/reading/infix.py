@@ -18,6 +18,7 @@ _OPERATORS = UNEQUAL | _EQUAL | _COMPARED | _ARITHMETIC | _ASSIGNED.keys()
 _JOINING = {
     "and": "and", "or": "or", "&&": "and", "&": "and", "||": "or", "|": "or", "\u2227": "and", "\u2228": "or",
 }  # fmt: skip
+_DENYING = frozenset({"not", "!", "~", "\u00ac"})
 ONLY_COSTS = "of numeric fluents only total-cost is supported"
 
 
@@ -29,10 +30,22 @@ def in_prefix(nodes: Sequence[Node], source: Source) -> list[Node]:
     found: list[Node] = []
     rest = list(nodes)
     while rest:
+        if _text(rest[0]) in _DENYING and len(rest) > 1 and isinstance(rest[1], Group):
+            found.append(_denied(rest.pop(0), rest.pop(0), source))
+            continue
         run = _run(rest)
         del rest[: len(run)]
         found += run if len(run) == 1 else _written(run, source)
     return found
+
+
+def _denied(word: Node, group: Node, source: Source) -> Group:
+    """Return ``(not (p))`` for ``not (p)``, which is reported."""
+    place, end = word.location, after(group)
+    shown = f"(not {source.text(group.location, end)})"
+    message, hint = f'"{_text(word)}" stands in parentheses with what it denies', f"write {shown}"
+    source.fault_once(message, place, hint, "other-notation", [Edit(place, end, shown)])
+    return Group((Word("not", place), group), place, shifted(end, -1), 0)
 
 
 def _run(nodes: Sequence[Node]) -> list[Node]:

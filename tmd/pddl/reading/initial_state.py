@@ -6,18 +6,19 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import takewhile
 
 from tmd.diagnostics import Edit, Location
-from tmd.pddl.model import TOTAL_COST, GroundAtom
+from tmd.pddl.model import TOTAL_COST, Domain, GroundAtom
 from tmd.pddl.reading.formulas import ASSIGNED, read_atom, read_number, truth_value, unsupported
 from tmd.pddl.reading.infix import atom_of_words
-from tmd.pddl.reading.syntax import Group, Node, Source, Word, after, shifted
+from tmd.pddl.reading.syntax import Group, Node, Source, Word, after, replaced, shifted
 
 
 class InitReader:
     """Collects the initial state, where each entry stands, and the values of cost functions."""
 
-    def __init__(self, source: Source, functions: Iterable[str] = ()) -> None:
+    def __init__(self, source: Source, domain: Domain) -> None:
         self.source = source
-        self.functions = frozenset(functions)
+        self.predicates = {p.name: len(p.parameters) for p in domain.predicates}
+        self.functions = {f.name for f in domain.functions} - self.predicates.keys()
         self.atoms: dict[GroundAtom, None] = {}
         self.denied: dict[GroundAtom, None] = {}
         self.values: dict[GroundAtom, int] = {}
@@ -45,6 +46,9 @@ class InitReader:
     def _read_entry(self, node: Node) -> None:
         if isinstance(node, Word):
             hint = f"write ({node.text})" if node.text.strip(".") else "write out what is left out"
+            if node.text == ".":
+                edits = [replaced(node, "")]
+                raise self.source.error("an atom has no full stop", node.location, "remove it", "syntax", edits)
             raise self.source.error(f'expected an atom, found "{node.text}"', node.location, hint)
         node = self._in_pddl(node)
         if node.head in ("unknown", "oneof") and any(isinstance(p, Group) for p in node.parts):
@@ -81,6 +85,14 @@ class InitReader:
             return _value(node.location, last, between, after(node), self.source)
         if isinstance(between, Word) and isinstance(first, Group) and between.text == "=":
             return _value(node.location, first, last, after(node), self.source)
+        atom = between if isinstance(between, Group) and isinstance(last, Word) and node.head == "=" else None
+        if atom is not None and not number and self.predicates.get(atom.head) == len(atom.parts):
+            name, value = shifted(atom.location, 1), self.source.text(last.location, after(last))
+            shown = f"({self.source.text(name, atom.end)} {value})"
+            edits = [Edit(node.location, after(node), shown)]
+            message = f'"{atom.head}" is a predicate, and has no value'
+            self.source.fault_once(message, node.location, f"write {shown}", "other-notation", edits)
+            return Group((*atom.parts, last), node.location, node.end, node.depth)
         if node.head in ASSIGNED and len(before) == 2 and isinstance(before[1], Group):
             return truth_value(node, before[1], last, self.source)
         return node

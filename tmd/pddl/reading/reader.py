@@ -230,6 +230,8 @@ def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
     """Read ``(:predicates ...)``, each with the comment that stands beside it."""
     declared: Sequence[Node] = group.parts[1:]
     words = [node for node in declared if isinstance(node, Word)]
+    declared = list(_with_parentheses(declared, document.source))
+    words = [node for node in declared if isinstance(node, Word)]
     if len(words) > 1:
         names, hint = ", ".join(word.text for word in words[:8]), f"write ({words[0].text} ?x - type)"
         document.source.fault_at(f"expected (predicate ...), found {names}", words[0].location, hint)
@@ -241,6 +243,17 @@ def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
         comment = document.comments.get(node.end.line, "") if isinstance(node, Group) and last else ""
         found.append(document.source.recover(None, _read_signature, node, document, comment))
     return tuple(predicate for predicate in found if predicate)
+
+
+def _with_parentheses(nodes: Sequence[Node], source: Source) -> Iterator[Node]:
+    """Yield predicates; names with variables behind them on a line, which are reported, are put in parentheses."""
+    for (words, _), run in groupby(
+        nodes, lambda node: (isinstance(node, Word), isinstance(node, Word) and node.location.line)
+    ):
+        nodes_of_line = list(run)
+        typed = words and any(isinstance(node, Word) and node.text[0] == "?" for node in nodes_of_line[1:2])
+        atom = atom_of_words(nodes_of_line, source) if typed else None
+        yield from [atom] if atom else nodes_of_line
 
 
 def _read_signature(node: Node, document: Document, comment: str = "") -> Predicate:
@@ -629,7 +642,7 @@ def parse_problem_unchecked(
     document = parse(text, file, report, definition=True)
     source = document.source
     name, sections = _definition(document, "problem")
-    init = InitReader(source, {f.name for f in domain.functions} - {p.name for p in domain.predicates})
+    init = InitReader(source, domain)
     parts: dict[str, Any] = {}
     readers: dict[str, Callable[[Group], object]] = {
         ":domain": lambda g: read_domain_name(g, domain, source),
@@ -701,7 +714,10 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     document.check_depth()
     if len(document.groups) > 1:
         source.closed_too_early(first)
+    other = "problem" if kind == "domain" else "domain"
     hint = f"write (define ({kind} name) ...)"
+    if any(isinstance(part, Group) and part.head == other for part in first.parts[1:2]):
+        hint = f"this is a {other}: name the file of the {kind}"
     if len(first.parts) < 2 or not _is_word(first.parts[0], "define", source):
         raise source.error(f"expected (define ({kind} name) ...)", first.location, hint)
     title, *sections = first.parts[1:]
@@ -753,6 +769,10 @@ def _outside(words: Sequence[Word], source: Source) -> None:
         source.fault_at("this text is not PDDL", first.location, 'write ";" before it', "foreign-text", edits)
         return
     for word in words:
+        if not word.text.strip("."):
+            edits = [replaced(word, f"; {word.text}\n")]
+            source.fault_at("something is left out here", word.location, "write it", "syntax", edits)
+            continue
         message, hint = f'"{word.text}" stands outside its section', "a parenthesis before it is too many"
         source.fault_at(message, word.location, hint)
 
