@@ -539,6 +539,13 @@ REPAIRED = {
         "foreign-text",
         '";"',
     ),
+    "a beginning twice": (
+        "domain",
+        "(define (domain garden)",
+        "(define (domain garden)\n(define (domain garden)",
+        "two-definitions",
+        "remove",
+    ),
     "names of two words in quotes": (
         "problem",
         "(problem june)",
@@ -650,6 +657,13 @@ TOLD = {
         "begins a comment",
     ),
     "a type near by chance": ("domain", "(:types can bed)", "(:types can bend)", "unknown-type", "bend"),
+    "a domain without anything": (
+        "domain",
+        DOMAIN,
+        "(define (domain garden) (:types can bed))\n",
+        "unknown-predicate",
+        "domain",
+    ),
     "left out": ("problem", "(path roses herbs))", "(path roses herbs) ...)", "syntax", "left out"),
 }
 
@@ -810,3 +824,11 @@ def test_repairing_ends_and_keeps_to_pddl(
     once = path.read_text()
     check_paths([path], fix=True)
     assert path.read_text() == once
+
+
+def test_a_constant_twice_is_no_fault_of_a_problem_without_types(tmp_path: Path) -> None:
+    domain = "(define (domain garden) (:constants rake rake) (:predicates (at ?c ?b) (full ?c)))\n"
+    paths = _written(tmp_path, "domain", DOMAIN, domain)
+    told = check_paths(paths).diagnostics
+    assert "duplicate-name" in {d.code for d in told if d.location.file == str(paths[0])}
+    assert "duplicate-name" not in {d.code for d in told if d.location.file == str(paths[1])}

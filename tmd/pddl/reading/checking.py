@@ -80,6 +80,7 @@ def check_problem(problem: Problem, source: Source | None = None) -> list[TmdErr
     check.values(problem)
     check.formula(problem.goal, {})
     check.types_of_objects_missing()
+    check.predicates_of_problem_missing()
     check.faults.extend(missing_requirements(problem.domain, problem, check.source))
     return _in_order(check.faults, source)
 
@@ -192,7 +193,9 @@ class _Check:
                 message, same = f'{what} "{item.name}" is declared twice', item == seen[item.name]
                 hint = "remove one of them" if same else "rename one of them"
                 end = self.end(item) if same else None
-                edits = [self.source.removal(item.location, end)] if item.location and end else []
+                edits = (
+                    [self.source.removal(item.location, end)] if item.location and end and self.source.line(end) else []
+                )
                 self.fault(message, item.location, hint, "duplicate-name", edits)
             seen.setdefault(item.name, item)
 
@@ -238,6 +241,17 @@ class _Check:
             edits = [self.source.declaration(":predicates", declared)]
             message = f"the domain has no (:predicates ...) for {', '.join(self.used)}"
             self.fault(message, place, f"add (:predicates {shown})", "missing-section", edits)
+
+    def predicates_of_problem_missing(self) -> None:
+        """Report that the problem uses predicates, and its domain neither declares nor uses any."""
+        used_there = any(isinstance(part, Atom) for part in walk((self.domain.actions, self.domain.derived)))
+        if self.used and not used_there:
+            names, place = (
+                ", ".join(self.used),
+                min(filter(None, (place for _, place in self.used.values())), default=None),
+            )
+            message = f"the domain has no (:predicates ...), and its problem uses {names}"
+            self.fault(message, place, "declare them in the domain", "unknown-predicate")
 
     def types_of_objects_missing(self) -> None:
         """Report that the problem uses types, and neither its domain nor the predicates in it do."""

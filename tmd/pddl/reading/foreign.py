@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from pathlib import Path
 
 from tmd.diagnostics import Edit, Location, TmdError
@@ -212,6 +212,7 @@ class _Text:
 
     def around(self) -> None:
         """Blank what stands around the first definition."""
+        self.begun_again()
         first = _DEFINITION.search(self.bare) or _DEFINE.search(self.bare)
         if first is None:
             return
@@ -226,6 +227,21 @@ class _Text:
             self._prose(end, last, "this text behind the definition is not PDDL")
         if others:
             self._definitions(others)
+
+    def begun_again(self) -> None:
+        """Blank the beginnings of a definition before the last one of several."""
+        found = list(_DEFINITION.finditer(self.bare))
+        spans = []
+        for one, other in pairwise(found):
+            between = self.bare[one.end() : other.start()]
+            if between.strip() != ")" or one.groups() != other.groups():
+                break
+            spans.append((one.start(), one.end() + between.index(")") + 1))
+        if spans:
+            edits = [self.removal(*span) for span in spans]
+            message, hint = "this definition begins twice", "remove one of the two beginnings"
+            self.fault(message, spans[0][0], hint, "two-definitions", edits)
+            self.change(spans, _blanks)
 
     def _prose(self, start: int, end: int, message: str) -> None:
         """Report and blank text; the comments of PDDL in it stay."""
