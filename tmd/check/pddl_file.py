@@ -13,7 +13,7 @@ from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reading.checking import check_domain, check_problem
 from tmd.pddl.reading.reader import parse_domain_unchecked, parse_problem_unchecked
-from tmd.pddl.reading.syntax import Group, Node, Source, Word, parse, split_lines
+from tmd.pddl.reading.syntax import Group, Node, Source, Word, split_lines
 from tmd.world.problem_domain import domain_named_in
 
 _DECLARED_IN = {
@@ -59,7 +59,7 @@ def check_domain_text(text: str, file: str) -> CheckedDomain:
     except TmdError as error:
         faults.append(error)
         return CheckedDomain(Domain(""), Source(file, split_lines(text)), faults)
-    excused = _excused(text, file, faults)
+    excused = _excused(source, faults)
     faults += _without_excused(check_domain(domain, source), excused)
     if not any(_is_error(fault) for fault in faults):
         faults += lint_domain(domain, source)
@@ -78,7 +78,7 @@ def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> C
         return CheckedProblem(None, Source(file, split_lines(text)), faults)
     if checked is None:
         return CheckedProblem(problem, source, faults)
-    excused = _joined(checked.excused, _excused(text, file, faults))
+    excused = _joined(checked.excused, _excused(source, faults))
     faults += _without_excused(check_problem(problem, source), excused)
     if checked.sound and not any(_is_error(fault) for fault in faults):
         faults += lint_problem(problem, source)
@@ -158,15 +158,14 @@ def _joined(one: Words, other: Words) -> Words:
     return {code: one.get(code, frozenset()) | other.get(code, frozenset()) for code in {*one, *other}}
 
 
-def _excused(text: str, file: str, faults: list[TmdError]) -> Words:
+def _excused(source: Source, faults: list[TmdError]) -> Words:
     """Return the words of the sections in which something could not be read: they would be declared otherwise."""
     if not faults:
         return {}
-    document = parse(text, file, lambda _: None)
     places = [fault.location for fault in faults if fault.location and _is_error(fault)]
     unknown = {fault.location for fault in faults if fault.code in ("unknown-section", "not-supported")}
     excused: dict[str, set[str]] = {}
-    for group in (part for top in document.groups for part in top.parts if isinstance(part, Group)):
+    for group in (part for top in source.groups for part in top.parts if isinstance(part, Group)):
         codes = set(_DECLARED_IN.values()) if group.location in unknown else {_DECLARED_IN.get(group.head, "")}
         if any(_within(place, group) for place in places):
             for code in codes - {""}:

@@ -107,6 +107,8 @@ class Source(Reporting):
     """The names of which was warned: once is enough."""
     sections: dict[str, Group] = field(default_factory=dict, compare=False, repr=False)
     """The first group of each head within ``(define``."""
+    groups: list[Group] = field(default_factory=list, compare=False, repr=False)
+    """The outermost groups."""
 
     def fault(self, error: TmdError) -> None:
         """Raise ``error``, or report it and return; a habit of the author is reported once, with all its edits."""
@@ -490,6 +492,7 @@ def parse(text: str, file: str, report: Report | None = None, *, definition: boo
         if parser.faults > _MOST_FAULTS:
             break
     parser.end(commas)
+    source.groups.extend(parser.groups)
     for part in parser.groups[0].parts if parser.groups else ():
         if isinstance(part, Group):
             source.sections.setdefault(part.head, part)
