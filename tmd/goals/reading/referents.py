@@ -852,6 +852,10 @@ class Referents:
         if known:
             message = f"'{words(clause.verb)}' does not apply to '{said}' here"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
+        return self._nothing_called(noun, said, reading)
+
+    def _nothing_called(self, noun: str, said: str, reading: ClauseReading) -> Refusal:
+        """Return that nothing has a name, or how many there are where an ordinal goes beyond."""
         first, _, rest = noun.partition("_")
         others = self.nouns.things(rest, reading.state) if rest and first in words_of("ordinals") else ()
         if others:
