@@ -5,6 +5,7 @@ from __future__ import annotations
 from io import BytesIO
 from itertools import combinations
 from math import tan
+from pathlib import Path
 from typing import Any
 from unittest.mock import MagicMock
 
@@ -25,9 +26,11 @@ def node(path: str, *_: object, **__: object) -> MagicMock:
     return made
 
 
-def furnished(kitchen: Corpus, *, dark: bool = False) -> tuple[Scenery, Look, MagicMock]:
+def furnished(
+    kitchen: Corpus, environment: str | Path = "kitchen1", *, dark: bool = False
+) -> tuple[Scenery, Look, MagicMock]:
     """The scenery of a kitchen; what draws it does nothing."""
-    setting = open_setting(kitchen, kitchen.world("kitchen1"), kitchen.file("kitchen1"))
+    setting = open_setting(kitchen, kitchen.world(environment), kitchen.file(environment))
     assert setting.look is not None
     scene = MagicMock()
     for each in (scene.add_glb, scene.add_mesh_simple, scene.add_frame, scene.add_label):
@@ -38,17 +41,28 @@ def furnished(kitchen: Corpus, *, dark: bool = False) -> tuple[Scenery, Look, Ma
 @pytest.mark.parametrize("aspect", [1.1, 3.0, 0.5, 0.8, 0.3])
 def test_the_whole_room_is_in_view(kitchen: Corpus, aspect: float) -> None:
     scenery, look, _ = furnished(kitchen)
-    eye, target = (np.array(place) for place in scenery.overview(FOV, aspect))
+    for pose in look.first.poses.values():
+        assert in_view(scenery, aspect, pose.position)
+
+
+def in_view(scenery: Scenery, aspect: float, place: tuple[float, float, float]) -> bool:
+    """Whether the view of the whole room shows a place."""
+    eye, target = (np.array(each) for each in scenery.overview(FOV, aspect))
     forward = (target - eye) / np.linalg.norm(target - eye)
     right = np.cross(forward, (0.0, 0.0, 1.0))
     right /= np.linalg.norm(right)
-    up = np.cross(right, forward)
-    for pose in look.first.poses.values():
-        seen = np.array(pose.position) - eye
-        depth = seen @ forward * tan(FOV / 2)
-        assert depth > 0
-        assert abs(seen @ right) <= depth * aspect
-        assert abs(seen @ up) <= depth
+    seen = np.array(place) - eye
+    depth = float(seen @ forward) * tan(FOV / 2)
+    return depth > 0 and abs(seen @ right) <= depth * aspect and abs(seen @ np.cross(right, forward)) <= depth
+
+
+def test_the_robot_is_in_view_of_a_room_with_little_in_it(kitchen: Corpus, tmp_path: Path) -> None:
+    """Where it begins, and beside the only table."""
+    small = tmp_path / "small.yaml"
+    small.write_text("name: small\ndomain: kitchen\nobjects: {table1: {class: table, position: [2.5, 0, 0]}}\n")
+    scenery, _, _ = furnished(kitchen, small)
+    for place in ((0.0, 0.0, 1.3), (2.5, 1.2, 1.3), (2.5, -1.2, 1.3)):
+        assert in_view(scenery, 0.9, place)
 
 
 def test_the_room_is_as_dark_as_the_page(kitchen: Corpus) -> None:

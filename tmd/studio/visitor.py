@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import numpy as np
 
 from tmd.diagnostics import TmdError, install_extra
+from tmd.goals.wording import shortened
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
@@ -478,7 +479,7 @@ class Visitor:
         if not (fault or aloud):
             return
         title, colour = ("Not done", ORANGE) if fault else ("tmd studio", BLUE)
-        said = " – ".join(filter(None, (message, hint)))
+        said = shortened(" – ".join(filter(None, (message, hint))))
         with self._voice:
             if self._aloud is not None:
                 self._aloud.remove()

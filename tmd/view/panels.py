@@ -73,6 +73,11 @@ def goal_list(goals: Iterable[ShownGoal], state: State, problem: Problem) -> str
     return fragment(macro(_TEMPLATE, "goal_list", rows)) if rows else ""
 
 
+def rejected_ways(failures: Sequence[object]) -> str:
+    """Render what a robot tried in vain, :class:`tmd.robot.video.rejected_ways.FailedStep` each; scrolls by itself."""
+    return f'<div class="vain">{macro(_TEMPLATE, "rejected_ways", failures)}</div>'
+
+
 def changed(
     added: Iterable[GroundAtom], removed: Iterable[GroundAtom], in_words: Callable[[GroundAtom], str] = str
 ) -> list[str]:

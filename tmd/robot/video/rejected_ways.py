@@ -82,11 +82,11 @@ class RejectedWays:
     def _place(self, positions: Mapping[str, float], hand: tuple[str, Pose] | None) -> str:
         if hand is not None:
             side, tool = hand
-            return f"{side} hand at {' '.join(f'{value:.2f}' for value in tool.position)}"
+            return f"{side} hand at {' '.join(f'{value:z.2f}' for value in tool.position)}"
         base = [positions.get(joint) for joint in BASE_JOINTS]
         x, y, heading = (here if at is None else at for at, here in zip(base, self._cell.robot.base(), strict=True))
         torso = positions.get(TORSO, self._cell.robot.torso())
-        return f"from {x:.2f} {y:.2f}, facing {degrees(heading):.0f}°, torso at {torso:.2f} m"
+        return f"from {x:z.2f} {y:z.2f}, facing {degrees(heading):z.0f}°, torso at {torso:.2f} m"
 
     def _picture(self) -> str:
         from PIL import Image

@@ -310,7 +310,7 @@
   function follow() {
     const now = [...document.querySelectorAll("[aria-current=step]")].find((each) => each.offsetParent);
     const words = now ? now.textContent + now.closest("li")?.dataset.step : "";
-    if (now && words !== followed) now.scrollIntoView({ block: "nearest" });
+    if (now && words !== followed) (now.closest("li") || now).scrollIntoView({ block: "nearest" });
     followed = words;
   }
 

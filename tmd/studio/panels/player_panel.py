@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from html import escape
+from math import ceil
 
 from tmd.studio.view3d.performance import RATE, RobotRun
 from tmd.studio.visitor import Panel, Visitor, chosen, put
@@ -57,7 +58,7 @@ class PlayerPanel(Panel):
 
     def moved(self, run: RobotRun) -> None:
         """Show how long a run is, and the moment that is looked at."""
-        last = max(len(run.moments) - 1, 1) / RATE
+        last = ceil(max(len(run.moments) - 1, 1) * 10 / RATE) / 10  # of tenths of seconds, as the slider
         if not run.ended.is_set():
             last = 20 * (last // 20 + 1)  # a slider that grows at each moment cannot be held
         if self._seconds.max != last:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import RefusalKind, TmdError
 from tmd.grounded import Grounded, why_refused
-from tmd.pddl.model import Formula, Instruction
+from tmd.pddl.model import Formula, Instruction, State
 from tmd.pddl.plan_file import format_plan
 from tmd.pddl.semantics import holds
 from tmd.pddl.writer import format_formula
@@ -30,8 +30,8 @@ from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import option_texts
-from tmd.view.markup import rejected_page, style
-from tmd.view.panels import changed, effort, fragment, goal_list, judgement, step_list
+from tmd.view.markup import style
+from tmd.view.panels import changed, effort, fragment, goal_list, judgement, rejected_ways, step_list
 from tmd.view.state_graph import object_rows
 from tmd.view.subject import planned_steps
 from tmd.world.demonstration import Demonstration
@@ -389,11 +389,12 @@ class SayPanel(Panel):
         grounded, plan, world = self._grounded, self._grounded.plans[self._number()], self._visitor.setting.world
         self._understood.content = _styled(lit_choice(grounded.parsed, plan, world))
         self._asked = in_words(plan.goals, world.task.problem)
-        reached = followed(plan.goals, world.task.problem, plan.instructions)
-        verdict = grounded.verdicts[self._number()]
-        told = [*(grounded.warnings if not self._number() else ()), *doubts(grounded.parsed, plan, world)]
-        good = outcome(verdict, reached) + (f": {verdict.reason}" if verdict.reason else "")
-        self._judged.content = judgement(good, told)
+        if self._running() is None:
+            reached = followed(plan.goals, world.task.problem, plan.instructions)
+            verdict = grounded.verdicts[self._number()]
+            told = [*(grounded.warnings if not self._number() else ()), *doubts(grounded.parsed, plan, world)]
+            good = outcome(verdict, reached) + (f": {verdict.reason}" if verdict.reason else "")
+            self._judged.content = judgement(good, told)
         self._step = min(self._step, self._last())
         self._look(watch=watch)
 
@@ -414,8 +415,8 @@ class SayPanel(Panel):
         self._robot.disabled, self._stop.disabled = not over, over
         if over:
             self._vain.visible = bool(run.rejected)
-            self._vain.content = _VAIN.format(escape(rejected_page(run.setting.name, run.rejected)))
-            self._visitor.tell(run.over, _BACK if run.done else None, aloud=True)
+            self._vain.content = _styled(rejected_ways(run.rejected))
+            self._visitor.tell(run.over, _BACK if run.done else None, fault=run.failed, aloud=True)
         elif run.now is not None:
             said = self._visitor.setting.wording.instruction(run.now.instruction)
             self._visitor.tell(f"The robot, step {run.now.number} of {run.now.of}: {said}")
@@ -441,9 +442,11 @@ class SayPanel(Panel):
         if watch:
             visitor.watch(reel, self._step, self, instructions)
         wording, problem = visitor.setting.wording, visitor.setting.world.task.problem
-        facts, shown = reel.facts(self._step), [goal for goal in self._asked if goal.asked]
-        true = sum(holds(goal.goal.formula, facts, problem) for goal in shown if goal.goal.formula is not None)
-        self._reached.label = f"Goals: {true} of {len(shown)} hold now"
+        facts, of = reel.facts(self._step), sum(goal.asked for goal in self._asked)
+        self._reached.label = f"Goals: {self._true(facts)} of {of} hold now"
+        if run is not None:
+            reached = self._true(reel.facts(self._last())) == of
+            self._judged.content = judgement(run_outcome(over=bool(run.over), failed=run.failed, reached=reached), ())
         self._goals.content = goal_list(self._asked, facts, problem)
         doing = run is not None and run.now is not None and visitor.live
         gains = () if doing else changed(*reel.changes(self._step), wording.fact)
@@ -451,6 +454,12 @@ class SayPanel(Panel):
         self._steps.content = step_list(lines, current, gains, faults, in_words=wording.instruction, of="say")
         self._chart.content = _styled(object_rows(instructions, problem, current, wording))
         visitor.keep_link()
+
+    def _true(self, facts: State) -> int:
+        """Return how many goals hold in a state."""
+        problem = self._visitor.setting.world.task.problem
+        asked = (goal.goal.formula for goal in self._asked if goal.asked)
+        return sum(holds(formula, facts, problem) for formula in asked if formula is not None)
 
     # what next
 
@@ -498,7 +507,6 @@ class SayPanel(Panel):
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
 _BACK = "It is under Plan, to look back."
-_VAIN = '<iframe title="What the robot tried in vain" style="width:100%;height:24rem;border:0" srcdoc="{}"></iframe>'
 _STOPPING = "The robot is being stopped."
 _ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."
@@ -507,6 +515,21 @@ _LATER = "The rest is learned in the background; the sentence is planned once mo
 
 def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
     return [] if grounded is None else [plan.instructions for plan in grounded.plans]
+
+
+def run_outcome(*, over: bool, failed: bool, reached: bool) -> str:
+    """Return the outcome of a robot's run in a few words.
+
+    Args:
+        over: Whether it has ended.
+        failed: Whether the robot could not go on.
+        reached: Whether all goals hold in the state that was observed last.
+    """
+    if not over:
+        return "… the robot is at work"
+    if reached:
+        return "✓ the robot reached the goals" + (", and then could not go on" if failed else "")
+    return "✗ the robot did not reach all goals"
 
 
 def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callable[[Instruction], str] = str) -> str:

@@ -14,7 +14,7 @@ from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
-from tmd.robot.skills.results import ExecutedStep
+from tmd.robot.skills.results import ExecutedStep, SkillStatus
 from tmd.robot.video.rejected_ways import FailedStep, RejectedWays
 from tmd.robot.video.symbolic_renderer import Colour
 from tmd.studio.environment_view import Reel, Setting
@@ -67,6 +67,7 @@ class RobotRun(Reel):
         moments: The poses, in order; empty until the simulation is there.
         ended: Set to stop the run.
         over: How it ended, in words; empty while it goes on.
+        failed: Whether the robot could not do it.
         rejected: The instructions that failed, with the ways that were tried in vain.
     """
 
@@ -90,6 +91,7 @@ class RobotRun(Reel):
         self.moments: list[Moment] = []
         self.ended = Event()
         self.over = ""
+        self.failed = False
         self.rejected: list[FailedStep] = []
 
     @property
@@ -112,12 +114,15 @@ class RobotRun(Reel):
             environment, problem = load_environment(self.setting.path), self.setting.world.task.problem
             ran = run_plan(environment, folder, problem, self._orders, prepare=self._prepare, pictures=True)
             execution = ran.execution
+            self.failed = execution.status is SkillStatus.STOPPED
             reason = f": {execution.reason}" if execution.reason else ""
-            self.over = f"The robot's run ended: {execution.status}{reason}."
+            self.over = (
+                f"the robot stopped{reason}." if self.failed else f"The robot's run ended: {execution.status}{reason}."
+            )
         except _StoppedError:
             self.over = f"The robot was stopped, {len(self.done)} of {len(self._orders)} steps done."
         except TmdError as error:
-            self.over = f"The robot cannot do it: {error.message}."
+            self.over, self.failed = f"The robot cannot do it: {error.message}.", True
             raise
         finally:
             self.over = self.over or "The robot's run broke off."

@@ -27,6 +27,8 @@ _EYE = 1.35
 _ELEVATION = 0.66
 # Radians: how far beside the robot the view of one object is.
 _ASIDE = 0.7
+# Metres: the robot's height, half its width, and how far beside the furniture it may stand.
+_TALL, _WIDE, _BESIDE = 1.4, 0.4, 0.9
 # How much of the view the room takes.
 _FILL = 0.94
 # Metres: the distances that the room may be seen from.
@@ -237,11 +239,14 @@ class Scenery:
     def overview(self, fov: float, aspect: float) -> Aim:
         """Return the nearest place, from the open side of the room, from where everything is seen; and what to look at.
 
+        In view are all objects and the robot, where it begins and where it may stand beside them.
+
         Args:
             fov: Radians that are seen from the lower to the upper edge of the view.
             aspect: The view's width divided by its height.
         """
         points = np.concatenate([self._corners(name, self._look.first.poses[name]) for name in self._frames])
+        points = np.concatenate((points, self._standing(points)))
         middle = (points.min(axis=0) + points.max(axis=0)) / 2
         forward = np.array((np.cos(_ELEVATION), 0.0, -np.sin(_ELEVATION)))
         up = np.array((np.sin(_ELEVATION), 0.0, np.cos(_ELEVATION)))
@@ -258,6 +263,14 @@ class Scenery:
                 break
         eye = middle - distance * forward + shift * up
         return _vector(eye), _vector(eye + distance * forward)
+
+    def _standing(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the corners of the robot's box, where it begins and beside the furniture, to the left and right."""
+        x, y, _ = self._look.first.robot.position
+        room, (low, high) = self._look.still.room, (points.min(axis=0), points.max(axis=0))
+        left, right = max(low[1] - _BESIDE, room.low[1]), min(high[1] + _BESIDE, room.high[1])
+        begins = product((x - _WIDE, x + _WIDE), (y - _WIDE, y + _WIDE), (0.0, _TALL))
+        return np.array([*begins, *product((low[0], high[0]), (left, right), (0.0, _TALL))])
 
     def _corners(self, name: str, pose: Pose) -> NDArray[np.float64]:
         """Return the corners of an object's box in the world, where the object has a pose."""
