@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import pty
 import re
 import subprocess
 import sys
@@ -278,6 +279,29 @@ def test_an_experiment_shows_its_bar_on_a_terminal(tmp_path: Path) -> None:
     )
     assert done.returncode == 0
     assert "3/3" in done.stderr
+
+
+def on_terminal(*arguments: str, **environ: str) -> str:
+    """What a command shows on a terminal."""
+    leader, follower = pty.openpty()
+    environ = {**os.environ, "TERM": "xterm", "NO_COLOR": "", **environ}
+    command = [sys.executable, "-m", "tmd", *arguments]
+    subprocess.run(command, env=environ, stdout=follower, stderr=follower, timeout=60, check=False)
+    shown = os.read(leader, 4_000).decode()
+    os.close(follower)
+    os.close(leader)
+    return shown
+
+
+def test_a_terminal_shows_colours_and_a_pipe_gets_none(tmd: Tmd) -> None:
+    arguments = "ground", "corner2", "Put the cup on the first table."
+    shown = on_terminal(*arguments)
+    assert "\033[1mgoals\033[0m" in shown and "\033[32m\033[1mvalid\033[0m" in shown
+    assert re.sub(r"\033\[\d+m", "", shown).replace("\r", "") == tmd(*arguments).out
+    assert "\033[31m\033[1merror\033[0m: " in on_terminal("grond")
+    for plain in ({"NO_COLOR": "1"}, {"TERM": "dumb"}):
+        assert "\033" not in on_terminal("grond", **plain)
+    assert "\033" not in tmd("grond").err
 
 
 def test_a_list_names_what_ground_takes(tmd: Tmd) -> None:

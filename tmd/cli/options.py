@@ -97,7 +97,7 @@ _PLACE = (
         metavar="FILE|NAME",
         help="An environment (YAML), or the name of a bundled one; to ground a text, also a PDDL problem.",
     ),
-    click.option("--domain", metavar="NAME", help="The domain; the environment's own by default."),
+    click.option("--domain", metavar="NAME|FILE", help="The domain; the environment's own by default."),
 )
 seed_option = click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
 learned_option = click.option(

@@ -9,6 +9,7 @@ from io import TextIOWrapper
 from pathlib import Path
 from typing import TextIO
 
+from tmd.cli.colour import coloured, takes_colour
 from tmd.files import write_text
 from tmd.format.json_layout import lay_out
 
@@ -39,13 +40,17 @@ def settle_errors() -> None:
 def emit(value: object, target: Path | None = None, *, error: bool = False) -> None:
     """Write a text, or any other value as JSON with its keys in their order, to standard output or standard error.
 
-    With a ``target``, write it to that file. Where no error can be written, the command goes on.
+    With a ``target``, write it to that file. Where no error can be written, the command goes on. A terminal gets a text
+    in colour.
     """
     text = value if isinstance(value, str) else lay_out(value) + "\n"
     if target is not None:
         return write_text(target, text)
+    stream = sys.stderr if error else sys.stdout
+    if isinstance(value, str) and takes_colour(stream):
+        text = coloured(text)
     with suppress(OSError) if error else nullcontext():
-        _write(sys.stderr if error else sys.stdout, text)
+        _write(stream, text)
 
 
 def _write(stream: TextIO, text: str) -> None:

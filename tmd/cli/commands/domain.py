@@ -152,7 +152,7 @@ def _learned_text(corpus: Corpus, found: LearnedDomain) -> str:
 
 @click.command("check", short_help="Find faults in domains, problems and their files.")
 @click.argument("paths", metavar="PATH...", nargs=-1)
-@click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
+@click.option("--domain", metavar="NAME|FILE", help="The domain of the problems; otherwise it is looked for.")
 @click.option("--strict", is_flag=True, help="Treat warnings as errors.")
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option("--explain", metavar="VERB", help="Print all that is known of a verb, in the domains that are named.")

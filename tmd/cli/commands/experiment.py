@@ -92,7 +92,9 @@ def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tu
     metavar="DIR",
     help="Where VEIL-500 is; $VEIL500_DIR by default.",
 )
-@click.option("--domain", default="kitchen", show_default=True, help="The domain of the bundled data, or its folder.")
+@click.option(
+    "--domain", default="kitchen", show_default=True, metavar="NAME|FILE", help="The domain of the bundled data."
+)
 @click.option(
     "--train-tasks", callback=name_list(), metavar="A,B", help="Training tasks; by default those of the protocol."
 )

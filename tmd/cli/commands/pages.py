@@ -68,7 +68,7 @@ LOCAL = "127.0.0.1"
 
 @click.command("studio", short_help="Watch plans, correct them and demonstrate, in the browser.")
 @click.option(
-    "--domain", "domain_name", metavar="NAME", help="The domain; that of the environment, or kitchen, by default."
+    "--domain", "domain_name", metavar="NAME|FILE", help="The domain; that of the environment, or kitchen, by default."
 )
 @click.option(*ENVIRONMENT, metavar="FILE|NAME", help="The first environment; that of the domain by default.")
 @click.option("--host", default=LOCAL, show_default=True, metavar="ADDRESS", help="The address to listen on.")

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 @click.command("parse", short_help="Split a text into verb clauses.")
 @request_options
-@click.option("--domain", "domain_name", metavar="NAME", help="Use the words of this domain as well.")
+@click.option("--domain", "domain_name", metavar="NAME|FILE", help="Use the words of this domain as well.")
 @json_option
 @click.pass_obj
 def parse(roots: Roots, spoken: GivenText, domain_name: str | None, as_json: bool) -> None:
