@@ -291,7 +291,7 @@ def test_nothing_is_thrown_away_without_asking(server: Server) -> None:
         do(visitor, "cup1", STEPS[1])
         visitor.press("Start over")
         visitor.press("Throw it away, and begin")
-        visitor.shows("No steps yet.")
+        visitor.shows("No steps.")
 
 
 def test_a_window_that_is_loaded_again_looks_at_the_same(server: Server) -> None:

@@ -473,17 +473,18 @@ class Visitor:
             message: The message.
             hint: The remedy.
             fault: Something was not done.
-            aloud: Show it over the view as well, for a while: the panel may be scrolled down. Faults always are.
+            aloud: Show it over the view as well, for a while or until the next message: the panel may be scrolled down.
+                Faults always are.
         """
         self._message.content = notice(message, hint, fault=fault)
-        if not (fault or aloud):
-            return
         title, colour = ("Not done", ORANGE) if fault else ("tmd studio", BLUE)
         said = shortened(" – ".join(filter(None, (message, hint))))
         with self._voice:
             if self._aloud is not None:
                 self._aloud.remove()
-            self._aloud = self.client.add_notification(title, said, auto_close_seconds=ALOUD, color=colour)
+                self._aloud = None
+            if fault or aloud:
+                self._aloud = self.client.add_notification(title, said, auto_close_seconds=ALOUD, color=colour)
 
     def ask(self, title: str, question: str, yes: str, act: Act) -> None:
         """Do something if the visitor agrees."""

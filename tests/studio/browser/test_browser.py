@@ -327,7 +327,7 @@ def test_by_keys_alone(table_studio: Served, browser: Browser, screens: Path) ->
         )  # a hot key of a letter or digit means something else in an input
         keys.press("Enter")
         page.locator("ol:visible > li:nth-child(1) [aria-current=step]").wait_for()
-        stroke(page, "u", page.get_by_text("No steps yet."))
+        stroke(page, "u", page.get_by_text("No steps."))
         stroke(page, "r", page.locator("ol:visible > li:nth-child(1) [aria-current=step]"))
         keys.press("k")
         told(page, "Saved as shown-corner2-01")

@@ -395,6 +395,8 @@ class SayPanel(Panel):
             told = [*(grounded.warnings if not self._number() else ()), *doubts(grounded.parsed, plan, world)]
             good = outcome(verdict, reached) + (f": {verdict.reason}" if verdict.reason else "")
             self._judged.content = judgement(good, told)
+        going = self._run is not None and not self._run.over
+        self._robot.disabled = going or not plan.steps
         self._step = min(self._step, self._last())
         self._look(watch=watch)
 
