@@ -440,6 +440,27 @@ def test_request_and_plan_are_above_the_fold(kitchen_studio: Served, browser: Br
         page.locator("ol:visible > li:nth-child(3) [aria-current=step]").wait_for()
 
 
+SEEN = """() => ['[aria-current=step]', 'button'].map((kind) => {
+  const all = [...document.querySelectorAll(kind)].filter((each) => each.offsetParent);
+  const box = all.find((each) => kind !== 'button' || each.textContent === '▶|').getBoundingClientRect();
+  return box.top > 0 && box.bottom < 700;
+})"""
+"""Whether the step that is looked at, and the player, are seen without scrolling."""
+
+
+def test_the_player_stays_in_view_along_a_long_plan(kitchen_studio: Served, browser: Browser) -> None:
+    with visiting(browser, kitchen_studio, 1024, 700) as page:
+        say(page, RAMEN)
+        told(page, "Planned in")
+        for _ in range(14):
+            press(page, "▶")
+        page.locator("ol:visible > li:nth-child(14) [aria-current=step]").wait_for()
+        eventually(page, SEEN, [True, True])
+        press(page, "▶|")
+        page.locator("ol:visible > li").last.locator("[aria-current=step]").wait_for()
+        eventually(page, SEEN, [True, True])
+
+
 def test_a_state_without_places_is_a_graph(browser: Browser, tmp_path: Path, screens: Path) -> None:
     served = serve(tmp_path, "01_blocks")
     served.start()
