@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from itertools import product
 from random import Random
+from typing import Any
 
 import pytest
 
@@ -181,6 +183,31 @@ def test_too_much_is_refused() -> None:
     )
     with pytest.raises(TmdError, match="combinations of objects"):
         ground(problem)
+
+
+def test_a_thousand_things_in_one_place_are_matched_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The parcels and the van are at the depot; who asks for each parcel which van is there sees all parcels again."""
+    domain = parse_domain("""(define (domain d) (:requirements :typing) (:types truck parcel place)
+      (:predicates (at ?x - (either truck parcel) ?p - place) (in ?x - parcel ?t - truck))
+      (:action load :parameters (?x - parcel ?t - truck ?p - place)
+        :precondition (and (at ?x ?p) (at ?t ?p)) :effect (and (in ?x ?t) (not (at ?x ?p)))))""")
+    names = [f"b{number}" for number in range(1_000)]
+    facts = " ".join(f"(at {name} depot)" for name in names)
+    problem = parse_problem(
+        f"(define (problem x) (:domain d) (:objects {' '.join(names)} - parcel van - truck depot - place)"
+        f" (:init (at van depot) {facts}) (:goal (in b7 van)))",
+        domain,
+    )
+    matching, seen = semantics.JoinRelation.matching, []
+
+    def counted(relation: semantics.JoinRelation, places: tuple[int, ...], key: semantics.Row) -> Collection[Any]:
+        found = matching(relation, places, key)
+        seen.append(len(found))
+        return found
+
+    monkeypatch.setattr(semantics.JoinRelation, "matching", counted)
+    assert len(ground(problem).operators) == 1_000
+    assert sum(seen) < 10_000
 
 
 def test_a_cost_without_a_value_is_refused() -> None:

@@ -28,6 +28,7 @@ from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
 from tmd.world.corpus import Corpus
 from tmd.world.folder import DomainFolder
+from tmd.world.roots import Roots
 from tmd.world.world import World
 
 VISITORS = 10
@@ -639,3 +640,16 @@ def test_what_the_robot_tried_in_vain_is_shown(
             visitor.shows("data:image/jpeg;base64,")
     finally:
         served.close()
+
+
+def test_a_plain_problem_file_is_an_environment(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its domain is beside it, and has neither words nor demonstrations."""
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    for name in ("domain", "p01"):
+        shutil.copy(Path(__file__).parents[1] / "pddl" / "cases" / "blocks" / f"{name}.pddl", tmp_path)
+    file = tmp_path / "p01.pddl"
+    corpus = Roots(None, None).corpus_of(file)
+    studio = Studio(corpus, Teacher(corpus), file)
+    assert studio.environments() == [studio.start]
+    assert studio.setting(studio.start).look is None
+    assert studio.setting(studio.start).name == studio.start

@@ -137,3 +137,10 @@ def test_what_the_plan_has_nothing_to_do_with_stands_in_brackets(kitchen: World)
     fill, stir, open_it = meanings_in(parsed.clauses, enumerate(served), kitchen)
     assert fill == {"cup": ("cup1",), "water": ("water",)}
     assert stir == {"mixture": ("(milk1)",)} and open_it == {"fridge": ("fridge1",)}
+
+
+def test_all_of_several_things_are_named(kitchen: World) -> None:
+    taken = [parse_instruction(f"grasp({bowl})") for bowl in ("bowl1", "bowl2")]
+    for text, names in (("Take both bowls.", ("bowl1", "bowl2")), ("Take the bowl.", ("bowl1",))):
+        (meant,) = meanings_in(parse(text).clauses, [(0, taken)], kitchen)
+        assert meant["bowl"] == names

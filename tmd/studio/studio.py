@@ -19,7 +19,6 @@ from tmd.studio.view3d.meshes import Figure
 from tmd.studio.view3d.performance import RobotRun
 from tmd.world.corpus import Corpus
 from tmd.world.demonstration import Demonstration
-from tmd.world.environment import load_environment
 
 
 class Studio:
@@ -53,7 +52,7 @@ class Studio:
         if isinstance(start, Path) and start.parent == corpus.directory / "environments":
             start = start.stem
         elif isinstance(start, Path):
-            name = load_environment(start).name
+            name = corpus.read(start).name
             self._extra[name], start = start, name
         names = self.environments()
         if not names:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeAlias
 
 from tmd.inference.ranking import RankedPlan
-from tmd.language.clause import PERSONS, Clause, Parsed
+from tmd.language.clause import PERSONS, Clause, Parsed, Quantifier
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.world.world import World
@@ -52,7 +52,7 @@ def meaning(clause: Clause, instructions: Iterable[Instruction], world: World, s
     used.update(dict.fromkeys(_touched(instructions, world, state)))
     names = [name for name in clause.objects if name not in PERSONS]
     names += [""] if clause.antecedents.get("") else []
-    return {name: _grounded(clause.meant(name), used, world, state) for name in names}
+    return {name: _grounded(clause.meant(name), used, world, state, several=_several(clause, name)) for name in names}
 
 
 def _touched(instructions: Iterable[Instruction], world: World, state: Bits) -> list[str]:
@@ -61,11 +61,25 @@ def _touched(instructions: Iterable[Instruction], world: World, state: Bits) -> 
     return sorted({argument for atom in changed for argument in atom.args} & world.profiles.constants)
 
 
-def _grounded(nouns: Iterable[str], used: Mapping[str, None], world: World, state: Bits) -> tuple[str, ...]:
-    """Return for each noun an object that is used, else a substance that is, else the likeliest object."""
+def _several(clause: Clause, name: str) -> bool:
+    """Return whether a noun of a clause may name more than one thing."""
+    phrase = clause.phrases.get(name)
+    return phrase is not None and (phrase.plural or phrase.quantifier is Quantifier.ALL)
+
+
+def _grounded(
+    nouns: Iterable[str], used: Mapping[str, None], world: World, state: Bits, *, several: bool
+) -> tuple[str, ...]:
+    """Return for each noun an object that is used, else a substance that is, else the likeliest object.
+
+    Of several things, return all that are used and that the noun names as well as the first.
+    """
     found: dict[str, None] = {}
     for noun in nouns:
         objects = world.mentions.meant(Clause("", (noun,)), used, state)
+        if several:
+            matches = [match for match in world.mentions.of(noun, state) if match.name in used]
+            objects = tuple(match.name for match in matches if match.score == matches[0].score) or objects
         constants = world.mentions.constants(noun)
         substance = next((c for c in constants if c in used), None) or (noun if noun in constants else None)
         if substance is not None and not any(name in used for name in objects):

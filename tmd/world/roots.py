@@ -164,16 +164,24 @@ class Roots:
         Raises:
             TmdError: One of them is missing or wrong.
         """
+        path = self.environment(environment, domain)
+        corpus = self.corpus_of(path, domain)
+        return corpus, corpus.world(path.stem if path == corpus.directory / "environments" / path.name else path)
+
+    def corpus_of(self, path: Path, domain: str | None = None) -> Corpus:
+        """Return the corpus of a domain, by default that of the environment in a file.
+
+        Raises:
+            TmdError: The environment or its domain is missing or wrong.
+        """
         from tmd.world.environment import load_environment
 
-        path = self.environment(environment, domain)
         if domain is None:
             if path.suffix != ".pddl":
                 domain = load_environment(path).domain
             elif path.parent.name == "environments":
                 domain = path.parent.parent.name
-        corpus = self.corpus(self.of_problem(path) if domain is None else self.folder(domain))
-        return corpus, corpus.world(path.stem if path == corpus.directory / "environments" / path.name else path)
+        return self.corpus(self.of_problem(path) if domain is None else self.folder(domain))
 
     def recorded(self, place: str, domain: str | None) -> tuple[Corpus, World]:
         """Return the environment that a record names, with its domain, or with the one beside its PDDL problem.

@@ -128,10 +128,7 @@ def lsp(roots: Roots) -> ExitCode:
 
 def _opened(roots: Roots, domain: str | None, environment: str | None) -> tuple[Corpus, Path | None]:
     """Return the domain: that of the environment, unless one is named; and the environment's file."""
-    from tmd.world.environment import load_environment
-
-    path = roots.environment(environment, domain) if environment else None
-    if path is not None and domain is None:
-        bundled = path.suffix == ".pddl" and path.parent.name == "environments"
-        domain = path.parent.parent.name if bundled else load_environment(path).domain
-    return roots.corpus(roots.folder(domain or "kitchen")), path
+    if environment is None:
+        return roots.corpus(roots.folder(domain or "kitchen")), None
+    path = roots.environment(environment, domain)
+    return roots.corpus_of(path, domain), path

@@ -6,7 +6,7 @@ first (semi-naive evaluation), so no binding is tried that could not apply.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
@@ -67,17 +67,25 @@ class _Match:
 
     def run(self, rows: list[Row]) -> list[Row]:
         out: list[Row] = []
+        # many rows have one key: a thousand things stand in one place
+        known: dict[Row, list[Row]] = {}
         for row in rows:
             key = tuple(row[k] if isinstance(k, int) else k for k in self.key)
-            for found in self.relation.matching(self.places, key):
-                if any(found[a] != found[b] for a, b in self.same):
-                    continue
-                values = tuple(found[p] for p in self.new)
-                if all(v in a for v, a in zip(values, self.allowed, strict=True)):
-                    out.append(row + values)
+            if key not in known:
+                known[key] = list(self._values(key))
+            out += [row + values for values in known[key]]
             if len(out) > _MOST_ROWS:
                 raise _too_many_rows()
         return out
+
+    def _values(self, key: Row) -> Iterator[Row]:
+        """Yield the values of the new variables in the rows of the relation that match a key."""
+        for found in self.relation.matching(self.places, key):
+            if any(found[a] != found[b] for a, b in self.same):
+                continue
+            values = tuple(found[p] for p in self.new)
+            if all(v in a for v, a in zip(values, self.allowed, strict=True)):
+                yield values
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,7 +25,7 @@ from tmd.studio.demonstrations.correction import as_corrected, steps_of
 from tmd.studio.environment_view import Reel
 from tmd.studio.page import PageLink
 from tmd.studio.view3d.performance import RobotRun
-from tmd.studio.visitor import Panel, Visitor, chosen, put
+from tmd.studio.visitor import TABS, Panel, Visitor, chosen, put
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
@@ -257,6 +257,8 @@ class SayPanel(Panel):
         put(self._text, demonstration.text)
         self._show(grounded)
         used = self._whether_used(demonstration, grounded)
+        if demonstration.proposed is not None:  # nothing is left to correct; what was saved is here
+            visitor.show_tab(TABS[0])
         visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
 
     def learned(self) -> None:
