@@ -49,6 +49,13 @@ def test_nodes_do_not_overlap(layout: Layout) -> None:
     assert found == placed(sizes, pairs, layout)
 
 
+def test_many_things_in_one_place_stand_in_several_rows() -> None:
+    sizes: dict[str, Point] = {"depot": (60.0, 23.0), **{f"box{n}": (70.0, 23.0) for n in range(76)}}
+    found = placed(sizes, [(name, "depot") for name in sizes if name != "depot"], by_graphviz)
+    assert overlapping(found, sizes) == []
+    assert max(x for x, _ in found.values()) < 1_200
+
+
 def test_a_machine_without_graphviz_uses_networkx(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("PATH", "")
     sizes: dict[str, Point] = {name: (60.0, 23.0) for name in "abc"}

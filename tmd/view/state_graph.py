@@ -9,9 +9,10 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, cos, sin
+from math import atan2, ceil, cos, sin
 
 from tmd.goals.wording import Wording
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
@@ -215,7 +216,7 @@ def by_graphviz(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) ->
     """Place nodes by ``dot`` of Graphviz, or by networkx where that fails."""
     numbers = {name: number for number, name in enumerate(sizes)}
     nodes = (f"{numbers[n]} [width={w / _INCH:.3f}, height={h / _INCH:.3f}]" for n, (w, h) in sizes.items())
-    arrows = (f"{numbers[one]} -> {numbers[other]}" for one, other in pairs)
+    arrows = (f"{numbers[one]} -> {numbers[other]}" for one, other in _stacked(sizes, pairs))
     text = "\n".join(("digraph {", "nodesep=0.45 ranksep=0.6 node [shape=box fixedsize=true]", *nodes, *arrows, "}"))
     try:
         done = subprocess.run(
@@ -226,6 +227,27 @@ def by_graphviz(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) ->
     lines = [_WORDS.findall(line) for line in done.stdout.splitlines()]
     found = {int(line[1]): (float(line[2]) * _INCH, -float(line[3]) * _INCH) for line in lines if line[0] == "node"}
     return {name: found[number] for name, number in numbers.items()}
+
+
+def _stacked(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    """Return edges for a layout in which many nodes that hang on one other node stand in several ranks.
+
+    Each node of a further rank hangs on one of the rank before.
+    """
+    found = list(pairs)
+    edges = Counter(name for pair in found for name in pair)
+    hanging: dict[tuple[str, int], list[int]] = {}
+    for number, pair in enumerate(found):
+        leaf = next((end for end in (0, 1) if edges[pair[end]] == 1), None)
+        if leaf is not None:
+            hanging.setdefault((pair[1 - leaf], leaf), []).append(number)
+    for (_, leaf), numbers in hanging.items():
+        leaves = [found[number][leaf] for number in numbers]
+        ranks = ceil(sum(sizes[name][0] + _GAP for name in leaves) / _WIDTH)
+        many = ceil(len(leaves) / ranks)
+        for number, name, before in zip(numbers[many:], leaves[many:], leaves, strict=False):
+            found[number] = (name, before) if leaf == 0 else (before, name)
+    return found
 
 
 def by_networkx(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) -> Places:
