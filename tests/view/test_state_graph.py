@@ -17,7 +17,11 @@ from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import validate
 from tmd.view import state_graph
+from tmd.view.page import render
+from tmd.view.sources import ViewRequest, subject_of_file
 from tmd.view.state_graph import MOST, Layout, Places, Point, StateGraph, by_graphviz, by_networkx, object_rows, placed
+from tmd.view.subject import PlannedStep, Subject
+from tmd.world.roots import Roots
 
 PLAN = [parse_instruction(line) for line in ("pick_up(red_block)", "stack(red_block, green_block)")]
 
@@ -109,9 +113,6 @@ def test_a_row_for_each_object_of_a_plan() -> None:
 
 
 def test_the_page_draws_a_problem(tmp_path: Path) -> None:
-    from tmd.view.page import render
-    from tmd.view.subject import PlannedStep, Subject
-
     problem, _ = blocks()
     page = render(Subject("blocks", problem, tuple(PlannedStep(each) for each in PLAN))).html
     assert page.count("<svg") == 2 and "edge came" in page and "tmd-rows" in page
@@ -119,9 +120,6 @@ def test_the_page_draws_a_problem(tmp_path: Path) -> None:
 
 
 def test_a_problem_without_a_plan_is_drawn(tmp_path: Path) -> None:
-    from tmd.view.sources import ViewRequest, subject_of_file
-    from tmd.world.roots import Roots
-
     file = tmp_path / "no.pddl"
     goal = "(and (on a b) (on b a))"
     init = "(hand_empty) (clear a) (clear b) (on_table a) (on_table b)"
@@ -129,3 +127,14 @@ def test_a_problem_without_a_plan_is_drawn(tmp_path: Path) -> None:
     found = subject_of_file(Roots(), ViewRequest(str(file), domain="01_blocks", problem=file))
     assert found.subject.steps == () and "no plan was found" in found.remarks[0]
     assert found.ending(validate(found.subject.problem, [])) == ExitCode.NOT_GROUNDED
+    assert "✗ no plan</b>: none was found" in render(found.subject).html
+
+
+def test_a_problem_whose_goal_holds_has_a_plan_without_steps(tmp_path: Path) -> None:
+    file = tmp_path / "so.pddl"
+    file.write_text("(define (problem so) (:domain blocks) (:objects a - block) (:init (clear a)) (:goal (clear a)))")
+    found = subject_of_file(Roots(), ViewRequest(str(file), domain="01_blocks", problem=file))
+    assert found.ending(validate(found.subject.problem, [])) == ExitCode.OK
+    page = render(found.subject).html
+    assert "✓ executable</b>: there is nothing to do" in page or "✓ reaches its goal</b>: there is nothing" in page
+    assert "no plan" not in page

@@ -79,7 +79,7 @@ class FoundSubject:
 
     def ending(self, verdict: Verdict) -> ExitCode:
         """Return the exit code, given the validator's verdict on the plan."""
-        if self.of_text and not (self.subject.steps or self.subject.plans):
+        if self.of_text and not self.subject.planned:
             return ExitCode.NOT_GROUNDED
         return ExitCode.OK if verdict.valid else ExitCode.INVALID_PLAN
 
@@ -127,7 +127,9 @@ def _planned(roots: Roots, asked: ViewRequest) -> FoundSubject:
     remarks = () if solved else (f"warning: {asked.name}: no plan was found; the page shows the initial state\n",)
     where = {"problem": asked.problem, "domain": problem.domain.name}
     title = f"{asked.path.name}: {'a plan in ' if solved else ''}{problem.name}"
-    return FoundSubject(Subject(title, problem, steps, made=made_rows(where)), remarks, of_text=not solved)
+    refused = "" if solved else "none was found"
+    subject = Subject(title, problem, steps, made=made_rows(where), refused=refused)
+    return FoundSubject(subject, remarks, of_text=not solved)
 
 
 def _of_json(roots: Roots, asked: ViewRequest, text: str, lines: Lines) -> FoundSubject:

@@ -78,7 +78,7 @@ class Subject:
         plans: All ranked plans, the one shown first; empty where nothing was ranked.
         refusals: Templates that could not be used.
         strip: The filmstrip of that, as a ``data:`` address; empty without one.
-        refused: The reason why there is no plan for the text; empty where there is one, or where it is not known.
+        refused: The reason why there is no plan; empty where there is one, or where it is not known.
     """
 
     title: str
@@ -92,6 +92,11 @@ class Subject:
     made: tuple[tuple[str, str], ...] = ()
     refused: str = ""
     doubts: tuple[str, ...] = ()
+
+    @property
+    def planned(self) -> bool:
+        """Whether there is a plan; it may have no steps, where nothing is to be done."""
+        return bool(self.steps or self.plans or not (self.said or self.refused))
 
     @property
     def goals(self) -> tuple[StepGoal, ...]:
