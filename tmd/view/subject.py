@@ -95,7 +95,7 @@ class Subject:
 
     @property
     def planned(self) -> bool:
-        """Whether there is a plan; it may have no steps, where nothing is to be done."""
+        """Return whether there is a plan; it has no steps where nothing is to be done."""
         return bool(self.steps or self.plans or not (self.said or self.refused))
 
     @property

@@ -445,7 +445,7 @@ SEEN = """() => ['[aria-current=step]', 'button'].map((kind) => {
   const box = all.find((each) => kind !== 'button' || each.textContent === '▶|').getBoundingClientRect();
   return box.top > 0 && box.bottom < 700;
 })"""
-"""Whether the step that is looked at, and the player, are seen without scrolling."""
+"""Returns true for the step that is looked at, and for the player, if they are seen without scrolling."""
 
 
 def test_the_player_stays_in_view_along_a_long_plan(kitchen_studio: Served, browser: Browser) -> None:
