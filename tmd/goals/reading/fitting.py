@@ -45,7 +45,7 @@ class Fitting:
                 not (row.looks_back and not unit.relations),  # "put it back": where it was
                 -len(row.slots) - (row.noun is not None),
                 -self._latest(row, unit, reading),
-                counted and not self._takes_things(row, unit, reading),
+                counted and not self.takes_things(row, unit, reading),
                 (row.source == ACTIONS or self._names_no_substance(unit)) and not self._takes_named(row, unit),
             ),
         )
@@ -68,7 +68,7 @@ class Fitting:
         where = where or (definite and is_relation(relation, "partitive"))
         return where and self.referents.tells_which(unit.direct, relation, target or "", reading)
 
-    def _takes_things(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+    def takes_things(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         """Return whether what the verb acts on may be an object, not only something that objects contain."""
         if row.direct is None or unit.direct is None:
             return False

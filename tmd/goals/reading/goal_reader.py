@@ -111,7 +111,7 @@ class GoalReader:
         """Return what ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         decisions = decisions or Decisions()
         reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited, decisions=decisions)
-        clause = reading.clause = self._with_states(self.referents.reattached(reading))
+        clause = reading.clause = self._with_states(self._of_oneself(self.referents.reattached(reading)))
         lost = None if self.guess else lost_amount(clause)
         if lost is not None:
             message = f"nothing here can tell '{lost}' of something"
@@ -220,11 +220,18 @@ class GoalReader:
         relations, stated = (tuple(r for r in rs if r != relation) for rs in (clause.relations, clause.stated))
         objects = tuple(o for o in clause.objects if o != relation.target or any(o in r for r in relations))
         clause = replace(clause, relations=relations, stated=stated, objects=objects)
-        if goes and not clause.result:
+        if goes and clause.result in (None, state):
             return replace(clause, result=state)
         phrase = clause.phrase(relation.source or "")
         described = replace(phrase, attributes=(*phrase.attributes, state))
         return replace(clause, phrases={**clause.phrases, phrase.name: described})
+
+    def _of_oneself(self, clause: Clause) -> Clause:
+        """Return a clause with nothing left out, if its verb moves who acts: "take the car and sail to the isle"."""
+        rows = (row for table in self.tables for row in table.of(clause.verb) if "" in clause.antecedents)
+        if clause.direct or not any(row.direct is None and row.noun is None and row.places for row in rows):
+            return clause
+        return replace(clause, antecedents={n: meant for n, meant in clause.antecedents.items() if n})
 
     def _is_state(self, clause: Clause) -> bool:
         """Return whether a clause says what is to be so, and no row says what that means."""

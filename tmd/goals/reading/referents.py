@@ -529,8 +529,20 @@ class Referents:
             few = self.nouns.too_few(phrase, constants, reading.state)
             mode, number = mode_of(phrase, group=False, thing=bool(few))
             return Referent(noun, few or constants, mode, number, phrase.definite)
+        if place and not objects:
+            return Referent(noun, self._within(likely, types, reading))
         referent = self._counted(objects, context, certain=things == likely)
         return self._told_apart(referent, context)
+
+    def _within(self, regions: Collection[str], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        """Return the things that always are in what a noun names: "to Paris" is to some place there."""
+        names = (n for n in self.world.profiles.objects if regions and self.grounder.is_a(n, types))
+        static = {
+            fact for region in regions for fact in self.nouns.facts_about(region) if fact in self.world.task.static
+        }
+        there = {name for fact in static if len(fact.args) == 2 for name in fact.args}
+        inside = the_word("relations", "inside")
+        return self.nouns.related_now((n for n in names if n in there), inside, tuple(regions), reading.moments)
 
     def _counted(self, objects: tuple[str, ...], context: Context, *, certain: bool) -> Referent:
         """Return how many of the objects that a noun may mean are meant."""

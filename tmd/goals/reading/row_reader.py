@@ -470,9 +470,7 @@ class RowReader:
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
             if not isinstance(found, Refusal):
-                row, found = self._still_to_do(fitting[place + 1 :], row, found, unit, reading)
-                shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
-                return self._with_fewer(shorter, row, found, unit, reading) or (found, row)
+                return self._settled(fitting[place + 1 :], row, found, unit, reading)
             failure = failure or found
             tried.append(f"{placed(row)}: {found.message}")
             if found.kind is RefusalKind.IMPOSSIBLE and self.fitting.takes_all(row, unit, reading):
@@ -482,6 +480,17 @@ class RowReader:
         if failure is None:
             failure = Refusal(RefusalKind.NOT_UNDERSTOOD, *_misfit(rows, unit, reading))
         return replace(failure, rows=tuple(tried))
+
+    def _settled(
+        self, others: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
+    ) -> Read:
+        """Return the goal by the first row that fits, or by another one that says rather what is meant."""
+        settled = self._still_to_do(others, row, found, unit, reading)
+        if isinstance(settled, Refusal):
+            return settled
+        found, row = settled
+        shorter = [each for each in others if len(each.slots) < len(row.slots)]
+        return self._with_fewer(shorter, row, found, unit, reading) or (found, row)
 
     def _short(self, unit: Unit, reading: ClauseReading) -> Refusal | None:
         """Return a refusal of *both eggs* where there is one egg, also if only what is in it is asked for."""
@@ -506,17 +515,27 @@ class RowReader:
 
     def _still_to_do(
         self, others: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
-    ) -> tuple[GoalRow, Formula]:
-        """Return another row where one asks only to be rid of what is nowhere: "throw the egg away" means the egg."""
+    ) -> Read:
+        """Return another row where one asks only to be rid of what is nowhere: "throw the egg away" means the egg.
+
+        Where there is no such row, the egg stays.
+        """
         if not (only_negative(found) and self.grounder.truth(found, reading.state)):
-            return row, found
+            return found, row
         before = dict(reading.meant), list(reading.approach), list(reading.notes)
         for other in (each for each in others if len(each.slots) == len(row.slots)):
             tried = self._by_row(other, unit, reading)
             if not isinstance(tried, Refusal) and not self.grounder.truth(tried, reading.state):
-                return other, tried
+                return tried, other
             reading.meant, reading.approach, reading.notes = before
-        return row, found
+        thing = unit.direct and not unit.relations and reading.clause.phrase(unit.direct).definite
+        if (
+            thing
+            and self.nouns.things(unit.direct or "", reading.state)
+            and not self.fitting.takes_things(row, unit, reading)
+        ):
+            return self._cannot(reading)
+        return found, row
 
     def _with_fewer(
         self, shorter: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading

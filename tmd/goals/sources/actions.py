@@ -37,6 +37,7 @@ from tmd.pddl.model import (
     TypedName,
     TypeHierarchy,
     hierarchy,
+    predicates_of,
 )
 
 _ROWS = table("rows")
@@ -392,23 +393,42 @@ class _Words:
 
     def _going(self) -> Iterator[GoalRow]:
         """Yield ``go to Y`` for the place that an action takes the actor to, and ``send X to Y`` where it is named."""
-        found: dict[Formula, None] = {}
+        found: dict[Formula, dict[str, None]] = {}
         sent: dict[Formula, None] = {}
-        for there, left in self._whereabouts():
-            found[Exists(left, there) if left else there] = None
+        for action, there, left in self._whereabouts():
+            verb = split_name(action.name)[0]  # "sail to the isle", where that is what the ferry does
+            found.setdefault(Exists(left, there) if left else there, {})[verb] = None
             if len(left) == 1:
                 named = tuple("?x" if term == left[0].name else term for term in there.terms)
                 sent[Atom(there.predicate, named)] = None
         where, why = Slot("?y", _ROWS["going"]), "a predicate of where one is"
-        yield from (self._row(_ROWS["go"], (where,), condition, "go to Y", why) for condition in found)
-        for condition, name in product(found, table("nouns")["oneself"] if not sent else ()):
+        for condition, verbs in found.items():
+            yield self._row(tuple(dict.fromkeys((*_ROWS["go"], *verbs))), (where,), condition, "go to Y", why)
+            was = Forall((TypedName("?y", self._place_types(condition)),), Imply(_before(condition, FIRST), condition))
+            yield self._row(_ROWS["home"], (), was, "come_back", why)
+        named_so = [(condition, name) for condition in found for name in self._oneself(condition) if not sent]
+        for condition, name in named_so:
             row = self._row((*_ROWS["send"], *_ROWS["put"]), (where,), condition, f"send {name} to Y", why)
             yield replace(row, noun=name)
         both = Slot("?x"), where
         yield from (self._row(_ROWS["send"], both, condition, "send X to Y", why) for condition in sent)
 
-    def _whereabouts(self) -> Iterator[tuple[Atom, tuple[TypedName, ...]]]:
-        """Yield the atoms that say where one is who acts, with ``?y`` for the place, and the parameters left open."""
+    def _place_types(self, condition: Formula) -> tuple[str, ...]:
+        """Return the types of ``?y`` in an atom, or one with some arguments left open."""
+        atom = condition.part if isinstance(condition, Exists) else condition
+        assert isinstance(atom, Atom)
+        predicate = next(p for p in self.domain.predicates if p.name == atom.predicate)
+        return predicate.parameters[atom.terms.index("?y")].types
+
+    @staticmethod
+    def _oneself(condition: Formula) -> Iterator[str]:
+        """Yield the nouns for who acts: *robot*, and *ferry* with ``at-ferry``."""
+        yield from table("nouns")["oneself"]
+        (name,) = predicates_of(condition)
+        yield from (w for w in split_name(name) if not (_is_preposition(w) or w in words_of("located")))
+
+    def _whereabouts(self) -> Iterator[tuple[ActionSchema, Atom, tuple[TypedName, ...]]]:
+        """Yield for each action the atoms of where one is who acts, with ``?y`` for the place, and what is open."""
         for action in self.domain.actions:
             given = {p.name: p for p in action.parameters}
             for atom, (place,) in _journeys(action):
@@ -416,7 +436,7 @@ class _Words:
                 if all(map(self.actor, others)):
                     names = {**{p.name: f"?any_{i}" for i, p in enumerate(others)}, place: "?y"}
                     terms = tuple(names.get(term, term) for term in atom.terms)
-                    yield Atom(atom.predicate, terms), tuple(TypedName(names[p.name], p.types) for p in others)
+                    yield action, Atom(atom.predicate, terms), tuple(TypedName(names[p.name], p.types) for p in others)
 
     def contents(self) -> Iterator[GoalRow]:
         """Yield ``fill V with S`` for predicates that join a thing and a value, and that actions bring about."""
