@@ -50,6 +50,55 @@ PROBLEM = """
 """
 
 
+ISLES = """
+(define (domain isles)
+  (:requirements :typing)
+  (:types barge crate place port yard region - object)
+  (:predicates (barge-at ?p - place) (is_at ?c - crate ?p - place) (aboard ?c - crate)
+               (in-region ?p - place ?r - region) (on ?c - crate ?o - crate))
+  (:action sail :parameters (?x ?y - place) :precondition (barge-at ?x)
+    :effect (and (barge-at ?y) (not (barge-at ?x))))
+  (:action hoist :parameters (?c - crate ?p - place) :precondition (and (barge-at ?p) (is_at ?c ?p))
+    :effect (and (aboard ?c) (not (is_at ?c ?p))))
+  (:action lower :parameters (?c - crate ?p - place) :precondition (and (barge-at ?p) (aboard ?c))
+    :effect (and (is_at ?c ?p) (not (aboard ?c))))
+  (:action pile :parameters (?c ?o - crate ?p - place) :precondition (and (is_at ?c ?p) (is_at ?o ?p))
+    :effect (on ?c ?o)))
+"""
+ISLES_PROBLEM = """
+(define (problem dawn) (:domain isles)
+ (:objects north_quay south_quay mill - place north south - region a b c - crate)
+ (:init (barge-at mill) (is_at a mill) (is_at b mill) (is_at c north_quay) (in-region north_quay north)
+        (in-region south_quay south) (in-region mill south))
+ (:goal (and)))
+"""
+
+
+@pytest.fixture(scope="module")
+def isles(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return plain_world(tmp_path_factory.mktemp("isles"), ISLES, ISLES_PROBLEM)
+
+
+@pytest.mark.parametrize(
+    ("text", "held", "gone"),
+    [
+        ("Put a on b.", {"(on a b)"}, {"(on b a)"}),
+        ("Take crate a to the north.", {"(is_at a north_quay)"}, set()),
+        ("Bring the barge to the south quay.", {"(barge-at south_quay)"}, set()),
+        (
+            "Take a to the north quay, then sail to the south quay.",
+            {"(is_at a north_quay)", "(barge-at south_quay)"},
+            set(),
+        ),
+        ("Bring b to the south quay and come back.", {"(is_at b south_quay)", "(barge-at mill)"}, set()),
+        ("Sail to the north quay and take a there.", {"(is_at a north_quay)"}, set()),
+        ("Move a to the south quay and carry it back.", {"(is_at a mill)"}, set()),
+    ],
+)
+def test_who_acts_where_and_back(isles: Path, text: str, held: set[str], gone: set[str]) -> None:
+    assert_ends(isles, text, held, gone)
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return plain_world(tmp_path_factory.mktemp("night_shift"), DOMAIN, PROBLEM)
@@ -129,3 +178,7 @@ def test_people_who_are_not_here_and_two_things(environment: str, text: str, hel
     domain = "kitchen" if environment.startswith("kitchen") else "living_room"
     facts = end(said(domain, environment, text))
     assert held <= facts and not gone & facts
+
+
+def test_what_nothing_here_can_throw_away_is_told() -> None:
+    assert "cannot be done here" in said("kitchen", "kitchen1", "Throw away the egg.").reason
