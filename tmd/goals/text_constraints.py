@@ -11,8 +11,9 @@ from tmd.goals.grounder import Moments
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.referents import ANY_TYPE, is_none
-from tmd.goals.words import BE, is_pronoun, is_relation, is_verb, words_of
+from tmd.goals.words import BE, is_one, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, Clause, Mood, Parsed
+from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import atoms_of
 from tmd.pddl.model import Atom, Formula, GroundAtom, Not
 from tmd.pddl.task import Bits, Cube
@@ -223,7 +224,14 @@ class ConstraintReader:
                 names = tuple(n for n in names if n not in left)
             elif not is_relation(relation, "locating"):
                 names = nouns.related_now(names, relation, nouns.things(target, state), moments) or names
-        return nouns.narrowed(names, clause.phrase(noun), moments)[0]
+        found = nouns.narrowed(names, clause.phrase(noun), moments)[0]
+        return found or (self._another_one(noun, meant, clause, state) if is_one(noun) else ())
+
+    def _another_one(self, noun: str, meant: Iterable[str], clause: Clause, state: Bits) -> tuple[str, ...]:
+        """Return the things of a wider kind that *one* is: "the empty beer bottles, and not the full one"."""
+        nouns = self.reader.nouns
+        alike = dict.fromkeys(n for one in meant for n in nouns.things(split_name(one)[-1], state))
+        return nouns.narrowed(tuple(alike), clause.phrase(noun), Moments(state, state))[0]
 
     def preserved(self, clause: Clause, state: Bits, memory: Memory) -> list[Formula] | Refusal:
         """Return what *leave the door open* or *leave the cup where it is* keeps."""

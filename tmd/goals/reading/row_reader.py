@@ -20,7 +20,7 @@ from tmd.goals.reading.requirements import Pairs, Requirements
 from tmd.goals.reasons import forms, placed, why_impossible
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, is_verb, relations_said, table, the_word, words_of
-from tmd.language.clause import NounPhrase, Quantifier
+from tmd.language.clause import PERSONS, NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.pddl.ground_formula import (
@@ -616,7 +616,8 @@ class RowReader:
             if r.source and r.source not in clause.direct
         ]
         for relation, target in (*leftover, *further):
-            named = not (self.referents.points_back(target) or is_noun(target, "degrees") or is_none(target, clause))
+            said = self.referents.points_back(target) or target in PERSONS  # "on the table beside her"
+            named = not (said or is_noun(target, "degrees") or is_none(target, clause))
             if named and self._is_not_there(relation, target, reading):
                 return self.referents.missing(Referent(target, ()), reading)
         return None
