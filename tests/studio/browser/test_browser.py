@@ -452,9 +452,9 @@ def test_the_player_stays_in_view_along_a_long_plan(kitchen_studio: Served, brow
     with visiting(browser, kitchen_studio, 1024, 700) as page:
         say(page, RAMEN)
         told(page, "Planned in")
-        for _ in range(14):
+        for number in range(1, 15):
             press(page, "▶")
-        page.locator("ol:visible > li:nth-child(14) [aria-current=step]").wait_for()
+            page.locator(f"ol:visible > li:nth-child({number}) [aria-current=step]").wait_for()
         eventually(page, SEEN, [True, True])
         press(page, "▶|")
         page.locator("ol:visible > li").last.locator("[aria-current=step]").wait_for()
