@@ -182,3 +182,11 @@ def test_people_who_are_not_here_and_two_things(environment: str, text: str, hel
 
 def test_what_nothing_here_can_throw_away_is_told() -> None:
     assert "cannot be done here" in said("kitchen", "kitchen1", "Throw away the egg.").reason
+
+
+@pytest.mark.parametrize("name", ["is", "been", "has", "has-been", "be_is", "at", "on-off"])
+def test_a_predicate_may_have_any_name(tmp_path: Path, name: str) -> None:
+    domain = f"""(define (domain d) (:requirements :strips) (:predicates ({name} ?x))
+      (:action touch :parameters (?x) :precondition (not ({name} ?x)) :effect ({name} ?x)))"""
+    folder = plain_world(tmp_path, domain, "(define (problem p) (:domain d) (:objects box) (:init) (:goal (and)))")
+    assert_ends(folder, "Touch the box.", {f"({name} box)"}, set())

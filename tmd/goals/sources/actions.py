@@ -170,8 +170,9 @@ class _Words:
 
     def _part_in(self, predicate: Predicate) -> tuple[str, ...]:
         """Return a compound noun and its head before a state: ``water_trough_is_full``."""
-        *nouns, last = (w for w in plain_words(predicate, self.types) if w not in section("be"))
-        stated = bool(nouns) and last in words_of("part_states") | section("end_states")
+        words = [w for w in plain_words(predicate, self.types) if w not in section("be")]
+        nouns, last = words[:-1], words[-1:]
+        stated = bool(nouns) and not (words_of("part_states") | section("end_states")).isdisjoint(last)
         return ("_".join(nouns), nouns[-1]) if stated else ()
 
     def _part_acted_on(self, action: ActionSchema) -> tuple[str, ...]:
