@@ -207,17 +207,27 @@ class RuleDialogue(Dialogue):
         each = frozenset(n for n, said in clause.phrases.items() if said.each and not said.plural)
         memory_here = self._with_named_before(step, state, progress.memory)
         progress = replace(progress, memory=memory_here, each=each)
-        left = is_verb(clause.verb, "leaving") and not clause.result  # "leave the one in the hall on" says how
-        stays = left and self._goals.is_there(clause, state, progress.memory)
-        if clause.mood is Mood.KEEP or stays:
-            if stays or clause.result or not self._goals.goes_elsewhere(clause, state, progress.memory):
-                return self._kept(step, state, progress)
-            clause = replace(clause, verb=PUT, mood=Mood.DO)  # "it shall remain on the table", wherever it is by now
-        found = self._goals.candidates(clause, state, progress.memory, awaited=step.awaited)
+        moved = self._to_be_done(clause, state, progress.memory)
+        if moved is None:
+            return self._kept(step, state, progress)
+        found = self._goals.candidates(moved, state, progress.memory, awaited=step.awaited)
         if isinstance(found, Refusal):
             idle = (step.optional and _means_nothing(step, found)) or self._is_aside(step, found)
-            return StepGoals((), progress, "" if _is_order(clause) else found.message) if idle else found
+            return StepGoals((), progress, "" if _is_order(moved) else found.message) if idle else found
         return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
+
+    def _to_be_done(self, clause: Clause, state: Bits, memory: Memory) -> Clause | None:
+        """Return the clause that is to be done; ``None`` where things stay as they are.
+
+        *It shall remain on the table* is to put it there, wherever it is by now.
+        """
+        left = is_verb(clause.verb, "leaving") and not clause.result  # "leave the one in the hall on" says how
+        stays = left and self._goals.is_there(clause, state, memory)
+        if not (clause.mood is Mood.KEEP or stays):
+            return clause
+        if stays or clause.result or not self._goals.goes_elsewhere(clause, state, memory):
+            return None
+        return replace(clause, verb=PUT, mood=Mood.DO)
 
     def _with_named_before(self, step: RuleStep, state: Bits, memory: Memory) -> Memory:
         """Return the memory with what the text names before a step and what is done to it later.

@@ -395,11 +395,8 @@ def _in_pddl(node: Group, source: Source) -> Group:
         return _only_group(written, node)
     if isinstance(head, Group):
         return _without_word(node, [part for part in rest if isinstance(part, Word)], source)
-    if head.text in ("when", "if") and any(isinstance(part, Word) and part.text == "then" for part in rest):
-        (then, *_) = [part for part in rest if isinstance(part, Word) and part.text == "then"]
-        edits = [source.removal(then.location, after(then))]
-        source.fault_once('"then" is not PDDL', then.location, "remove it", "other-notation", edits)
-        rest.remove(then)
+    if head.text in ("when", "if"):
+        rest = _without_then(rest, source)
         node = _group(node, head, *rest)
     if head.text == "not" or head.text[0] in "!~\u00ac":
         return _negation(node, head, rest, source)
@@ -408,6 +405,15 @@ def _in_pddl(node: Group, source: Source) -> Group:
     if len(rest) == 2 and node.head in ASSIGNED and isinstance(rest[0], Group):
         return truth_value(node, rest[0], rest[1], source)
     return _connective(node, head, rest, source)
+
+
+def _without_then(parts: Sequence[Node], source: Source) -> list[Node]:
+    """Return the parts of a condition without the word "then", which is reported."""
+    then = next((part for part in parts if isinstance(part, Word) and part.text == "then"), None)
+    if then is not None:
+        edits = [source.removal(then.location, after(then))]
+        source.fault_once('"then" is not PDDL', then.location, "remove it", "other-notation", edits)
+    return [part for part in parts if part is not then]
 
 
 def _only_group(written: Sequence[Node], node: Group) -> Group:

@@ -80,22 +80,30 @@ class InitReader:
             message = f'"{node.head}" is a function: its value stands behind "="'
             self.source.fault_once(message, node.location, f"write {shown}", "other-notation", edits)
             return Group((Word("=", node.location), function, last), node.location, node.end, node.depth)
-        first, between = before if len(before) == 2 else (None, None)
+        written = self._in_order(node, before, last) if len(before) == 2 else None
+        if written is not None:
+            return written
+        if node.head in ASSIGNED and len(before) == 2 and isinstance(before[1], Group):
+            return truth_value(node, before[1], last, self.source)
+        return node
+
+    def _in_order(self, node: Group, before: Sequence[Node], last: Node) -> Group | None:
+        """Return ``(= 3 (weight a))``, ``((weight a) = 3)`` or ``(= (at r) a)``, which are reported, in PDDL."""
+        first, between = before
         if isinstance(between, Word) and isinstance(last, Group) and node.head == "=" and between.text[0].isdigit():
             return _value(node.location, last, between, after(node), self.source)
         if isinstance(between, Word) and isinstance(first, Group) and between.text == "=":
             return _value(node.location, first, last, after(node), self.source)
-        atom = between if isinstance(between, Group) and isinstance(last, Word) and node.head == "=" else None
-        if atom is not None and not number and self.predicates.get(atom.head) == len(atom.parts):
-            name, value = shifted(atom.location, 1), self.source.text(last.location, after(last))
-            shown = f"({self.source.text(name, atom.end)} {value})"
-            edits = [Edit(node.location, after(node), shown)]
-            message = f'"{atom.head}" is a predicate, and has no value'
-            self.source.fault_once(message, node.location, f"write {shown}", "other-notation", edits)
-            return Group((*atom.parts, last), node.location, node.end, node.depth)
-        if node.head in ASSIGNED and len(before) == 2 and isinstance(before[1], Group):
-            return truth_value(node, before[1], last, self.source)
-        return node
+        if not (isinstance(between, Group) and isinstance(last, Word) and node.head == "="):
+            return None
+        if last.text[0].isdigit() or self.predicates.get(between.head) != len(between.parts):
+            return None
+        name, value = shifted(between.location, 1), self.source.text(last.location, after(last))
+        shown = f"({self.source.text(name, between.end)} {value})"
+        edits = [Edit(node.location, after(node), shown)]
+        message = f'"{between.head}" is a predicate, and has no value'
+        self.source.fault_once(message, node.location, f"write {shown}", "other-notation", edits)
+        return Group((*between.parts, last), node.location, node.end, node.depth)
 
     def _note(self, atom: GroundAtom, where: dict[GroundAtom, None], place: Location) -> None:
         if atom in where:

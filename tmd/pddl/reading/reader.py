@@ -720,7 +720,20 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
         hint = f"this is a {other}: name the file of the {kind}"
     if len(first.parts) < 2 or not _is_word(first.parts[0], "define", source):
         raise source.error(f"expected (define ({kind} name) ...)", first.location, hint)
-    title, *sections = first.parts[1:]
+    title, sections = _titled(first.parts[1:], kind, hint, source)
+    name = read_title(title.parts[1:], title.location, source, f"the name of a {kind}")
+    groups = _sections(sections, source)
+    _of_kind(kind, title.parts[0], name.text, groups, source)
+    return name, groups
+
+
+def _titled(parts: Sequence[Node], kind: str, hint: str, source: Source) -> tuple[Group, list[Node]]:
+    """Return the title of a definition, with its kind and a name, and the sections behind it.
+
+    Raises:
+        TmdError: There is no such title.
+    """
+    title, *sections = parts
     if isinstance(title, Word) and title.text == kind and sections and isinstance(sections[0], Word):
         title = _title_in_parentheses(title, sections.pop(0), source)
     if isinstance(title, Group) and title.head == f":{kind}":
@@ -732,10 +745,7 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
         raise source.error(f"expected ({kind} name){found}", title.location, hint)
     if len(title.parts) < 2:
         raise source.error(f"this {kind} has no name", title.location, f"write ({kind} name)")
-    name = read_title(title.parts[1:], title.location, source, f"the name of a {kind}")
-    groups = _sections(sections, source)
-    _of_kind(kind, title.parts[0], name.text, groups, source)
-    return name, groups
+    return title, sections
 
 
 def _is_word(node: Node, wanted: str, source: Source) -> bool:
