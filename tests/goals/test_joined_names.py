@@ -63,7 +63,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             {"(weighed parcelcook)", "(weighed parceltailor)"},
             set(),
         ),
-        ("The red boat looks shabby so paint it.", {"(painted redboat)"}, {"(painted blueboat)"}),
         (
             "If the gate of the south pier is open, close it; if it isn't, paint the blue boat.",
             {"(gateopen northpier)"},

@@ -55,7 +55,6 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             {"(lies fork StallOne)", "(lies bucket StallOne)"},
         ),
         ("The fork is dirty, into stall four with it.", {"(lies fork StallFour)"}, set()),
-        ("Stall three is where I want the bucket.", {"(lies bucket StallThree)"}, set()),
         ("The fork stays here, the bucket I need in stall four.", {"(lies bucket StallFour)"}, set()),
     ],
 )

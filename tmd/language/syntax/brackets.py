@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 
-from tmd.language.clause import TO, Span
+from tmd.language.clause import BE, TO, Span
 from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
 from tmd.language.syntax.corrections import CORRECTED, GAP, Corrections
 from tmd.language.syntax.tokens import ADDRESS, BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, mark, noted
@@ -372,8 +372,10 @@ class Bracketer(Corrections):
     def _wishes_state(self, at: int) -> bool:
         """Return whether a wish is for a state: "I want the fork put in the sink", "I'd like the window to be open"."""
         to = self.first(at + 2, "INF|STOP|COMMA|V")
-        if to < at + _NEAR and self.follows(to, "INF AUX") and self.kind(at + 1) is not K.PRON:
-            return True
+        if to < at + _NEAR and self.kind(to) is K.TO and self.kind(at + 1) is not K.PRON:
+            self._stands(to + 1)
+            if self.kind(to + 1) is K.AUX:
+                return True
         place, things = at + 1, False
         while self.follows(place, "(NP|P|ADV|MOD|EXC|TO|OF|CC|AUX)") and (
             self.kind(place) is not K.ADJ or self._leads(place)
@@ -381,6 +383,15 @@ class Bracketer(Corrections):
             things = things or self.kind(place) is K.N or self.among(place, "whole_words")
             place += 1
         return things and (self.kind(place) in (K.PARTICIPLE, K.ADJ) or self.among(place - 1, "end_states"))
+
+    def _stands(self, at: int) -> None:
+        """Read "to stand on the table", "to stay shut" as to be there or so."""
+        if not self.among(at, "postures", "staying", "belonging"):
+            return
+        if self.kind(at + 1) is K.FILLER and self.among(at + 1, "static"):
+            self.tokens[at + 1].kind = K.P  # no particle: "to go on the table"
+        if self.follows(at + 1, "ADV* (P|TO|REL|ADJ|PARTICIPLE)"):
+            self.tokens[at].kind, self.tokens[at].text = K.AUX, BE
 
     def _auxiliary(self, at: int) -> int:
         """Open a statement where a subject or "there" stands before an auxiliary; drop any other."""
@@ -796,7 +807,7 @@ class Bracketer(Corrections):
             for word in self.tokens[at + 2 : at + 6]:
                 word.kind = K.N if word.kind is K.V and self.lexicon.is_noun(word.text) else word.kind
         elif after.text in pairs("using_verbs") and self.among(at, "without_words"):
-            after.kind, after.stem = K.ING, pairs("using_verbs")[after.text]
+            after.kind = K.ING
 
     def _manner(self, at: int) -> int:
         """Bracket "without spilling it"; "by pressing it" is a clause, which may be what was started or tried."""

@@ -9,8 +9,8 @@ A pattern is a sequence of elements, separated by blanks:
 * ``( ... )``, with ``|`` between alternatives; behind an element or a group ``?``, ``*`` and ``+``;
 * ``^``: the beginning of a clause, ``^^`` of a sentence; ``$``: the end of a clause.
 
-The replacement has words, ``{x}`` for what was kept, ``{x.stem}`` for the verb of a kept word, and ``word/V`` for a
-word of a given class. Words of the pattern that are not kept disappear; with a ``note``, they are reported with it. A
+The replacement has words, ``{x}`` for what was kept, ``{x.stem}`` for the verb of a kept word, ``{x.end}`` for the
+end of a scale that kept words point to, and ``word/V`` for a word of a given class. Words of the pattern that are not kept disappear; with a ``note``, they are reported with it. A
 sentence in which a row has fired is tagged again. The rows of a domain's lexicon are tried after those of the file.
 """
 
@@ -39,7 +39,7 @@ _MARKS = {
 _GIVEN = {"ANY": rf"[^\t ]+\t(?!{Kind.STOP} )[A-Z]+ ", "ASKS": rf"[^\t ]*\?[^\t ]*\t{Kind.STOP} "}
 """Macros that patterns cannot express: any word, and a question mark."""
 _ELEMENT = re.compile(r"(?:(?P<slot>[a-z]):)?(?P<core>[^?*+]+)(?P<times>[?*+]?)\Z")
-_SLOT = re.compile(r"\{([a-z])(\.stem|\.deed)?\}\Z")
+_SLOT = re.compile(r"\{([a-z])(\.stem|\.deed|\.end)?\}\Z")
 _MOST = 4
 """Times that one row may fire in a sentence."""
 _LONGEST = 200
@@ -84,7 +84,7 @@ def _row(entry: Entry, macros: Mapping[str, str]) -> PhraseRow:
     slots = [(element, _SLOT.match(element)) for element in entry["as"].split()]
     for slot in (slot for _, slot in slots if slot and slot[1] not in pattern.groupindex):
         entry.fail("as", f"the pattern keeps nothing under '{slot[1]}'")
-    verbs = frozenset(slot[1] for _, slot in slots if slot and slot[2])
+    verbs = frozenset(slot[1] for _, slot in slots if slot and slot[2] in (".stem", ".deed"))
     deeds = frozenset(slot[1] for _, slot in slots if slot and slot[2] == ".deed")
     replacement = tuple((element, slot[1] if slot else "") for element, slot in slots)
     examples = tuple((entry[key], entry.places[key]) for key in ("example", "paraphrase"))
@@ -173,7 +173,7 @@ def _applied(
         if trace is not None:
             trace.append(row.id)
         begin, end = (text.count(" ", 0, place) for place in match.span())
-        used = {id(token) for _, name in row.replacement if name not in row.verbs for token in slots.get(name, ())}
+        used = {id(t) for e, name in row.replacement if e == f"{{{name}}}" for t in slots.get(name, ())}
         gone = [t for t in sentence[begin:end] if id(t) not in used and t.kind is not Kind.ADV]
         new = _new(row, slots, sentence[begin].span.start, gone, dropped)
         sentence = _decided([*sentence[:begin], *new, *sentence[end:]], lexicon, trace)
@@ -211,6 +211,9 @@ def _new(
         dropped += noted(gone, row.note)
     new: list[Token] = []
     for element, name in row.replacement:
+        if element.endswith(".end}"):  # "all the way down"
+            low = any(token.text in section("least_words") for token in slots[name])
+            element, name = f"{'minimum' if low else 'maximum'}/N", ""
         if name and name not in row.verbs:
             again = any(token is other for token in slots.get(name, ()) for other in new)
             new += [replace(token) if again else token for token in slots.get(name, ())]

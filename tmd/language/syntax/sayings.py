@@ -10,7 +10,7 @@ from itertools import zip_longest
 
 from lark import Tree
 
-from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WITH, Mood, Quantifier, Relation, Span
+from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WHERE, WITH, Mood, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
@@ -304,7 +304,7 @@ def _demand_plainly(draft: ClauseDraft, result: str) -> None:
         verb.stem, draft.result = pairs("state_verbs").get(result, result), None
     elif draft.settings():
         verb.stem, draft.result = SET, None
-    elif not result and WITH not in said and not said.isdisjoint(section("static") | section("arrivals")):
+    elif not result and WITH not in said and not said.isdisjoint({WHERE, *section("static"), *section("arrivals")}):
         verb.stem = PUT
 
 

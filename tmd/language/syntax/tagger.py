@@ -399,6 +399,8 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) ->
             token.stem, token.form, token.strength = reading[0], token.form or reading[1], reading[2]
     elif token.kind is Kind.LET:
         token.stem, token.form, token.strength = word, "base", 3
+    elif token.kind is Kind.P:
+        token.stem = pairs("using_verbs").get(word, "")
 
 
 def _spelled(token: Token, lexicon: Lexicon) -> str:
