@@ -131,12 +131,12 @@ def goal_tables(
     """
     declared = declared_goals(lexicon, domain)
     rows = declared.rows if DECLARED in sources else ()
-    tables = [GoalTable(rows, declared.attributes, declared.groups)]
+    read_off = (_actions(domain),) if ACTIONS in sources else ()
+    attributes = {word: said for table in read_off for word, said in table.attributes.items()} | declared.attributes
+    tables = [GoalTable(rows, attributes, declared.groups)]
     if LEARNED in sources and learned is not None:
         tables.append(learned)
-    if ACTIONS in sources:
-        tables.append(_actions(domain))
-    return tables
+    return [*tables, *read_off]
 
 
 @lru_cache(maxsize=8)

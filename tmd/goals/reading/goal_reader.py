@@ -23,6 +23,7 @@ from tmd.goals.words import (
     IT,
     NEGATED,
     PREPOSITIONS,
+    SETTING,
     family,
     is_noun,
     is_one,
@@ -161,9 +162,11 @@ class GoalReader:
 
     @cached_property
     def _place_states(self) -> Mapping[tuple[str, str], str]:
-        """The predicates of one thing that name a place: ``on-table`` and ``ontable`` for *on* and *table*."""
+        """The predicates of one thing that name a place, and states: ``on-table`` for *on* and *table*."""
         names = {p.name: "_".join(split_name(p.name)) for p in self.domain.predicates if len(p.parameters) == 1}
-        return {
+        states = {"_".join(plain_words(p, hierarchy(self.domain))) for p in self.domain.predicates if p.parameters}
+        states |= self.tables[0].attributes.keys()  # "set the signal to red"
+        return {(SETTING, state): state for state in states} | {
             (preposition, name.removeprefix(preposition).lstrip("_")): predicate
             for predicate, name in names.items()
             for preposition in PREPOSITIONS

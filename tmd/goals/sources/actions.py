@@ -28,6 +28,7 @@ from tmd.pddl.model import (
     Atom,
     Domain,
     Effect,
+    Equals,
     Exists,
     Forall,
     Formula,
@@ -61,7 +62,7 @@ def rows_of_actions(domain: Domain) -> GoalTable:
         *words.named_actions(shortened=True),
         *words.receipts(),
     ]
-    return GoalTable(tuple(rows))
+    return GoalTable(tuple(rows), words.settings())
 
 
 def actor_types(domain: Domain) -> frozenset[str]:
@@ -204,6 +205,21 @@ class _Words:
                         found = condition if positive else Not(condition)
                         yield self._row((verb,), (Slot("?x"),), found, f"{verb} X", f"'{wanted}' in {predicate.name}")
 
+    def settings(self) -> dict[str, Formula]:
+        """Return what a state in the name of an action says of a thing: *red* with ``set_red`` is no longer green."""
+        known = {word for p in self.domain.predicates for word in words_in_name(p.name)}
+        found: dict[str, Formula] = {}
+        for action in self.domain.actions:
+            verb, *state = split_name(action.name)
+            things = [p for p in action.parameters if not self.actor(p)]
+            told = len(state) == 1 and state[0] not in known and state[0] not in words_of("names", "particles")
+            if not told or len(things) != 1 or verb not in words_of("rows", "set"):
+                continue
+            effects = [self._said(effect, {things[0].name: "?x"}, action) for effect in self._brought_about(action)]
+            such = Exists((TypedName("?such", things[0].types),), Equals("?such", "?x"))
+            found[state[0]] = conjunction([such, *effects])
+        return found
+
     def parts(self) -> Iterator[GoalRow]:
         """Yield ``put the lid on X`` for a predicate such as ``lid_on``, and ``put soap in X`` for ``has_soap``."""
         for predicate in self.domain.predicates:
@@ -282,21 +298,22 @@ class _Words:
         if places:
             whither = tuple(dict.fromkeys(atom for atoms in places.values() for atom in atoms))
             yield self._placed("bring", "whither", disjunction(whither), "take X to Y")
-            nowhere = And(tuple(Not(atom) for atoms in places.values() for atom in atoms))
-            yield self._placed("take", "whence", nowhere, "take X from Y")
             yield from self._of_all_places()
         yield from self._exchanges()
 
     def _of_all_places(self) -> Iterator[GoalRow]:
-        """Yield ``clear Y``: nothing is there; and ``put back X``: it is where it was."""
+        """Yield ``take X from Y``; ``clear Y``: nothing is there; and ``put back X``: it is where it was."""
         made = (self.fluent & self.made) - set(self.passing)
         nothing: dict[Formula, None] = {}
         back: dict[Formula, None] = {}
-        for predicate in self.domain.predicates:
-            for _, atom in self._places(predicate) if predicate.name in made else ():
-                thing, place = (p.types for p in self.things(predicate))
-                nothing[Not(Exists((TypedName("?x", thing),), atom))] = None
-                back[Forall((TypedName("?y", place),), Imply(_before(atom, FIRST), atom))] = None
+        placed = [(p, atom) for p in self.domain.predicates if p.name in made for _, atom in self._places(p)]
+        for predicate, atom in placed:
+            thing, place = (p.types for p in self.things(predicate))
+            nothing[Not(Exists((TypedName("?x", thing),), atom))] = None
+            back[Forall((TypedName("?y", place),), Imply(_before(atom, FIRST), atom))] = None
+        for place in dict.fromkeys(self.things(predicate)[1] for predicate, _ in placed):
+            there = dict.fromkeys(atom for predicate, atom in placed if self._alike(self.things(predicate)[1], place))
+            yield self._placed("take", "whence", conjunction([Not(atom) for atom in there]), "take X from Y")
         why = "predicates of place"
         yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)
         yield self._row(_ROWS["back"], (Slot("?x"),), conjunction(list(back)), "put_back X", why)
@@ -463,18 +480,18 @@ class _Words:
         """Yield ``deliver X to Y`` for ``delivered-to``: what something is when the verb was done to it.
 
         And the same for verbs with that outcome: to plug one thing into another leaves them ``connected``. A prefix
-        undoes it: to unmute a channel takes ``muted`` away.
+        undoes it: to unmute a channel takes ``muted`` away. To point a telescope at Mars leaves it ``pointing`` there.
         """
         for predicate in self.domain.predicates:
             first, *rest = plain_words(predicate, self.types)
             if rest and first in words_of("names", "covering"):
                 first, *rest = rest  # "mop the gallery", with ``floor_mopped``
-            verb = participle(first)
             things = self.things(predicate)
+            verb = participle(first) or (_lasting(first) if len(things) == 2 else None)
             said = predicate.name in self.made and predicate.name not in self.passing
             if not said or verb is None or first in words_of("located") or not 0 < len(things) < 3:
                 continue
-            slots = (Slot("?x"), Slot("?y", _ROWS["beside"]))[: len(things)]
+            slots = (Slot("?x"), Slot("?y", (*_ROWS["beside"], *_ROWS["whither"])))[: len(things)]
             names = {thing.name: slot.variable for thing, slot in zip(things, slots, strict=True)}
             verbs = (verb, "_".join([verb, *rest])) if rest else (verb, *self._leading_to(first))
             pattern = " … ".join([verb, *(s.variable.removeprefix("?").upper() for s in slots)])
@@ -711,6 +728,14 @@ def participle(name: str) -> str | None:
     """Return the verb of which a name is a past participle; ``None`` for any other name."""
     verb = builtin().verb(name)
     return verb[0] if verb is not None and verb[1] in words_of("outcomes", "participle") else None
+
+
+def _lasting(name: str) -> str | None:
+    """Return the verb of which a name says that it goes on, *point* of ``pointing``; ``None`` for what is held."""
+    verb = builtin().verb(name)
+    held = words_of("verbs", "carrying") | words_of("verbs", "holding")
+    going_on = verb is not None and verb[1] in words_of("outcomes", "lasting") and held.isdisjoint((verb[0], *family(verb[0])))
+    return verb[0] if verb is not None and going_on else None
 
 
 def _is_preposition(word: str) -> bool:
