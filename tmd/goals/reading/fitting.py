@@ -147,12 +147,18 @@ class Fitting:
             and not (is_relation(relation, "accompanying") and is_none(target, clause))
         ]
         if len(said) > 1:
+            said = [p for p in said if self._is_for(slot, p[1], reading)] or said
+        if len(said) > 1:
             # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
             said = [p for p in said if not self.referents.tells_which(unit.direct, *p, reading)] or said[-1:]
         if said:
             return [(relation, target) for relation, target in said if relation == said[-1][0]]
         elided = self._elided(slot, unit, reading)
         return [(elided, None)] if elided else []
+
+    def _is_for(self, slot: Slot, target: str, reading: ClauseReading) -> bool:
+        """Return whether a noun names something of the types of a slot: Mars, and not infrared, of an image."""
+        return any(self.grounder.is_a(name, slot.types) for name in self.nouns.things(target, reading.state))
 
     def _is_told(self, relation: str, target: str, unit: Unit, reading: ClauseReading) -> bool:
         """Return whether a clause states a place where something is, or nothing that it may mean: nothing goes there.

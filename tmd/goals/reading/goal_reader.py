@@ -121,7 +121,7 @@ class GoalReader:
             found = self.read(self._settled(clause), state, memory, decisions=decisions)
             if not isinstance(found, Refusal) or any(is_relation(r.relation, "place") for r in clause.relations):
                 return found  # "mug on the table" says where it shall be
-        treated = self._undone(clause) or self._treated(clause) or self._dative(clause) or self._phrasal(clause)
+        treated = self._undone(clause) or self._modified(clause) or self._treated(clause) or self._dative(clause) or self._phrasal(clause)
         if treated is not None:
             return self.read(treated, state, memory, decisions=decisions)
         if self._is_state(clause):
@@ -269,6 +269,18 @@ class GoalReader:
         said = clause.phrase(clause.direct[0])
         told = replace(said, quantifier=Quantifier.ALL, attributes=(*said.attributes, clause.result))
         return replace(clause, result=None, phrases={**clause.phrases, told.name: told})
+
+    def _modified(self, clause: Clause) -> Clause | None:
+        """Return "take an infrared image" as to take an image with what is called so, where that is no thing."""
+        modifier, _, noun = "".join(clause.direct[:1]).rpartition("_")
+        if len(clause.direct) != 1 or not modifier or self._names_thing(clause.direct[0]):
+            return None
+        rows = (row for table in self.tables for verb in self._own_verbs(clause) for row in table.of(verb))
+        if not (self.knows_of(modifier) and any(row.noun == noun for row in rows)):
+            return None
+        plain = clause.renamed(clause.direct[0], noun)
+        added = Relation(the_word("relations", "accompanying"), noun, modifier)
+        return replace(plain, objects=(*plain.objects, modifier), relations=(*plain.relations, added))
 
     def _treated(self, clause: Clause) -> Clause | None:
         """Return "give the fern some water", "put a label on it" as to water or label it, where that is a verb here."""

@@ -593,7 +593,9 @@ class RowReader:
         every = reading.strict or row.source == ACTIONS
         whither = section("arrivals") - section("static")  # "run water into the kettle" is more than to run water
         told = [pair for pair in leftover if every or pair[0] in whither]
-        strange = next((pair for pair in told if self.referents.unplaced(unit, *pair, reading)), None)
+        # "an image of Mars in infrared" is of Mars: no noun of a row is a thing that this could tell from others
+        spoken = [pair for pair in leftover if row.noun is not None and row.source == ACTIONS and row.places]
+        strange = next((p for p in told if p in spoken or self.referents.unplaced(unit, *p, reading)), None)
         if strange is None:
             return None
         message = f"'{text_of(reading.clause)}' says a place that nothing is known of"

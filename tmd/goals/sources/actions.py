@@ -513,6 +513,8 @@ class _Words:
                 to, with_it = Slot("?y", _ROWS["whither"]), Slot("?x", _ROWS["with"])
                 yield self._row(_ROWS["give"], (Slot("?x"), to), atom, "give X to Y", why)
                 yield self._row(_ROWS["be"], (Slot("?y"), with_it), atom, "be Y with X", why)
+                of_it = Slot("?y", _ROWS["of"])  # "I need a spectrum of Andromeda"
+                yield self._row(_ROWS["serve"], (Slot("?x"), of_it), atom, "have X of Y", why)
                 if any(self._places(predicate)):
                     continue  # which is said by its own preposition
                 inside = Slot("?y", tuple(dict.fromkeys((*_ROWS["vessel"], *_ROWS["resting"]))))
@@ -579,13 +581,20 @@ class _Words:
         return singular("_".join(word for word in nouns if kinds.isdisjoint((word, singular(word)))))
 
     def _about_noun(self, action: ActionSchema, verb: str, noun: str, wanted: Sequence[Effect]) -> Iterator[GoalRow]:
-        """Yield rows for an action whose name has a noun: "put the chocks under the plane" for ``set_chocks``."""
+        """Yield rows for an action whose name has a noun: "put the chocks under the plane" for ``set_chocks``.
+
+        Where a predicate says that one has it, whoever wants that asks for it: "I need an image of Mars".
+        """
         mentioned = {term for effect in wanted for term in effect.atom.terms}
-        for place in (p for p in action.parameters if p.name in mentioned and not self.actor(p)):
-            formula = conjunction([self._said(effect, {place.name: "?y"}, action) for effect in wanted])
-            slot = Slot("?y", (*_ANYWHERE, *_ROWS["whither"]))
-            row = self._row((verb,), (slot,), formula, f"{verb} {noun} … Y", f"{OF_ACTION}{action.name}")
-            yield replace(row, noun=noun)
+        places = [p for p in action.parameters if p.name in mentioned and not self.actor(p)]
+        had = any(split_name(e.atom.predicate)[0] in words_of("rows", "having") for e in _naming(noun, action))
+        verbs = (verb, *_ROWS["serve"]) if had else (verb,)
+        for said in chain(permutations(places, 2), permutations(places, 1)):
+            names = {p.name: f"?{'yz'[i]}" for i, p in enumerate(said)}
+            slots = tuple(Slot(names[p.name], (*_ANYWHERE, *_ROWS["whither"]), p.types) for p in said)
+            formula = conjunction([self._said(effect, names, action) for effect in wanted])
+            pattern = " … ".join([f"{verb} {noun}", *("YZ"[i] for i in range(len(said)))])
+            yield replace(self._row(verbs, slots, formula, pattern, f"{OF_ACTION}{action.name}"), noun=noun)
 
     def _brought_about(self, action: ActionSchema) -> list[Effect]:
         """Return what an action makes true of its parameters without a condition, or else what it makes false."""
