@@ -587,7 +587,7 @@ class _Words:
         """
         mentioned = {term for effect in wanted for term in effect.atom.terms}
         places = [p for p in action.parameters if p.name in mentioned and not self.actor(p)]
-        had = any(split_name(e.atom.predicate)[0] in words_of("rows", "having") for e in _naming(noun, action))
+        had = any(split_name(e.atom.predicate)[0] in section("having") for e in _naming(noun, action))
         verbs = (verb, *_ROWS["serve"]) if had else (verb,)
         for said in chain(permutations(places, 2), permutations(places, 1)):
             names = {p.name: f"?{'yz'[i]}" for i, p in enumerate(said)}

@@ -14,6 +14,7 @@ from tmd.language.clause import (
     EXCEPT,
     HAVE,
     NEGATED,
+    PERSONS,
     TO,
     WHERE,
     WITH,
@@ -415,6 +416,9 @@ class TextReading:
             draft = self._contrasted(denied, rest)
             draft.mood = None
             self.drafts.append(draft)
+        elif last is not None and last.direct and rest and all(is_a(n, "place") for n in rest):
+            self._attach(last, rest)  # "warm up some milk. In the blue mug."
+            last.spans += spans(rest)
         elif about_things(rest):
             self._named(rest)
         elif rest and last is not None:
@@ -435,8 +439,26 @@ class TextReading:
             asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
             if asked and not saying.talk:
                 self._demand(node, drafts, conditions, denied=_is_denied(node, saying))
+            elif len(drafts) == 1 and self._suits(drafts[0]):
+                self.drafts[-1].spans += spans([part])
             else:
                 self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
+
+    def _suits(self, said: ClauseDraft) -> bool:
+        """Add to a request where a statement allows it: "bring me some water. The blue glass is fine."."""
+        last = self.drafts[-1] if self.drafts else None
+        fine = said.verb.stem == BE and said.result in section("suiting") and len(said.direct) == 1
+        if last is None or not (fine and last.direct) or not all(p.name in PERSONS for p in last.landmarks):
+            return False
+        place, heads = said.direct[0], {p.name.rpartition("_")[2] for p in last.direct}
+        head = place.name.rpartition("_")[2]
+        if place.pronoun or head in heads or head in section("one_words"):
+            return False  # "bring me a mug. The blue one is fine."
+        relation = first_of("insides") if head in section("containers") else TO
+        last.landmarks += [place, *said.landmarks]
+        last.relations += [Relation(relation, last.direct[-1].name, place.name), *said.relations]
+        last.stated += said.relations
+        return True
 
     def _demand(
         self, node: Tree[Leaf], drafts: Sequence[ClauseDraft], conditions: Sequence[Node], *, denied: bool
