@@ -372,8 +372,9 @@ class TextReading:
             copy.direct = list(draft.direct)
         where = self._place_of_kind(draft, named_in(nodes))
         if where is not None:  # "milk in the cup, not the mug": not in the mug
-            copy.direct, copy.landmarks = list(draft.direct), named_in(nodes)
-            copy.relations = [where._replace(target=phrase.name) for phrase in copy.landmarks]
+            self._attach(copy, nodes)
+            copy.relations = [*(where._replace(target=p.name) for p in copy.direct), *copy.relations]
+            copy.direct, copy.landmarks = list(draft.direct), [*copy.direct, *copy.landmarks]
             return copy
         self._attach(copy, nodes)
         placing = draft.verb.stem.partition("_")[0] in section("placing") | section("moving")
@@ -393,6 +394,9 @@ class TextReading:
         if last is None or last.source is None or last.relation not in section("static") | section("arrivals"):
             return None
         thing, place, other = (name.rpartition("_")[2] for name in (last.source, last.target, named[0].name))
+        if other in section("one_words"):  # "in a bowl, not the one with the chips"
+            indefinite = section("indefinite")
+            return last if any(p.name == last.target and indefinite.intersection(p.lead) for p in draft.landmarks) else None
         return last if similarity(other, place) > max(similarity(other, thing), _LIKE) else None
 
     # requests other than imperatives
@@ -634,9 +638,10 @@ def _bare_place(nodes: Sequence[Node]) -> Tree[Leaf] | None:
 
 
 def _is_vague(draft: ClauseDraft) -> bool:
-    """Return whether a wish names nothing: "I need it later" is no request."""
-    said = draft.landmarks or draft.result
-    return bool(draft.direct) and not said and all(p.pronoun for p in draft.direct)
+    """Return whether a wish names nothing: "I need it later", "I need something from it" are no requests."""
+    unnamed = all(p.name in section("unnamed") for p in draft.direct)
+    said = any(not (unnamed and p.pronoun) for p in draft.landmarks) or draft.result or draft.conditions
+    return bool(draft.direct) and not said and (unnamed or all(p.pronoun for p in draft.direct))
 
 
 def _alike(wholes: Sequence[Phrase], others: Sequence[Phrase]) -> list[Phrase]:

@@ -485,7 +485,7 @@ def _decide(word: Surroundings) -> ClassRow | None:
         return _first(token.kind, word)
     table = (token.form if token.form in classes().tables else "base") if token.stem else "unknown"
     row = _first(table, word)
-    if table in ("base", "unknown") and row is not None and row.kind is Kind.N:
+    if (table == "base" or not token.stem) and row is not None and row.kind is Kind.N:
         return _first("adjective", word) or row
     return row
 
