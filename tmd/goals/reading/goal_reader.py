@@ -121,7 +121,13 @@ class GoalReader:
             found = self.read(self._settled(clause), state, memory, decisions=decisions)
             if not isinstance(found, Refusal) or any(is_relation(r.relation, "place") for r in clause.relations):
                 return found  # "mug on the table" says where it shall be
-        treated = self._undone(clause) or self._modified(clause) or self._treated(clause) or self._dative(clause) or self._phrasal(clause)
+        treated = (
+            self._undone(clause)
+            or self._modified(clause)
+            or self._treated(clause)
+            or self._dative(clause)
+            or self._phrasal(clause)
+        )
         if treated is not None:
             return self.read(treated, state, memory, decisions=decisions)
         if self._is_state(clause):

@@ -598,6 +598,8 @@ class RowReader:
         strange = next((p for p in told if p in spoken or self.referents.unplaced(unit, *p, reading)), None)
         if strange is None:
             return None
+        if strange in spoken and not self.referents.targets(strange[1], reading):
+            return self.referents.missing(Referent(strange[1], ()), reading)
         message = f"'{text_of(reading.clause)}' says a place that nothing is known of"
         telling = row.source == ACTIONS and not row.places and strange[0] not in whither
         if telling and unit.direct and self.nouns.things(unit.direct, reading.state):

@@ -743,7 +743,9 @@ def _lasting(name: str) -> str | None:
     """Return the verb of which a name says that it goes on, *point* of ``pointing``; ``None`` for what is held."""
     verb = builtin().verb(name)
     held = words_of("verbs", "carrying") | words_of("verbs", "holding")
-    going_on = verb is not None and verb[1] in words_of("outcomes", "lasting") and held.isdisjoint((verb[0], *family(verb[0])))
+    going_on = (
+        verb is not None and verb[1] in words_of("outcomes", "lasting") and held.isdisjoint((verb[0], *family(verb[0])))
+    )
     return verb[0] if verb is not None and going_on else None
 
 

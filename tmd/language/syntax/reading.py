@@ -396,7 +396,11 @@ class TextReading:
         thing, place, other = (name.rpartition("_")[2] for name in (last.source, last.target, named[0].name))
         if other in section("one_words"):  # "in a bowl, not the one with the chips"
             indefinite = section("indefinite")
-            return last if any(p.name == last.target and indefinite.intersection(p.lead) for p in draft.landmarks) else None
+            return (
+                last
+                if any(p.name == last.target and indefinite.intersection(p.lead) for p in draft.landmarks)
+                else None
+            )
         return last if similarity(other, place) > max(similarity(other, thing), _LIKE) else None
 
     # requests other than imperatives
@@ -456,11 +460,10 @@ class TextReading:
             return False
         place, heads = said.direct[0], {p.name.rpartition("_")[2] for p in last.direct}
         head = place.name.rpartition("_")[2]
-        if place.pronoun or head in heads or head in section("one_words"):
-            return False  # "bring me a mug. The blue one is fine."
-        relation = first_of("insides") if head in section("containers") else TO
+        if head in heads or head not in section("containers"):
+            return False  # "bring me a mug. The blue mug is fine.", "water the fern. The ivy is fine."
         last.landmarks += [place, *said.landmarks]
-        last.relations += [Relation(relation, last.direct[-1].name, place.name), *said.relations]
+        last.relations += [Relation(first_of("insides"), last.direct[-1].name, place.name), *said.relations]
         last.stated += said.relations
         return True
 

@@ -1,0 +1,93 @@
+"""States in the names of actions, predicates of what goes on, nouns of actions with two places, and afterthoughts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import tmd
+from tests.goals.conftest import assert_ends, end, goals, plain_world, said
+
+DOMAIN = """
+(define (domain harbour_light)
+  (:requirements :typing :negative-preconditions)
+  (:types lamp ship band crate quay hold - object)
+  (:predicates (facing ?l - lamp ?s - ship) (amber ?l - lamp) (have_log ?s - ship ?b - band)
+               (at ?c - crate ?q - quay) (inHold ?c - crate ?h - hold))
+  (:action swivel :parameters (?l - lamp ?new ?old - ship) :precondition (facing ?l ?old)
+    :effect (and (facing ?l ?new) (not (facing ?l ?old))))
+  (:action setAmber :parameters (?l - lamp) :precondition (not (amber ?l)) :effect (amber ?l))
+  (:action setBlue :parameters (?l - lamp) :precondition (amber ?l) :effect (not (amber ?l)))
+  (:action keep_log :parameters (?l - lamp ?s - ship ?b - band) :precondition (facing ?l ?s) :effect (have_log ?s ?b))
+  (:action load :parameters (?c - crate ?h - hold ?q - quay) :precondition (at ?c ?q)
+    :effect (and (inHold ?c ?h) (not (at ?c ?q))))
+  (:action unload :parameters (?c - crate ?h - hold ?q - quay) :precondition (inHold ?c ?h)
+    :effect (and (at ?c ?q) (not (inHold ?c ?h)))))
+"""
+PROBLEM = """
+(define (problem dusk) (:domain harbour_light)
+ (:objects northLamp southLamp eastLamp - lamp trawler tanker tug - ship radar sonar - band
+           figs dates - crate westQuay - quay forwardHold - hold)
+ (:init (facing northLamp tug) (facing southLamp tug) (facing eastLamp tanker) (amber northLamp) (amber southLamp)
+        (at dates westQuay) (inHold figs forwardHold))
+ (:goal (and)))
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return plain_world(tmp_path_factory.mktemp("harbour_light"), DOMAIN, PROBLEM)
+
+
+@pytest.mark.parametrize(
+    ("text", "held", "gone"),
+    [
+        ("Face the north lamp towards the trawler.", {"(facing northlamp trawler)"}, set()),
+        ("Set the north lamp to blue.", set(), {"(amber northlamp)"}),
+        ("Switch the east lamp to amber.", {"(amber eastlamp)"}, set()),
+        ("Turn all the lamps blue except the south one.", {"(amber southlamp)"}, {"(amber northlamp)"}),
+        ("The east lamp should be amber, please.", {"(amber eastlamp)"}, set()),
+        ("If the north lamp is amber, make it blue.", set(), {"(amber northlamp)"}),
+        ("Is the east lamp blue? Then set it to amber.", {"(amber eastlamp)"}, set()),
+        ("I need a radar log of the trawler.", {"(have_log trawler radar)"}, set()),
+        ("Keep a log of the tanker on sonar.", {"(have_log tanker sonar)"}, set()),
+        ("Get the figs out of the hold.", set(), {"(inhold figs forwardhold)"}),
+    ],
+)
+def test_what_names_of_actions_and_predicates_say(folder: Path, text: str, held: set[str], gone: set[str]) -> None:
+    assert_ends(folder, text, held, gone)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("Keep a radar log of the lighthouse.", "radar log"),
+        ("Keep a log of the tanker with the crane.", "log"),
+        ("Set the north lamp to green.", "green"),
+    ],
+)
+def test_what_no_place_of_a_noun_takes_is_told(folder: Path, text: str, reason: str) -> None:
+    grounded = tmd.load_domain(str(folder)).ground(text, folder / "problem.pddl")
+    assert not grounded.plans
+    assert reason in grounded.reason
+
+
+@pytest.mark.parametrize(
+    ("environment", "text", "held"),
+    [
+        ("kitchen/kitchen3", "Warm up some milk, please. Either mug is fine.", {"(hot mug1)", "(hot mug2)"}),
+        ("kitchen/kitchen1", "I want the mug to stand on the table.", {"(at mug1 table1 on)"}),
+        ("kitchen/kitchen1", "The mug should be where the plate is.", {"(at mug1 cupboard1 in)"}),
+        (
+            "living_room/room5",
+            "Make popcorn, and put it in a bowl, not the one with the chips.",
+            {"(contains bowl1 popped_corn)"},
+        ),
+        ("kitchen/kitchen1", "I don't like coffee. Put the mug on the table.", {"(at mug1 table1 on)"}),
+    ],
+)
+def test_said_behind_a_request_or_beside_it(environment: str, text: str, held: set[str]) -> None:
+    grounded = said(*environment.split("/"), text)
+    assert goals(grounded)
+    assert not held.isdisjoint(end(grounded))
