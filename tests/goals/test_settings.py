@@ -88,6 +88,7 @@ def test_what_no_place_of_a_noun_takes_is_told(folder: Path, text: str, reason: 
     ],
 )
 def test_said_behind_a_request_or_beside_it(environment: str, text: str, held: set[str]) -> None:
-    grounded = said(*environment.split("/"), text)
+    domain, _, name = environment.partition("/")
+    grounded = said(domain, name, text)
     assert goals(grounded)
     assert not held.isdisjoint(end(grounded))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from tmd.goals.clause_goal import ClauseReading, Unit, words
 from tmd.goals.reading.referents import Referents, is_none
@@ -146,15 +146,21 @@ class Fitting:
             and not self._is_told(relation, target, unit, reading)
             and not (is_relation(relation, "accompanying") and is_none(target, clause))
         ]
+        if said:
+            return list(self._chosen(said, slot, unit, reading))
+        elided = self._elided(slot, unit, reading)
+        return [(elided, None)] if elided else []
+
+    def _chosen(
+        self, said: Sequence[tuple[str, str]], slot: Slot, unit: Unit, reading: ClauseReading
+    ) -> Iterator[tuple[str, str]]:
+        """Yield those of several places that are for a slot."""
         if len(said) > 1:
             said = [p for p in said if self._is_for(slot, p[1], reading)] or said
         if len(said) > 1:
             # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
             said = [p for p in said if not self.referents.tells_which(unit.direct, *p, reading)] or said[-1:]
-        if said:
-            return [(relation, target) for relation, target in said if relation == said[-1][0]]
-        elided = self._elided(slot, unit, reading)
-        return [(elided, None)] if elided else []
+        yield from ((relation, target) for relation, target in said if relation == said[-1][0])
 
     def _is_for(self, slot: Slot, target: str, reading: ClauseReading) -> bool:
         """Return whether a noun names something of the types of a slot: Mars, and not infrared, of an image."""

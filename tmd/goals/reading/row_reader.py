@@ -592,18 +592,21 @@ class RowReader:
         """Return a refusal for a place that no slot of the row takes, where each must have one."""
         every = reading.strict or row.source == ACTIONS
         whither = section("arrivals") - section("static")  # "run water into the kettle" is more than to run water
-        told = [pair for pair in leftover if every or pair[0] in whither]
+        told = (pair for pair in leftover if every or pair[0] in whither)
         # "an image of Mars in infrared" is of Mars: no noun of a row is a thing that this could tell from others
-        spoken = [pair for pair in leftover if row.noun is not None and row.source == ACTIONS and row.places]
-        strange = next((p for p in told if p in spoken or self.referents.unplaced(unit, *p, reading)), None)
-        if strange is None:
-            return None
-        if strange in spoken and not self.referents.targets(strange[1], reading):
+        spoken = row.noun is not None and row.source == ACTIONS and bool(row.places)
+        strange = next((p for p in told if spoken or self.referents.unplaced(unit, *p, reading)), None)
+        return None if strange is None else self._strange(row, unit, strange, reading)
+
+    def _strange(self, row: GoalRow, unit: Unit, strange: tuple[str, str], reading: ClauseReading) -> Refusal:
+        """Return the refusal for a place that no slot of a row takes."""
+        if row.noun is not None and not self.referents.targets(strange[1], reading):
             return self.referents.missing(Referent(strange[1], ()), reading)
-        message = f"'{text_of(reading.clause)}' says a place that nothing is known of"
-        telling = row.source == ACTIONS and not row.places and strange[0] not in whither
+        telling = row.source == ACTIONS and not row.places and strange[0] not in section("arrivals") - section("static")
         if telling and unit.direct and self.nouns.things(unit.direct, reading.state):
             message = f"no {words(unit.direct)} here is {words(strange[0])} {words(strange[1])}"
+        else:
+            message = f"'{text_of(reading.clause)}' says a place that nothing is known of"
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
 
     def _cannot(self, reading: ClauseReading, reason: str = "") -> Refusal:

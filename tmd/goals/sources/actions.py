@@ -311,8 +311,8 @@ class _Words:
             thing, place = (p.types for p in self.things(predicate))
             nothing[Not(Exists((TypedName("?x", thing),), atom))] = None
             back[Forall((TypedName("?y", place),), Imply(_before(atom, FIRST), atom))] = None
-        for place in dict.fromkeys(self.things(predicate)[1] for predicate, _ in placed):
-            there = dict.fromkeys(atom for predicate, atom in placed if self._alike(self.things(predicate)[1], place))
+        for where in dict.fromkeys(self.things(predicate)[1] for predicate, _ in placed):
+            there = dict.fromkeys(atom for predicate, atom in placed if self._alike(self.things(predicate)[1], where))
             yield self._placed("take", "whence", conjunction([Not(atom) for atom in there]), "take X from Y")
         why = "predicates of place"
         yield from (self._row(_ROWS["clear"], (Slot("?y"),), each, "clear Y", why) for each in nothing)

@@ -10,8 +10,9 @@ A pattern is a sequence of elements, separated by blanks:
 * ``^``: the beginning of a clause, ``^^`` of a sentence; ``$``: the end of a clause.
 
 The replacement has words, ``{x}`` for what was kept, ``{x.stem}`` for the verb of a kept word, ``{x.end}`` for the
-end of a scale that kept words point to, and ``word/V`` for a word of a given class. Words of the pattern that are not kept disappear; with a ``note``, they are reported with it. A
-sentence in which a row has fired is tagged again. The rows of a domain's lexicon are tried after those of the file.
+end of a scale that kept words point to, and ``word/V`` for a word of a given class. Words of the pattern that are not
+kept disappear; with a ``note``, they are reported with it. A sentence in which a row has fired is tagged again. The
+rows of a domain's lexicon are tried after those of the file.
 """
 
 from __future__ import annotations
@@ -210,13 +211,11 @@ def _new(
         spans = []
         dropped += noted(gone, row.note)
     new: list[Token] = []
-    for element, name in row.replacement:
-        if element.endswith(".end}"):  # "all the way down"
-            low = any(token.text in section("least_words") for token in slots[name])
-            element, name = f"{'minimum' if low else 'maximum'}/N", ""
+    for element, name in (_end_of_scale(*each, slots) for each in row.replacement):
         if name and name not in row.verbs:
-            again = any(token is other for token in slots.get(name, ()) for other in new)
-            new += [replace(token) if again else token for token in slots.get(name, ())]
+            kept = slots.get(name, [])
+            again = any(token is other for token in kept for other in new)
+            new += map(replace, kept) if again else kept
             continue
         place = new[-1].span.end if new else place
         fresh = _fresh(element, slots[name][0].stem if name else "", name in row.deeds, Span(place, place))
@@ -224,6 +223,14 @@ def _new(
             fresh.span, fresh.parts, spans = spans[0], spans[1:], []
         new.append(fresh)
     return new
+
+
+def _end_of_scale(element: str, name: str, slots: Mapping[str, list[Token]]) -> tuple[str, str]:
+    """Return the end that kept words point to in the place of ``{x.end}``; other elements as they are."""
+    if not element.endswith(".end}"):
+        return element, name
+    low = any(token.text in section("least_words") for token in slots[name])
+    return f"{'minimum' if low else 'maximum'}/N", ""
 
 
 def _fresh(element: str, stem: str, needed: bool, span: Span) -> Token:

@@ -417,8 +417,11 @@ class TextReading:
                 self._aside(node, trees(nodes, "condition"))
             else:
                 self._forbid(self.drafts[-1] if self.drafts else None, node)
-        if trees(nodes, *_ASIDES):
-            return
+        if not trees(nodes, *_ASIDES):
+            self._left_over(nodes, rest, last)
+
+    def _left_over(self, nodes: Sequence[Node], rest: list[Node], last: ClauseDraft | None) -> None:
+        """Read what stands in a unit without a verb beside its prohibitions: another place, or things."""
         if trees(nodes, "denial") and self.forbidden and trees(rest, "group", "place"):
             denied = self.forbidden[-1][1]  # "don't put it on the stove but on the shelf"
             draft = self._contrasted(denied, rest)
@@ -447,8 +450,6 @@ class TextReading:
             asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
             if asked and not saying.talk:
                 self._demand(node, drafts, conditions, denied=_is_denied(node, saying))
-            elif len(drafts) == 1 and self._suits(drafts[0]):
-                self.drafts[-1].spans += spans([part])
             else:
                 self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
 
@@ -493,6 +494,9 @@ class TextReading:
 
     def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft], before: int, note: str) -> None:
         """Set a statement aside; pronouns may mean what it mentions."""
+        if len(drafts) == 1 and self._suits(drafts[0]):
+            self.drafts[-1].spans += spans([part])
+            return
         self.told = [relation for draft in drafts for relation in draft.relations]
         if any(t.kind is Kind.NEG or t.text in section("not_forms") for t in leaves(part)):
             for draft in drafts:  # "it has not been in the oven yet" does not say where it is

@@ -386,11 +386,10 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) ->
     row = _first_class(word)
     token.kind = row.kind
     trace.append(row.id)
-    if token.kind is Kind.WORD:
-        if word.endswith("ly") and len(word) > ADVERB and not lexicon.is_noun(word):
-            token.kind = Kind.ADV
-        elif token.capital and not lexicon.knows(singular(word)):
-            token.form = NAME
+    if token.kind is Kind.WORD and _is_adverb(word, lexicon):
+        token.kind = Kind.ADV
+    elif token.kind is Kind.WORD and token.capital and not lexicon.knows(singular(word)):
+        token.form = NAME
     if token.kind in (Kind.SUB, Kind.ADV) and starts and word in lexicon.verbs:
         # "Till the bed": the domain has such a verb
         token.kind, token.stem, token.form, token.strength = Kind.WORD, word, "base", 2
@@ -399,8 +398,12 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) ->
             token.stem, token.form, token.strength = reading[0], token.form or reading[1], reading[2]
     elif token.kind is Kind.LET:
         token.stem, token.form, token.strength = word, "base", 3
-    elif token.kind is Kind.P:
+    else:
         token.stem = pairs("using_verbs").get(word, "")
+
+
+def _is_adverb(word: str, lexicon: Lexicon) -> bool:
+    return word.endswith("ly") and len(word) > ADVERB and not lexicon.is_noun(word)
 
 
 def _spelled(token: Token, lexicon: Lexicon) -> str:
