@@ -24,7 +24,7 @@ from tmd.language.clause import (
     Span,
     hull,
 )
-from tmd.language.lexicon.lexicon import first_of, pairs, section
+from tmd.language.lexicon.lexicon import first_of, pairs, section, singular
 from tmd.language.syntax.brackets import ALSO, RELATIVE
 from tmd.language.syntax.grammar import CHOICE, Leaf, Node, is_a, leaves, trees
 from tmd.language.syntax.joins import SETTING
@@ -336,14 +336,19 @@ class Attachment:
         self._behind = name
 
     def _told_apart(self, phrases: Iterable[Phrase]) -> list[Phrase]:
-        """Name "the other table" and "the clean cup" *one* where this clause has mentioned another table or cup."""
+        """Name "the other table" and "the clean cup" *one* where this clause has mentioned another table or cup.
+
+        Of "a scoop of vanilla in one bowl and a scoop of chocolate in the other" the second is the chocolate.
+        """
         mentioned = self.draft.mentions()
         found: list[Phrase] = []
         for phrase in phrases:
             before = [p for p in (*mentioned, *found) if p.name == phrase.name]
-            other = not section("other_words").isdisjoint(phrase.lead)
+            other = bool(before) and not section("other_words").isdisjoint(phrase.lead)
             told = other or any(p.said().attributes != phrase.said().attributes for p in before)
-            found.append(as_one(phrase) if before and told else phrase)
+            others = any(p.of and p.of != phrase.of for p in before) and bool(phrase.of)
+            measured = others and singular(phrase.name) in section("measures")
+            found.append(phrase.of[0] if measured else as_one(phrase) if told or others else phrase)
         return found
 
     def _relate(self, name: str, sources: Sequence[Phrase], targets: list[Phrase]) -> None:
