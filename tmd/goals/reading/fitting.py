@@ -139,11 +139,12 @@ class Fitting:
     def fillers(self, slot: Slot, unit: Unit, reading: ClauseReading) -> list[tuple[str, str | None]]:
         """Return what was said in a slot: relation and noun; the noun is left out where it points back."""
         clause = reading.clause
+        whither = not any(is_relation(p, "origin") for p in slot.prepositions)  # "tip out the water that is in the pot"
         said = [
             (relation, target)
             for relation, target in unit.relations
             if relations_said(relation, slot.prepositions)
-            and not self._is_told(relation, target, unit, reading)
+            and not (whither and self._is_told(relation, target, unit, reading))
             and not (is_relation(relation, "accompanying") and is_none(target, clause))
         ]
         if said:
