@@ -31,11 +31,7 @@ from tmd.world.yaml_positions import YamlSource
 def check_demonstrations(path: Path, world: Callable[[str], Problem | None], known: list[str], report: Report) -> None:
     """Check every demonstration of a file: read it, and play it in its environment.
 
-    Args:
-        path: JSON Lines.
-        world: Returns the environment of a name; ``None`` where it has faults.
-        known: The names of all environments.
-        report: Takes the faults.
+    ``world`` returns the environment of a name, ``None`` where it has faults; ``known`` are the names of all.
 
     Raises:
         TmdError: The file cannot be read.
@@ -219,11 +215,7 @@ class FaultCollector(Protocol):
 
 
 class DataFiles:
-    """Checker of files that are not PDDL; each folder and environment is read once.
-
-    Args:
-        checker: Takes what is found, and knows where domains and problems are.
-    """
+    """Checker of files that are not PDDL; each folder and environment is read once."""
 
     def __init__(self, checker: FaultCollector) -> None:
         self.checker = checker

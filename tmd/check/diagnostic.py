@@ -56,9 +56,7 @@ SEVERITY: Mapping[str, Severity] = {
 class Diagnostic:
     """One problem.
 
-    Attributes:
-        code: Its kind, one of :data:`SEVERITY`.
-        edits: The remedy, where it is mechanical.
+    ``code`` is one of :data:`SEVERITY`; ``edits`` are the remedy, where it is mechanical.
     """
 
     location: Location

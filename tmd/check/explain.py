@@ -30,9 +30,7 @@ _FARTHEST = 3
 def explain(verb: str, corpora: Sequence[Corpus]) -> str:
     """Explain a verb, in English and in domains, as lines for people.
 
-    Args:
-        verb: The verb in any form, with its particle if it has one: ``turn on``, ``wiping``.
-        corpora: The domains, each with its demonstrations.
+    It may be in any form, with its particle if it has one: ``turn on``, ``wiping``.
 
     Raises:
         TmdError: It is not a word, or a file of a domain is wrong.

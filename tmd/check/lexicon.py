@@ -45,13 +45,8 @@ def check_lexicon(
 ) -> list[TmdError]:
     """Return the warnings on the words of a lexicon itself.
 
-    Args:
-        path: The file.
-        lexicon: What it says.
-        meant: The verbs that have a declared meaning.
-        actions: The names of the domain's actions.
-        names: What nouns may lead to: classes, parts, substances, objects. Empty where that is not known.
-        texts: The texts of the domain's demonstrations.
+    ``meant`` are the verbs with a declared meaning, ``names`` what nouns may lead to, empty where that is not known,
+    and ``texts`` those of the demonstrations.
     """
     source = Written(path)
     return [*_unknown_targets(lexicon, names, source), *_unserved(lexicon, meant, _Served(texts, actions), source)]
@@ -167,12 +162,8 @@ def check_goals(
 ) -> list[TmdError]:
     """Return every fault of ``goals``, ``attributes`` and ``groups``.
 
-    Args:
-        path: The lexicon's file.
-        lexicon: What it says.
-        domain: The domain that the conditions speak of.
-        environments: What of them can hold is looked up there; no more are taken than needed.
-        kinds: The classes, types, constants and objects that a group may name; empty where that is not known.
+    What can hold is looked up in the environments; no more are taken than needed. ``kinds`` returns what a group may
+    name: classes, types, constants and objects; nothing where that is not known.
     """
     if not (lexicon.goals or lexicon.attributes or lexicon.groups or lexicon.restored):
         return []

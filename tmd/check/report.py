@@ -90,8 +90,7 @@ _MOST_ROUNDS = 8
 class CheckReport:
     """Result of a check.
 
-    Attributes:
-        diagnostics: What is wrong with them, by file, line and column.
+    Diagnostics are sorted by file, line and column.
     """
 
     files: tuple[Path, ...]
@@ -114,12 +113,9 @@ def check_paths(
 ) -> CheckReport:
     """Check files, and all files of folders.
 
-    Args:
-        paths: The files and folders.
-        domain: The file of the domain of all problems, if it is known.
-        domains: The directory of all domains; the usual one by default.
-        problems: The directory of all problems; the usual one by default.
-        fix: Fix what can be fixed without knowing what the author meant, and check again.
+    ``domain`` is the file of the domain of all problems, if it is known; ``domains`` and ``problems`` are the
+    directories of all of them, if not the usual ones. ``fix`` mends what needs no knowledge of what the author meant,
+    and checks again.
 
     Raises:
         TmdError: There is nothing at a path, or a fixed file cannot be written.
@@ -155,9 +151,7 @@ def _stamp(file: Path) -> tuple[int, int, int] | None:
 def _fix(checker: Checker, stamps: Mapping[Path, tuple[int, int, int] | None]) -> tuple[list[Path], bool]:
     """Fix the files that were checked, each written whole.
 
-    Args:
-        checker: What was found.
-        stamps: The files as they were before that.
+    ``stamps`` are those of the files before they were checked.
 
     Returns:
         The files that changed; and whether another program, an editor or another fix, wrote one meanwhile: the

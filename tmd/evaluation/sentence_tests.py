@@ -34,7 +34,6 @@ class SentenceResult:
     Attributes:
         plan: The instructions of the first plan, as PDDL.
         goals: The goals of its steps, as PDDL.
-        reason: Why there is no plan, or why it is wrong.
         usage: The effort of the language model; ``None`` where none was asked.
     """
 

@@ -46,10 +46,7 @@ class _Part:
 def scene_files(environment: Environment, folder: DomainFolder, formats: tuple[str, ...]) -> dict[str, bytes]:
     """Return the files of a scene, by their paths.
 
-    Args:
-        environment: What there is and where.
-        folder: Its domain.
-        formats: Some of :data:`FORMATS`.
+    ``formats`` are some of :data:`FORMATS`.
 
     Returns:
         ``scene.urdf`` and ``scene.xml`` (MJCF) as far as they are asked for; ``meshes/`` for what is not made of boxes

@@ -65,11 +65,8 @@ class _Decided:
 def strips(source: Planned, *, typed: bool = False) -> Strips:
     """Return the plan-resolved ground STRIPS of a planned problem.
 
-    Costs are left out: in the export each action costs 1.
-
-    Args:
-        source: The problem and its plan.
-        typed: Whether the types of the original are written; the actions have no parameters and need none.
+    Costs are left out: in the export each action costs 1. With ``typed`` the types of the original are written; the
+    actions have no parameters and need none.
 
     Raises:
         TmdError: The problem cannot be ground.
@@ -89,8 +86,7 @@ def _without_types(problem: Problem) -> Problem:
 class Checked:
     """An instruction of a plan between what is to be checked around it; literals are atoms that hold or do not.
 
-    Attributes:
-        before: Its precondition; of a disjunction the literal that holds.
+    Of a disjunction, ``before`` has the literal that holds.
     """
 
     instruction: Instruction

@@ -23,7 +23,6 @@ class Commitment:
 
     Attributes:
         ways: The condition first, then what it may turn into by itself; one of them must hold.
-        clause: The clause whose step reached it.
         hard: Whether it must be kept at any price, because the request says so.
     """
 
@@ -78,11 +77,7 @@ def aims(
 ) -> Iterator[tuple[Cube, ...]]:
     """Yield what to plan for, in the order of trying: the goal with all commitments, then with ever fewer of them.
 
-    Args:
-        cubes: The goal.
-        kept: The commitments.
-        released: Objects whose commitments lapse.
-        task: The task.
+    Commitments about ``released`` objects lapse.
     """
     names = set(released)
     own = [k for k in kept if not (names & _objects(k, task)) or k.hard]

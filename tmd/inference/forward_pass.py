@@ -41,13 +41,8 @@ NOTHING = Choice(None, (), {}, {})
 class InferenceSetup:
     """The fixed inputs of inference in one environment. Nothing of a request is kept in it.
 
-    Attributes:
-        world: The environment.
-        energy: The factors with their weights.
-        planners: Its planners.
-        proposers: The sources of candidates; each also judges the candidates of the others.
-        config: The preset.
-        restored: Conditions that hold at the end of no plan unless they did at the start, or the request asks for them.
+    ``restored`` are conditions that hold at the end of no plan unless they did at the start, or the request asks for
+    them.
     """
 
     world: World
@@ -61,11 +56,7 @@ class InferenceSetup:
 class ForwardPass:
     """The forward pass over the clauses of one request.
 
-    Args:
-        setup: The inputs of inference.
-        clauses: The clauses.
-        task: The task of the environment, without what the request forbids.
-        top: The number of distinct plans that are wanted.
+    ``task`` is that of the environment, without what the request forbids; ``top`` is the number of distinct plans.
     """
 
     def __init__(self, setup: InferenceSetup, clauses: Sequence[VerbClause], task: Task, top: int) -> None:
@@ -153,14 +144,9 @@ class ForwardPass:
     ) -> tuple[Choice, Bits]:
         """Return the choice of a candidate with all its factors, and the state that it ends in (Φ, lines 10 and 11).
 
-        Args:
-            situation: The clause, and the way to it.
-            source: The source of the candidate.
-            names: The objects that the clause speaks of.
-            latent: The planner's instructions (I_jl).
-            own: The candidate's instructions (I_j).
-            raw: The factors of ψ_j that are known already.
-            aim: The goal that it reaches, where there is one.
+        ``latent`` are the planner's instructions (I_jl), ``own`` those of the candidate (I_j), ``names`` the objects
+        that the clause speaks of, ``raw`` the factors of ψ_j that are known already. ``aim`` is the goal that is
+        reached, if there is one.
         """
         energy = self.setup.energy
         factors, end = dict(raw), situation.state  # ψ_j

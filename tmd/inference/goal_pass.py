@@ -58,12 +58,8 @@ _Executable = tuple[Proposal, Instructions, Instructions]
 class Target:
     """A candidate goal of a step in one state, with what must hold beside it.
 
-    Attributes:
-        step: The step.
-        goal: The candidate.
-        already: Whether it holds already.
-        aims: What to plan for: the goal with all commitments, then with ever fewer of them.
-        ways: Conditions to be reached on the way, before the goal.
+    ``aims`` are what to plan for: the goal with all commitments, then with ever fewer of them. ``ways`` are conditions
+    to be reached before the goal.
     """
 
     step: Step
@@ -76,11 +72,7 @@ class Target:
 class GoalPass(ForwardPass):
     """The forward pass over the steps of one dialogue.
 
-    Args:
-        setup: The inputs of inference.
-        dialogue: The request as it was read.
-        top: The number of distinct plans that are wanted.
-        chosen: For steps of :attr:`Dialogue.steps` that the user was asked about, the goal that is meant.
+    ``top`` is the number of distinct plans; ``chosen`` is as for :meth:`Inference.infer`.
     """
 
     def __init__(self, setup: InferenceSetup, dialogue: Dialogue, top: int, chosen: Mapping[int, Formula]) -> None:
@@ -662,11 +654,7 @@ class Inference(InferenceSetup):
     ) -> Inferred:
         """Return the ``top`` best distinct plans for a request.
 
-        Args:
-            dialogue: The request as it was read.
-            state: The state in which it was made.
-            top: The number of plans.
-            chosen: The answers to questions: for steps, the goal that is meant.
+        ``chosen`` has the answers to questions: for numbers of :attr:`Dialogue.steps` the goal that is meant.
         """
         if self.config.goals:
             return GoalPass(self, dialogue, top, chosen or {}).infer(state)

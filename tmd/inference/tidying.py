@@ -107,10 +107,7 @@ class Tidying:
     def improved(self, start: Bits, plan: Plan, kept: Condition) -> Plan:
         """Return a plan that is at least as good.
 
-        Args:
-            start: The state in which the plan starts.
-            plan: The plan.
-            kept: What must hold at the end, beside the needs of the segments.
+        ``kept`` must hold at its end, beside the needs of its parts.
         """
         return _Improvement(self, start, plan, kept).improved(plan)
 
@@ -384,10 +381,7 @@ class _Improvement:
     def _executable(self, plan: Plan, *, without: str = "", but: tuple[int, int] | None = None) -> Plan:
         """Return the plan without one object or one instruction, and without what cannot be executed then.
 
-        Args:
-            plan: The plan.
-            without: The object.
-            but: The number of the part and of the instruction in it.
+        ``but`` are the number of a part and that of the instruction in it.
         """
         found, state = [], self.start
         for place, segment in enumerate(plan):
@@ -452,12 +446,8 @@ class _Improvement:
     ) -> Iterator[Plan]:
         """Yield plans without some instructions that take a thing to where it was as soon as it has served.
 
-        Args:
-            plan: The plan.
-            placed: Its instructions.
-            used: The numbers of those for which the thing is needed.
-            without: The numbers of those that are left out.
-            atom: The place of the thing.
+        ``used`` are the numbers of those of the ``placed`` for which the thing is needed; those ``without`` are left
+        out. ``atom`` is the place of the thing.
         """
         at = used[-1] + 1 if used else 0
         kept = [pair for n, pair in enumerate(placed[:at]) if n not in without]

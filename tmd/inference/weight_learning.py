@@ -36,7 +36,6 @@ class Learned:
     """The outcome of learning.
 
     Attributes:
-        weights: The weights.
         curve: For each epoch ``round``, ``epoch``, the mean ``loss`` over the examples of the plan that the weights
             prefer among those proposed so far, and the mean hinge (``objective``). Epoch 0 is before the first step
             of a round: there ``loss`` is that of the plans that inference itself has just chosen.
@@ -222,11 +221,8 @@ Proposed = list[tuple[Vector, float]]
 class Journal:
     """Proposals by round and example.
 
-    A line that was cut off by a kill is dropped, and what comes after it as well.
-
-    Args:
-        path: The file; made when there is something to write.
-        part: What the lines are about, where several learners share a file.
+    A line that was cut off by a kill is dropped, and what comes after it as well. ``part`` says what the lines are
+    about, where several learners share a file.
     """
 
     def __init__(self, path: Path, part: str = "") -> None:

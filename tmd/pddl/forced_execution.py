@@ -47,13 +47,9 @@ class Rollout:
 class ForcedExecution:
     """Forced execution in one environment.
 
-    Only the instructions that are really run are ground, so this is quick where the full task is large.
-    Naming them beforehand saves grounding again later; results do not depend on it.
-
-    Args:
-        problem: The environment.
-        instructions: What will be run.
-        absent: Types of things that do not exist and still choose a rule by their name.
+    Only the instructions that are really run are ground, so this is quick where the full task is large. Naming them
+    beforehand saves grounding again later; results do not depend on it. ``absent`` are the types of things that do not
+    exist and still choose a rule by their name.
     """
 
     def __init__(

@@ -110,13 +110,8 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
     """Return the plan in a text or in JSON.
 
     Of several plans in a text the last whole one is taken, because planners go on to better ones; of those in JSON the
-    first. Steps with times are put in the order of their times.
-
-    Args:
-        text: The text.
-        file: Its file, for messages.
-        problem: The problem that the plan is for. Without it, only steps with parentheses are found, on lines where
-            nothing else stands.
+    first. Steps with times are put in the order of their times. Without the problem that the plan is for, only steps
+    with parentheses are found, on lines where nothing else stands. ``file`` names the text in messages.
 
     Raises:
         TmdError: There is no plan, it is cut off, something in the place of a step is none, or only some steps have a
@@ -697,10 +692,7 @@ def _overlap(steps: Sequence[_Step]) -> list[str]:
 def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
     """Return the text of a plan file.
 
-    Args:
-        instructions: The plan.
-        cost: Its cost; the number of instructions where ``None``.
-        unit: Whether each instruction costs 1, as the last line says.
+    ``cost`` is the number of instructions where it is ``None``; ``unit`` is what the last line says: each costs 1.
     """
     lines = [instruction.pddl() for instruction in instructions]
     total = len(lines) if cost is None else cost

@@ -63,10 +63,8 @@ PLAN_CAP = 1_000_000
 def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
     """Return the planner ``name`` for the gaps of ``task``.
 
-    Args:
-        name: The planner.
-        task: The instantiated problem.
-        cap: Generated states after which the in-process search gives up; the usual cap for gaps by default.
+    ``cap`` is the number of generated states after which the in-process search gives up; the usual cap for gaps by
+    default.
 
     Raises:
         TmdError: There is no such planner, or it refuses the problem.
@@ -122,13 +120,8 @@ class TaskPlanners:
     """The planners of one environment, and of its task without what a request forbids.
 
     Other programs plan for the PDDL problem, which does not have the prohibitions of a request. Only the searches of
-    this process plan for a task with prohibitions.
-
-    Args:
-        task: The task of the environment.
-        quick: Its planner for gaps.
-        name: The name of that planner.
-        cap: Generated states after which a planner for gaps gives up; the usual cap by default.
+    this process plan for a task with prohibitions. ``quick`` fills the gaps of ``task`` and is called ``name``;
+    planners for gaps give up after ``cap`` generated states.
     """
 
     def __init__(self, task: Task, quick: Planner, name: str = IN_PROCESS, cap: int | None = None) -> None:
@@ -153,10 +146,6 @@ class GapsAsProblems:
     """Fills gaps with a planner for whole problems, which executes its plans before it returns them.
 
     Where a goal has several cubes, it is asked cube by cube, and the cheapest answer is taken.
-
-    Args:
-        task: The instantiated problem.
-        solver: The planner.
     """
 
     def __init__(self, task: Task, solver: Callable[[Problem], Solution]) -> None:
@@ -204,9 +193,6 @@ class EachAlone:
     """A planner that is asked for each alternative of a goal by itself, for the cheapest of its plans.
 
     The way to one alternative leads away from another: a greedy search for all at once approaches none of them.
-
-    Args:
-        planner: The planner that is asked.
     """
 
     # Maximum number of alternatives that are asked for one by one.
@@ -228,11 +214,8 @@ class PartByPart:
     """Reaches the parts of a goal one after another, the nearest first, and keeps those that it has reached.
 
     Where many things are to be put away, or one part is for the next, each part is near, and all together are far.
-    Where no part is near, an instruction that brings one about is made ready: the bowl gets into a shut microwave.
-
-    Args:
-        task: The instantiated problem.
-        patient: Whether an instruction is made ready before a far part is looked for, which leaves time for more parts.
+    Where no part is near, an instruction that brings one about is made ready: the bowl gets into a shut microwave. With
+    ``patient``, an instruction is made ready before a far part is looked for, which leaves time for more parts.
     """
 
     # Generated states after which the optimal search for one part gives up, then the greedy one, and all together.
@@ -347,11 +330,7 @@ def _literals(cube: Cube) -> list[Cube]:
 
 
 class InTurn:
-    """Planners that are asked one after another, until one does not give up.
-
-    Args:
-        planners: The planners in this order.
-    """
+    """Planners that are asked one after another, until one does not give up."""
 
     def __init__(self, planners: Sequence[Planner]) -> None:
         self._planners = planners

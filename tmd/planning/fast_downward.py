@@ -104,10 +104,7 @@ class _Downward(ExitStack):
 def fast_downward(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
     """Solve a whole problem with Fast Downward.
 
-    Args:
-        problem: The problem.
-        optimal: Whether the plan must be optimal; otherwise it is the first that is found.
-        deadline: The limits.
+    The plan is optimal if that is asked for; otherwise it is the first that is found.
 
     Raises:
         MissingToolError: Fast Downward is not installed.

@@ -383,13 +383,8 @@ def call_in_process(
 ) -> PlannerProcess:
     """Start a Python process that calls a function and prints the result as JSON.
 
-    Args:
-        name: Name of the process for messages.
-        function: The function as ``module:name``, so that this program need not import it.
-        arguments: Its arguments, which are pickled.
-        deadline: As for :class:`PlannerProcess`.
-        directory: Its directory, for temporary files as well; by default that of this program.
-        behind: Whether it gives way to other processes.
+    The function is given as ``module:name``, so that this program need not import it, and its arguments are pickled. A
+    ``directory`` is for its temporary files as well. Other arguments are those of :class:`PlannerProcess`.
     """
     with unnamed_file(pickle.dumps((function, arguments))) as question:
         variables = {**python_environment(), **({"TMPDIR": directory} if directory else {})}
@@ -412,11 +407,8 @@ class Prover(ExitStack):
 
     No search finds out that a mug cannot be in two places; it runs to its limit. The proofs that do
     (:mod:`tmd.planning.unsolvable`) need the instantiated problem, which takes long where the problem is large. So they
-    run beside a search that has not ended soon, and give way to it. Leaving the ``with`` block ends them.
-
-    Args:
-        problem: The problem.
-        deadline: The memory that the process may take.
+    run beside a search that has not ended soon, and give way to it. Leaving the ``with`` block ends them. ``deadline``
+    gives the memory that the process may take.
     """
 
     # Seconds of search after which proofs are looked for.

@@ -82,12 +82,7 @@ class _Action:
 
 
 class Mutexes:
-    """The pairs of literals that hold together in no state reachable from ``start``.
-
-    Args:
-        task: The ground problem.
-        start: The state to begin in.
-    """
+    """The pairs of literals that hold together in no state reachable from ``start``."""
 
     def __init__(self, task: Task, start: Bits) -> None:
         self.task = task
@@ -253,16 +248,9 @@ class _Case:
 class Counts:
     """The laws of a task, and the goals they rule out.
 
-    The laws are found as the least fixed point of an affine analysis (Karr 1976): at first every count is taken
-    to be constant; then each change that can occur where the present laws hold weakens them.
-
-    Args:
-        task: The ground problem.
-        start: The state whose counts the laws keep.
-
-    Attributes:
-        mutexes: What excludes each other from the same start.
-        laws: The laws.
+    The laws are found as the least fixed point of an affine analysis (Karr 1976): at first every count is taken to be
+    constant; then each change that can occur where the present laws hold weakens them. They keep the counts of the
+    state ``start``.
     """
 
     def __init__(self, task: Task, start: Bits) -> None:
@@ -446,9 +434,6 @@ class Impossible:
 
     What is derived from a state holds in every state reachable from it. It is derived from the task's initial
     state when first asked, and again from states that are out of its reach (forced instructions lead there).
-
-    Args:
-        task: The ground problem.
     """
 
     def __init__(self, task: Task) -> None:

@@ -38,9 +38,6 @@ class EngineSpec:
     """An engine of unified-planning and how it is called.
 
     Attributes:
-        name: Its name there.
-        parameters: Its parameters.
-        time_limit: Seconds after which it is stopped.
         skip_checks: Whether to leave out the engine's own check of the problem kind, which costs 14 ms a call.
         memory: Bytes that it may take beyond those of unified-planning; ``None`` for most of the machine's memory.
     """

@@ -161,10 +161,8 @@ def brief_text(grounded: Grounded) -> str:
 def grounded_text(grounded: Grounded, *, energies: bool = False, verbose: bool = False) -> str:
     """Return clauses, skipped pieces and goals, then each plan and why it is not first.
 
-    Args:
-        grounded: The answer.
-        energies: Whether to give the energies of the plans, by factor.
-        verbose: Whether to write goals at full length, and those that were not taken.
+    ``energies`` gives those of the plans, by factor; ``verbose`` writes goals at full length, and those that were not
+    taken.
     """
     parts = [parsed_text(grounded.parsed)]
     told: list[str] = []

@@ -23,9 +23,7 @@ _WIDER = 3
 class TextPhrase:
     """Words of a clause.
 
-    Attributes:
-        kind: :data:`VERB` or :data:`OBJECT`.
-        name: The stem, or the language-object, as the clause has it.
+    ``name`` is the stem, or the language-object, as the clause has it.
     """
 
     span: Span
@@ -126,10 +124,8 @@ def lit_sentence(
 ) -> str:
     """Return the text as a fragment of HTML.
 
-    Args:
-        parsed: The text and its clauses.
-        meant: For every clause the objects that its language-objects were grounded to; without it, they are left out.
-        unseen: The verbs that no demonstration has.
+    ``meant`` has for every clause the objects of its language-objects; without it they are left out. ``unseen`` are the
+    verbs that no demonstration has.
     """
     spans = _clipped([clause.span for clause in parsed.clauses])
     lit = _free([*_clause_words(parsed, meant, unseen), *_skipped(parsed)])

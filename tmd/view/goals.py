@@ -94,10 +94,7 @@ def _words(formula: Formula | None, wording: Wording) -> str:
 def followed(goals: Sequence[StepGoal], problem: Problem, plan: Iterable[Instruction]) -> list[ShownGoal]:
     """Return the goals in words, each with where in ``plan`` it comes to hold.
 
-    Args:
-        goals: The goals.
-        problem: Where the plan begins.
-        plan: The plan; what follows an instruction that cannot be executed is left out.
+    What follows an instruction that cannot be executed is left out.
     """
     states = validate(problem, plan, trace=True).trace if goals else ()
     return [_placed(shown, states, problem) for shown in in_words(goals, problem)]
@@ -125,10 +122,7 @@ def all_reached(goals: Iterable[ShownGoal]) -> bool:
 def outcome(verdict: Verdict, goals: Sequence[ShownGoal], goal: Formula = TRUE) -> str:
     """Return the outcome of a plan in a few words; an executable plan need not reach its goals.
 
-    Args:
-        verdict: What the validator says of it.
-        goals: The goals of the text, as :func:`followed` returns them.
-        goal: The goal of the problem, for a plan without a text.
+    ``goals`` are those of a text, from :func:`followed`; ``goal`` is that of the problem, for a plan without a text.
     """
     if not verdict.valid:
         return "✗ does not work"

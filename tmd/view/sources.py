@@ -68,8 +68,7 @@ class ViewRequest:
 class FoundSubject:
     """Subject of a page, and its circumstances.
 
-    Attributes:
-        of_text: Whether there is a text, or a problem, that should have a plan.
+    ``of_text``: there is a text, or a problem, that should have a plan.
     """
 
     subject: Subject

@@ -22,9 +22,7 @@ _TITLE = 90
 class PlannedStep:
     """An instruction, and what it is for.
 
-    Attributes:
-        origin: ``clause 2``; empty without a text.
-        latent: Whether they left it unsaid.
+    ``origin`` is ``clause 2``; empty without a text.
     """
 
     instruction: Instruction
@@ -37,8 +35,7 @@ class PlannedStep:
 class Said:
     """A text, and what was made of it.
 
-    Attributes:
-        meant: For every clause what its nouns mean; ``None`` where that is not known.
+    ``meant`` has for every clause what its nouns mean; ``None`` where that is not known.
     """
 
     parsed: Parsed
@@ -51,11 +48,8 @@ class Said:
 class Ran:
     """Execution of a plan by a robot.
 
-    Attributes:
-        status: How it ended: ``done``, ``recovered``, ``stopped`` …; ``unfinished`` where its log has no end.
-        repairs: How often the executor replanned.
-        seconds: Simulated time.
-        steps: What was done, in order.
+    ``status`` is ``done``, ``recovered``, ``stopped`` …, or ``unfinished`` where its log has no end; ``seconds`` are
+    simulated.
     """
 
     status: str
@@ -74,9 +68,7 @@ class Subject:
     """A plan to show.
 
     Attributes:
-        said: The text; ``None`` for a plan without a text.
         plans: All ranked plans, the one shown first; empty where nothing was ranked.
-        refusals: Templates that could not be used.
         strip: The filmstrip of that, as a ``data:`` address; empty without one.
         refused: The reason why there is no plan; empty where there is one, or where it is not known.
     """

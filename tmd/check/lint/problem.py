@@ -40,11 +40,8 @@ class Possible:
 
     An over-approximation in time linear in the problem: relaxed reachability over the effects of the lifted actions,
     and over the objects that the initial state has at each place of each predicate. What is impossible here is
-    impossible.
-
-    Attributes:
-        blocked: For each action that can never apply what it lacks: a type without objects, or an atom of its
-            precondition.
+    impossible. ``blocked`` has for each action that can never apply what it lacks: a type without objects, or an atom
+    of its precondition.
     """
 
     def __init__(self, problem: Problem) -> None:

@@ -85,15 +85,14 @@ class _Taught:
 class Crf:
     """The energy and its inference.
 
+    ``journal`` is where ``fit`` writes down how far it is, and goes on from.
+
     Args:
         config: The model.
         learned: Whether the weights are learned; otherwise they are those of the model.
         proposals: How many plans are looked at for each training example.
         most_examples: Maximum number of training examples of each world, drawn at random.
         rounds: How often plans are proposed again.
-
-    Attributes:
-        journal: Where ``fit`` writes down how far it is, and goes on from; ``None`` until it is set.
     """
 
     def __init__(

@@ -72,8 +72,7 @@ class Candidates:
 class Ranked:
     """A row of the table.
 
-    Args:
-        weights: What each of :data:`FEATURES` counts for.
+    ``weights`` say what each of :data:`FEATURES` counts for.
     """
 
     def __init__(self, weights: Mapping[str, float] = WEIGHTS) -> None:

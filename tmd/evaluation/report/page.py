@@ -88,7 +88,6 @@ class LearnedWeights:
     Attributes:
         losses: The mean loss of the first and of the last epoch; ``None`` if no curve was kept.
         weights: The largest weights, by factor: a cell for each kind of world.
-        smaller: How many are left out.
     """
 
     model: str
@@ -131,12 +130,7 @@ def _losses(worlds: Sequence[WorldFit]) -> tuple[float, float] | None:
 
 
 def render(run: Run, trials: Trials | None = None) -> str:
-    """Return the page.
-
-    Args:
-        run: The run.
-        trials: The robot's trials of its predictions; ``None`` where there are none.
-    """
+    """Return the page."""
     metrics, fits = run.metrics, list(run.fits.values())
     order, chief, tasks = by_merit(metrics), reference(metrics.models), tasks_of(metrics)
     shown = [model for model in order if model != EMPTY]

@@ -34,8 +34,7 @@ METRICS = ("IED", "EED")
 class PaperRow:
     """A row of Table II.
 
-    Attributes:
-        scores: IED and EED for each of :data:`TASKS`.
+    ``scores`` are IED and EED for each of :data:`TASKS`.
     """
 
     title: str
@@ -185,9 +184,7 @@ _STRONGER = ("templates", "tree")
 class OtherOrder:
     """Two rows of Table II that stand in another order here.
 
-    Attributes:
-        here: ``better`` minus ``worse`` in this run.
-        there: The same in the paper, below 0.
+    ``here`` is ``better`` minus ``worse`` in this run, ``there`` the same in the paper, below 0.
     """
 
     better: str

@@ -23,11 +23,8 @@ def outcomes(
 ) -> Generator[JobOutcome]:
     """Do the units, and yield what came out of each as soon as it is there, in any order.
 
-    Args:
-        config: The run.
-        units: What is to be done.
-        fits: Where what is learned is kept on this machine.
-        fingerprint: Of the data, which must be the same wherever a unit is done.
+    ``fits`` is where what is learned is kept on this machine; the data must have the ``fingerprint`` wherever a unit is
+    done.
 
     Raises:
         WorkerLostError: A process was killed.
@@ -44,10 +41,7 @@ def outcomes(
 def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], jobs: int) -> Generator[_Made]:
     """Call ``work`` with each of ``tasks``, at most ``jobs`` at once, and yield what comes back in any order.
 
-    Args:
-        work: A function of a module: other processes must find it.
-        tasks: The arguments of each call.
-        jobs: How many processes; with one, this process does it all.
+    ``work`` is a function of a module, for other processes must find it. With one job, this process does it all.
 
     Raises:
         WorkerLostError: A process was killed.

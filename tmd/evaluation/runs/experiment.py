@@ -44,10 +44,7 @@ def run_experiment(
 ) -> Metrics:
     """Train, predict and score, or what is left of it, and write the report.
 
-    Args:
-        config: The run.
-        collect_only: Train nothing: recompute everything from finished parts.
-        progress: Called with the number of parts done and of all parts.
+    With ``collect_only`` nothing is trained: everything is recomputed from finished parts.
 
     Returns:
         The contents of ``metrics.json``; ``report.html`` is beside it in ``config.out``.

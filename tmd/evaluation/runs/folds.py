@@ -23,8 +23,7 @@ _LONGEST = 60
 class Fold:
     """One split.
 
-    Attributes:
-        training_set: The name of ``train``; folds with the same training examples have the same one.
+    Folds with the same training examples have the same ``training_set``, the name of ``train``.
     """
 
     name: str

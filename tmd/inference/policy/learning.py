@@ -133,16 +133,10 @@ def learn_policy(
 ) -> Reward:
     """Learn the constraints, the features and their weights.
 
-    A clause for which a demonstration has no instructions teaches nothing: most of them come from the alignment,
-    which gives all that was done for a piece of text to one of its clauses.
-
-    Args:
-        demonstrations: The corpus.
-        world_of: The world of an environment, by the environment's name.
-        random: Generator of the order of the training data.
-        grounded: Whether the reward also knows which objects the clause's nouns may mean.
-        rounds: Number of passes over the training data.
-        tell: Called with the share of the ascent, which takes the longest, that is done.
+    A clause for which a demonstration has no instructions teaches nothing: most of them come from the alignment, which
+    gives all that was done for a piece of text to one of its clauses. A ``grounded`` reward also knows which objects
+    the nouns of a clause may mean. ``rounds`` is the number of passes over the training data, in the order that
+    ``random`` draws; ``tell`` is called with the share of the ascent, which takes the longest, that is done.
     """
     lessons = study(demonstrations, world_of)
     sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]

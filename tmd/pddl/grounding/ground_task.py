@@ -38,14 +38,8 @@ def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Seque
     """Return the ground task of ``problem``.
 
     The task is exact for every state that its operators reach from the problem's initial state, from any of
-    ``initial_states``, and by the ``forced`` instructions, which may be executed although their precondition
-    does not hold.
-
-    Args:
-        problem: What to ground.
-        initial_states: Further states from which the task will be searched.
-        forced: Instructions whose effects count whether or not they are applicable. They are among the
-            operators even where they can never apply.
+    ``initial_states``, and by the ``forced`` instructions, which may be executed although their precondition does not
+    hold. Forced instructions are among the operators even where they can never apply.
 
     Raises:
         TmdError: A forced instruction is not one of the problem, a cost has no value, a predicate is derived from
