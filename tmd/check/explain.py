@@ -50,11 +50,7 @@ def explain(verb: str, corpora: Sequence[Corpus]) -> str:
 
 
 def _stem(said: str, lexicon: Lexicon) -> str:
-    """Return the stem of a verb, with its particle joined to it.
-
-    Raises:
-        TmdError: It is not a word.
-    """
+    """Return the stem of a verb, with its particle joined to it."""
     head, *particles = said.lower().replace("-", "_").replace("_", " ").split() or [""]
     if not all(word.isalpha() for word in (head, *particles)):
         raise TmdError(f"'{said}' is not a verb", hint="write it as it is said: tidy, 'turn on'")

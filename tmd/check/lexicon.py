@@ -305,11 +305,7 @@ def _read(text: str, report: Report) -> tuple[Formula | None, Source]:
 
 
 def _one_condition(document: Document) -> Formula:
-    """Return the condition that a text consists of.
-
-    Raises:
-        TmdError: It is none, or several.
-    """
+    """Return the condition that a text consists of."""
     document.check_depth()
     if len(document.groups) != 1:
         place = document.groups[1].location if document.groups else None

@@ -46,11 +46,7 @@ def _edits(file: Path, diagnostics: Sequence[Diagnostic]) -> list[Edit]:
 
 
 def _edited(file: Path, edits: Iterable[Edit]) -> str | None:
-    """Return the text of ``file`` with ``edits``, without those that overlap others; ``None`` where there are none.
-
-    Raises:
-        TmdError: The file cannot be read.
-    """
+    """Return the text of ``file`` with ``edits``, without those that overlap others; ``None`` where there are none."""
     wanted = sorted(set(edits))
     if not wanted:
         return None

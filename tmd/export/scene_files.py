@@ -159,11 +159,7 @@ def _urdf(name: str, parts: list[_Part]) -> ET.Element:
 
 
 def _mjcf(urdf: ET.Element, meshes: Mapping[str, bytes], positions: Mapping[str, float]) -> bytes:
-    """Compile the URDF with MuJoCo, with its meshes in ``meshes/`` and the joints at the start as a key frame.
-
-    Raises:
-        MissingToolError: MuJoCo is not installed.
-    """
+    """Compile the URDF with MuJoCo, with its meshes in ``meshes/`` and the joints at the start as a key frame."""
     try:
         import mujoco
     except ImportError as error:

@@ -138,11 +138,7 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
 
 
 def _plans(text: str, reader: _Reader) -> tuple[list[_Found], bool]:
-    """Return the plans in a text, and whether they stand in data.
-
-    Raises:
-        TmdError: Something in the place of a step is none.
-    """
+    """Return the plans in a text, and whether they stand in data."""
     value = _json(text)
     plans = [] if value is not None else reader.plans_of_text(text)
     data: list[_Found] = []
@@ -345,11 +341,7 @@ class _Reader:
         self.vocabulary = vocabulary
 
     def plans_of_text(self, text: str) -> list[_Found]:
-        """Return the plans in the order in which they stand; one without steps if the text is one.
-
-        Raises:
-            TmdError: Something in the place of a step is none.
-        """
+        """Return the plans in the order in which they stand; one without steps if the text is one."""
         lines = [self._line(line, number) for number, line in enumerate(split_lines(text), start=1)]
         _confirm(lines)
         split = _split(lines)
@@ -435,11 +427,7 @@ class _Reader:
     def _groups(
         self, source: str, code: str, place: Location, head: re.Match[str], start: Decimal | None
     ) -> list[_Step]:
-        """Return the steps of a line that have parentheses.
-
-        Raises:
-            TmdError: A step is not closed, or has something else than names.
-        """
+        """Return the steps of a line that have parentheses."""
         self._check_end(source, code, place, head.end())
         found = [self._group(group) for group in _GROUP.finditer(code)]
         known = any(words and self.vocabulary.has(words) for words, _, _ in found)
@@ -459,11 +447,7 @@ class _Reader:
         return steps
 
     def _check_end(self, source: str, code: str, place: Location, position: int) -> None:
-        """Make sure that the last step of a line is closed.
-
-        Raises:
-            TmdError: It is not.
-        """
+        """Make sure that the last step of a line is closed."""
         unclosed = _OPEN.search(code, position)
         if unclosed and self.vocabulary.may_begin(unclosed[1].lower()):
             hint = "add the missing ); if the text ends here, give all of it"
@@ -553,11 +537,7 @@ class _JsonReader:
         self._position = 0
 
     def plans(self, value: Any) -> Iterator[_Found]:  # noqa: ANN401 - any JSON
-        """Yield the plans in ``value``, in the order in which they stand.
-
-        Raises:
-            TmdError: Something in the place of a step is none.
-        """
+        """Yield the plans in ``value``, in the order in which they stand."""
         before = self._position
         if isinstance(value, dict) and len(value) > 1 and all(map(_NUMBER.fullmatch, value)):
             value = list(value.values())

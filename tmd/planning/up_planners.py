@@ -99,11 +99,7 @@ def _asked(engine: EngineSpec, question: tuple[object, ...]) -> dict[str, Any] |
 
 
 def _judged(status: str, engine: EngineSpec) -> Unreachable | GaveUp:
-    """Interpret a status without a plan. ``UNSOLVABLE_INCOMPLETELY`` means "gave up", never "impossible".
-
-    Raises:
-        TmdError: The engine failed or refused the problem.
-    """
+    """Interpret a status without a plan. ``UNSOLVABLE_INCOMPLETELY`` means "gave up", never "impossible"."""
     match status:
         case "UNSOLVABLE_PROVEN":
             return Unreachable(f"{engine.name} proved it")

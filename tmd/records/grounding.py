@@ -80,11 +80,7 @@ class GoalRecord(JsonRecord):
 
 
 def _condition(text: str) -> Formula:
-    """Return the condition that a text states.
-
-    Raises:
-        ValueError: It is not a condition.
-    """
+    """Return the condition that a text states."""
     try:
         return read_only_condition(parse(text, "pddl"))
     except TmdError as error:

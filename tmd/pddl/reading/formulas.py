@@ -116,11 +116,7 @@ def read_name(node: Node, source: Source, what: str) -> Word:
 
 
 def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], hint: str) -> None:
-    """Warn of a name that PDDL does not have, and planners take.
-
-    Raises:
-        TmdError: It is none.
-    """
+    """Warn of a name that PDDL does not have, and planners take; raise the error where it is none."""
     strange = next((place for place, letter in enumerate(node.text) if not letter.isascii()), None)
     if strange is not None:
         letter = node.text[strange]

@@ -728,11 +728,7 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
 
 
 def _titled(parts: Sequence[Node], kind: str, hint: str, source: Source) -> tuple[Group, list[Node]]:
-    """Return the title of a definition, with its kind and a name, and the sections behind it.
-
-    Raises:
-        TmdError: There is no such title.
-    """
+    """Return the title of a definition, with its kind and a name, and the sections behind it."""
     title, *sections = parts
     if isinstance(title, Word) and title.text == kind and sections and isinstance(sections[0], Word):
         title = _title_in_parentheses(title, sections.pop(0), source)
@@ -788,11 +784,7 @@ def _outside(words: Sequence[Word], source: Source) -> None:
 
 
 def _of_kind(kind: str, named: Node, name: str, sections: Sequence[Group], source: Source) -> None:
-    """Make sure that a definition has not the sections of the other kind only.
-
-    Raises:
-        TmdError: It has.
-    """
+    """Make sure that a definition has not the sections of the other kind only."""
     heads = {section.head for section in sections} - {":requirements"}
     own, other = _RANKS_OF_DOMAIN, _RANKS_OF_PROBLEM
     needed, meant = {":init", ":goal"}, "problem"
