@@ -16,7 +16,7 @@ from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, read_pat
 from tmd.goals.tables import declared_goals
 from tmd.language import parse as parse_text
 from tmd.language.lexicon.lexicon import Declared, Lexicon, verb_candidates
-from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
+from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem, with_parts
 from tmd.pddl.reading.checking import check_condition
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, nearest, parse, read_text, split_lines
@@ -329,7 +329,11 @@ def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: 
     looked = False
     for problem in environments if waiting else ():
         looked, world = True, Possible(problem)
-        lacking = {key: _lacking(_related(key[0].formula, key[1]), _scope(key[0]), world) for key in waiting}
+        # slots are of any type, because a part is taken where the thing itself does not fit
+        lacking = {
+            (one, preposition): _lacking(_related(one.formula, preposition), dict.fromkeys(one.variables, _ANY), world)
+            for one, preposition in waiting
+        }
         waiting = {key: atom for key, atom in lacking.items() if atom is not None}
         if not waiting:
             return
@@ -341,21 +345,11 @@ def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: 
         yield written.error(place, message, hint, "impossible-goal")
 
 
-def _scope(one: _Sound) -> Scope:
-    """Return the types of slots: any, because a part is taken where the thing itself does not fit."""
-    return dict.fromkeys(one.variables, _ANY)
-
-
 def _related(formula: Formula, preposition: str) -> Formula:
     """Return a condition with a preposition for ``?rel``."""
-    match formula:
-        case Atom(predicate, terms):
-            return Atom(predicate, tuple(preposition if term == RELATION else term for term in terms))
-        case And(parts) | Or(parts):
-            return replace(formula, parts=tuple(_related(part, preposition) for part in parts))
-        case Exists(_, part) | Forall(_, part):
-            return replace(formula, part=_related(part, preposition))
-    return formula
+    if isinstance(formula, Atom):
+        return replace(formula, terms=tuple(preposition if term == RELATION else term for term in formula.terms))
+    return with_parts(formula, lambda part: _related(part, preposition))
 
 
 def _lacking(formula: Formula, scope: Scope, world: Possible) -> str | None:

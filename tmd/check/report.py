@@ -84,10 +84,7 @@ _MOST_ROUNDS = 8
 @short_repr(lambda r: f"{len(r.files)} file(s): " + ", ".join(f"{n} {severity}(s)" for severity, n in r.counts.items()))
 @dataclass(frozen=True, slots=True)
 class CheckReport:
-    """Result of a check.
-
-    Diagnostics are sorted by file, line and column.
-    """
+    """Result of a check. Diagnostics are sorted by file, line and column."""
 
     files: tuple[Path, ...]
     diagnostics: tuple[Diagnostic, ...]

@@ -17,10 +17,7 @@ from tmd.world.demonstration import check_goal
 
 @dataclass(frozen=True, slots=True)
 class LearnedDomain:
-    """A learned domain, and where it was saved.
-
-    ``tuned`` is ``None`` where no weights were learned.
-    """
+    """A learned domain, and where it was saved. ``tuned`` is ``None`` where no weights were learned."""
 
     knowledge: Knowledge
     tuned: Learned | None

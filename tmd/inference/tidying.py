@@ -105,10 +105,7 @@ class Tidying:
         return isinstance(planner, GapFiller) and instruction not in planner.careful.task.by_instruction
 
     def improved(self, start: Bits, plan: Plan, kept: Condition) -> Plan:
-        """Return a plan that is at least as good.
-
-        ``kept`` must hold at its end, beside the needs of its parts.
-        """
+        """Return a plan that is at least as good. ``kept`` must hold at its end, beside the needs of its parts."""
         return _Improvement(self, start, plan, kept).improved(plan)
 
     def pruned(self, start: Bits, part: PlanPart) -> tuple[Instruction, ...]:

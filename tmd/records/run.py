@@ -164,10 +164,7 @@ class RunRecord(RunRequest):
         execution: Execution,
         ticks: int,
     ) -> RunRecord:
-        """Return a run that is over.
-
-        ``ticks`` are steps of the physics.
-        """
+        """Return a run that is over. ``ticks`` are steps of the physics."""
         ended = how_it_ended(execution, ticks)
         return cls.model_validate({**asked.given(), "steps": tuple(steps), **ended})
 

@@ -21,10 +21,7 @@ _WIDER = 3
 
 @dataclass(frozen=True, slots=True)
 class TextPhrase:
-    """Words of a clause.
-
-    ``name`` is the stem, or the language-object, as the clause has it.
-    """
+    """Words of a clause. ``name`` is the stem, or the language-object, as the clause has it."""
 
     span: Span
     kind: str

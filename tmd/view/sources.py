@@ -66,10 +66,7 @@ class ViewRequest:
 
 @dataclass(frozen=True, slots=True)
 class FoundSubject:
-    """Subject of a page, and its circumstances.
-
-    ``of_text``: there is a text, or a problem, that should have a plan.
-    """
+    """Subject of a page, and its circumstances. ``of_text``: there is a text, or a problem, that should have a plan."""
 
     subject: Subject
     remarks: tuple[str, ...] = ()

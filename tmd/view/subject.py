@@ -20,10 +20,7 @@ _TITLE = 90
 
 @dataclass(frozen=True, slots=True)
 class PlannedStep:
-    """An instruction, and what it is for.
-
-    ``origin`` is ``clause 2``; empty without a text.
-    """
+    """An instruction, and what it is for. ``origin`` is ``clause 2``; empty without a text."""
 
     instruction: Instruction
     origin: str = ""

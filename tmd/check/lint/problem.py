@@ -47,7 +47,8 @@ class Possible:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.objects = universe(problem)
-        self._fits = cache(self._starts_with)
+        # whether the initial state has an object of some types at a place of a predicate
+        self._fits = cache(lambda name, at, types: any(self.objects.is_a(o, types) for o in self._columns[name][at]))
         self._columns: dict[str, list[dict[str, None]]] = {}
         for atom in problem.init:
             columns = self._columns.setdefault(atom.predicate, [{} for _ in atom.args])
@@ -101,10 +102,6 @@ class Possible:
             self._fits(atom.predicate, place, scope[term]) if term.startswith("?") else term in columns[place]
             for place, term in enumerate(atom.terms)
         )
-
-    def _starts_with(self, predicate: str, place: int, types: tuple[str, ...]) -> bool:
-        """Return whether the initial state has an object of ``types`` at that place of the predicate."""
-        return any(self.objects.is_a(name, types) for name in self._columns[predicate][place])
 
     def _makers(self, atom: Atom, scope: Scope) -> frozenset[int]:
         """Return the effects that may add an atom of this form."""

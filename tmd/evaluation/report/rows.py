@@ -32,10 +32,7 @@ METRICS = ("IED", "EED")
 
 @dataclass(frozen=True, slots=True)
 class PaperRow:
-    """A row of Table II.
-
-    ``scores`` are IED and EED for each of :data:`TASKS`.
-    """
+    """A row of Table II. ``scores`` are IED and EED for each of :data:`TASKS`."""
 
     title: str
     scores: tuple[tuple[float, float], ...]

@@ -21,10 +21,7 @@ _LONGEST = 60
 
 @dataclass(frozen=True, slots=True)
 class Fold:
-    """One split.
-
-    Folds with the same training examples have the same ``training_set``, the name of ``train``.
-    """
+    """One split. Folds with the same training examples have the same ``training_set``, the name of ``train``."""
 
     name: str
     train: tuple[Example, ...]

@@ -101,10 +101,7 @@ class WorkerLostError(TmdError):
 
 @dataclass(frozen=True, slots=True)
 class EvaluationJob:
-    """One unit of work.
-
-    ``saved`` is what was learned when it was done before, if it was.
-    """
+    """One unit of work. ``saved`` is what was learned when it was done before, if it was."""
 
     model: str
     training_set: str

@@ -237,7 +237,10 @@ def _apart(node: Word, rest: list[Node], variables: bool, source: Source) -> Wor
     if len(node.text) > 1 and node.text[-1] == "-" and rest and (isinstance(rest[-1], Group) or rest[-1].text != "-"):
         return _before_dash(node, rest, source)
     if len(node.text) > 1 and node.text[0] == "-":
-        rest.append(_after_dash(node, source))
+        place, kind = shifted(node.location, 1), node.text[1:]
+        message, edits = f'some tools want a space between "-" and "{kind}"', [Edit(place, place, " ")]
+        source.warn(message, node.location, f'write "- {kind}"', "glued-dash", edits)
+        rest.append(Word(kind, place))
         return Word("-", node.location)
     if _LOOK_ALIKES.get(node.text) == "-":
         source.recover(None, read_name, node, source, "a dash")
@@ -297,14 +300,6 @@ def _before_colon(node: Word, rest: list[Node], source: Source) -> Word:
     source.fault_once(message, place, f"write {name} - {kind or 'type'}", "other-notation", edits)
     rest += [Word(kind, shifted(place, 1)), Word("-", place)] if kind else [Word("-", place)]
     return Word(name, node.location)
-
-
-def _after_dash(node: Word, source: Source) -> Word:
-    """Return the type in ``-type``, which wants a space."""
-    message = f'some tools want a space between "-" and "{node.text[1:]}"'
-    place = shifted(node.location, 1)
-    source.warn(message, node.location, f'write "- {node.text[1:]}"', "glued-dash", [Edit(place, place, " ")])
-    return Word(node.text[1:], place)
 
 
 def _before_dash(node: Word, rest: list[Node], source: Source) -> Word:
@@ -481,20 +476,28 @@ def truth_value(node: Group, atom: Group, value: Node, source: Source) -> Group:
 def _quantifier(node: Group, source: Source, what: str) -> Group:
     """Return a quantifier with parameters in parentheses and one part behind them; anything else is reported."""
     head, *parts = node.parts
-    words = [part for part in takewhile(lambda part: isinstance(part, Word), parts)]
+    words = list(takewhile(lambda part: isinstance(part, Word), parts))
     if words:
-        edits = enclosed(words[0], words[-1])
-        source.fault_at("parameters stand in parentheses", words[0].location, "write (?x - type)", "syntax", edits)
-        parameters = Group(tuple(words), words[0].location, after(words[-1]), node.depth + 1)
-        parts = [parameters, *parts[len(words) :]]
+        parts = [parameters_of_words(words, source), *parts[len(words) :]]
     if len(parts) > 2 and all(isinstance(part, Group) for part in parts):
-        edits = enclosed(parts[1], parts[-1], "(and ")
-        message, hint = f'"{node.head}" takes one part behind its parameters', "use (and (...) (...)) for several"
-        source.fault_at(message, parts[1].location, hint, "syntax", edits)
-        parts = [parts[0], _group(node, Word("and", parts[1].location), *parts[1:])]
+        parts = [parts[0], conjoined(f'"{node.head}" takes one part behind its parameters', parts[1:], source)]
     node = _group(node, head, *parts)
     _expect(node, 2, f"({node.head} (parameters) {what})", source)
     return node
+
+
+def parameters_of_words(words: Sequence[Node], source: Source) -> Group:
+    """Return parameters without parentheses, which are reported, as a group."""
+    start, edits = words[0].location, enclosed(words[0], words[-1])
+    source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
+    return Group(tuple(words), start, after(words[-1]), 2)
+
+
+def conjoined(message: str, parts: Sequence[Node], source: Source) -> Group:
+    """Return the conjunction of several conditions or effects where one should be, which is reported."""
+    place, edits = parts[0].location, enclosed(parts[0], parts[-1], "(and ")
+    source.fault_at(message, place, "use (and (...) (...)) for several", "syntax", edits)
+    return Group((Word("and", place), *parts), place, after(parts[-1]), 2)
 
 
 def _equation(node: Group, sign: str, terms: Sequence[Node], source: Source) -> Group:
@@ -553,7 +556,8 @@ def read_condition(node: Node, source: Source) -> Formula:
         return And((), node.location)
     head, parts, place = node.head, node.parts[1:], node.location
     if head in ("and", "or"):
-        inner = _read_parts(parts, source)
+        read = (source.recover(None, read_condition, p, source) for p in in_prefix(parts, source))
+        inner = tuple(part for part in read if part is not None)
         return And(inner, place) if head == "and" else Or(inner, place)
     if head == "not":
         _expect(node, 1, "(not condition)", source)
@@ -589,11 +593,6 @@ def read_only_condition(document: Document) -> Formula:
         place = Location(source.file, 1, 1)
         raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
     return read_condition(document.groups[0], source)
-
-
-def _read_parts(parts: Sequence[Node], source: Source) -> tuple[Formula, ...]:
-    read = (source.recover(None, read_condition, p, source) for p in in_prefix(parts, source))
-    return tuple(part for part in read if part is not None)
 
 
 def read_atom(node: Group, source: Source) -> Atom:
