@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
@@ -22,18 +23,13 @@ def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
         TmdError: The file cannot be read.
     """
     if any(diagnostic.code == "stale-domain" for diagnostic in diagnostics):
-        return _compiled(file)
-    return _edited(file, _edits(file, diagnostics))
+        from tmd.world.compile import compile_domain
+        from tmd.world.folder import DomainFolder
 
-
-def _compiled(file: Path) -> str | None:
-    from tmd.world.compile import compile_domain
-    from tmd.world.folder import DomainFolder
-
-    try:
-        return compile_domain(DomainFolder(file.parent))
-    except TmdError:
+        with suppress(TmdError):
+            return compile_domain(DomainFolder(file.parent))
         return None
+    return _edited(file, _edits(file, diagnostics))
 
 
 def _edits(file: Path, diagnostics: Sequence[Diagnostic]) -> list[Edit]:

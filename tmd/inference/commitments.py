@@ -10,6 +10,7 @@ from tmd.pddl.domain_traits import passing_predicates, transformations
 from tmd.pddl.ground_formula import goal_cubes
 from tmd.pddl.grounding.ground_task import ground_condition
 from tmd.pddl.model import Formula, GroundAtom
+from tmd.pddl.semantics import opposite
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.readers.interface import PlanConstraints
 
@@ -40,19 +41,13 @@ def commitments_of(cube: Cube, clause: int, task: Task) -> tuple[Commitment, ...
     domain = task.problem.domain
     passing = passing_predicates(domain) - {predicate for _, predicate, _ in transformations(domain)}
     found = []
-    for literal, atom in _literals(cube, task):
+    for literal in cube.literals():
+        (atom,) = task.names(literal.positive | literal.negative)
         if atom.predicate in passing:
             continue
         later = tuple(_later(atom, task)) if literal.positive else ()
         found.append(Commitment((literal, *later), clause))
     return tuple(found)
-
-
-def _literals(cube: Cube, task: Task) -> Iterator[tuple[Cube, GroundAtom]]:
-    for atom in task.names(cube.positive):
-        yield Cube(1 << task.index[atom], 0), atom
-    for atom in task.names(cube.negative):
-        yield Cube(0, 1 << task.index[atom]), atom
 
 
 def _later(atom: GroundAtom, task: Task) -> Iterator[Cube]:
@@ -159,8 +154,8 @@ def _without(operator: Operator, forbidden: Iterable[Cube], task: Task) -> Opera
             further = _brought_about(cube, operator.add | add, operator.delete | delete)
             if further is None:
                 # this effect undoes the cube: the unconditional ones bring it about only where its condition fails
-                fails = [Cube(negative, positive) for (positive, negative), _ in _literals(condition, task)]
-                unconditional = [both for c, f in product(unconditional, fails) if (both := c.joined(f)) is not None]
+                pairs = product(unconditional, opposite(condition))
+                unconditional = [both for c, fails in pairs if (both := c.joined(fails)) is not None]
             elif (both := further.joined(condition)) is not None:
                 states[both] = None
         states.update(dict.fromkeys(unconditional))

@@ -99,7 +99,8 @@ class GoalPass(ForwardPass):
             ways = found
         refusal = self._without_effect(ways)
         if refusal is None:
-            ways = sorted((w for w in ways if self._respects_constraints(w, state)), key=lambda way: way.order)
+            allowed = (w for w in ways if self._allowed(self.world.task.trace(state, w.instructions)))
+            ways = sorted(allowed, key=lambda way: way.order)
             ways = self._all_finished(ways, state)
             refusal = None if ways else _FORBIDDEN
         if refusal is not None:
@@ -295,12 +296,9 @@ class GoalPass(ForwardPass):
         message = f"no predicate of this domain can represent the result of '{text}'"
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "say what shall be different afterwards, or allow guesses")
 
-    def _respects_constraints(self, way: Way, first: Bits) -> bool:
-        """Return whether a way brings about nothing that the request forbids."""
-        constraints = self.dialogue.constraints
-        if not constraints.never:
-            return True
-        return violated(self.task, constraints, self.world.task.trace(first, way.instructions)) is None
+    def _allowed(self, states: Sequence[Bits]) -> bool:
+        """Return whether states bring about nothing that the request forbids."""
+        return violated(self.task, self.dialogue.constraints, states) is None
 
     # ------------------------------------------------------------------ planning
 
@@ -598,20 +596,8 @@ class GoalPass(ForwardPass):
 
     @cached_property
     def _tidying(self) -> Tidying:
-        constraints = self.dialogue.constraints
-
-        def allowed(states: Sequence[Bits]) -> bool:
-            return not constraints.never or violated(self.task, constraints, states) is None
-
-        return Tidying(
-            self.task,
-            self.planner,
-            self.setup.restored,
-            self.lasting,
-            self._contents,
-            allowed,
-            orderly=self.config.orderly,
-        )
+        restored, orderly = self.setup.restored, self.config.orderly
+        return Tidying(self.task, self.planner, restored, self.lasting, self._contents, self._allowed, orderly)
 
     def _all_finished(self, ways: Sequence[Way], first: Bits) -> list[Way]:
         """Return the best ways, improved; where too many become equal, others follow as they are."""

@@ -67,10 +67,11 @@ Placed: TypeAlias = Sequence[tuple[int, Instruction]]
 """Instructions, each with the number of its part."""
 
 
+@dataclass(frozen=True, slots=True)
 class Tidying:
     """Improves plans for one request.
 
-    Args:
+    Attributes:
         task: The task, without what the request forbids.
         planner: The planner for short gaps.
         restored: The conditions that are restored unless the request asks for them.
@@ -80,24 +81,13 @@ class Tidying:
         orderly: Whether instructions are put in order, and things are taken back to where they were.
     """
 
-    def __init__(
-        self,
-        task: Task,
-        planner: Planner,
-        restored: Sequence[Condition],
-        lasting: Bits,
-        contents: Bits,
-        allowed: Callable[[Sequence[Bits]], bool],
-        *,
-        orderly: bool = True,
-    ) -> None:
-        self.task = task
-        self.planner = planner
-        self.restored = restored
-        self.lasting = lasting
-        self.contents = contents
-        self.allowed = allowed
-        self.orderly = orderly
+    task: Task
+    planner: Planner
+    restored: Sequence[Condition]
+    lasting: Bits
+    contents: Bits
+    allowed: Callable[[Sequence[Bits]], bool]
+    orderly: bool = True
 
     def is_careless(self, instruction: Instruction) -> bool:
         """Return whether an instruction lets something fall."""

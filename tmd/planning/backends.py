@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib.util import find_spec
 from threading import Thread
@@ -116,30 +116,30 @@ def soon(task: Task) -> Planner:
     return InTurn((EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON)), PartByPart(task)))
 
 
+@dataclass(frozen=True, slots=True)
 class TaskPlanners:
     """The planners of one environment, and of its task without what a request forbids.
 
     Other programs plan for the PDDL problem, which does not have the prohibitions of a request. Only the searches of
-    this process plan for a task with prohibitions. ``quick`` fills the gaps of ``task`` and is called ``name``;
+    this process plan for a task with prohibitions. ``planner`` fills the gaps of ``task`` and is called ``name``;
     planners for gaps give up after ``cap`` generated states.
     """
 
-    def __init__(self, task: Task, quick: Planner, name: str = IN_PROCESS, cap: int | None = None) -> None:
-        self._task = task
-        self._quick = quick
-        self._name = name
-        self._cap = cap
+    task: Task
+    planner: Planner
+    name: str = IN_PROCESS
+    cap: int | None = None
 
     def quick(self, task: Task) -> Planner:
         """Return the planner that fills gaps."""
-        return self._quick if task is self._task else make(IN_PROCESS, task, cap=self._cap)
+        return self.planner if task is self.task else make(IN_PROCESS, task, cap=self.cap)
 
     def resort(self, task: Task, *, brief: bool = False) -> Planner:
         """Return the planner that is asked where the quick one gave up; a ``brief`` one gives up after some seconds."""
         if brief:
             return soon(task)
-        ours = self._name == IN_PROCESS or task is not self._task
-        return last_resort(task) if ours else make(self._name, task)
+        ours = self.name == IN_PROCESS or task is not self.task
+        return last_resort(task) if ours else make(self.name, task)
 
 
 class GapsAsProblems:
@@ -242,7 +242,7 @@ class PartByPart:
     def _parts(self, state: Bits, cube: Cube, purpose: Cube, depth: int) -> Filled | None:
         """Return a plan for one alternative, or for its purpose: water that heats may cook what is in it at once."""
         plan: tuple[Instruction, ...] = ()
-        cost, known = 0, dict.fromkeys(_literals(cube), 0)
+        cost, known = 0, dict.fromkeys(cube.literals(), 0)
         while not (cube.holds(state) or purpose.holds(state)):
             kept = cube._replace(positive=cube.positive & state, negative=cube.negative & ~state)
             parts = sorted((p for p in known if not p.holds(state)), key=lambda p: known[p])
@@ -317,16 +317,6 @@ class PartByPart:
 def _open(state: Bits, cube: Cube) -> int:
     """Return the number of literals of a cube that do not hold."""
     return (cube.positive & ~state).bit_count() + (cube.negative & state).bit_count()
-
-
-def _literals(cube: Cube) -> list[Cube]:
-    """Return the literals of a cube, each as a cube."""
-    from tmd.pddl.task import Cube
-
-    def bits(whole: Bits) -> list[Bits]:
-        return [1 << n for n in range(whole.bit_length()) if whole >> n & 1]
-
-    return [*(Cube(bit, 0) for bit in bits(cube.positive)), *(Cube(0, bit) for bit in bits(cube.negative))]
 
 
 class InTurn:

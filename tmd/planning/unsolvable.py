@@ -156,10 +156,7 @@ class Mutexes:
                 context = self._context(action.precondition, self._reached)
                 if context == 0 and (action.precondition or not self._reached):
                     continue
-                contexts = (
-                    context,
-                    *(self._context(effect.condition, context) for effect in action.effects[1:]),
-                )
+                contexts = (context, *(self._context(e.condition, context) for e in action.effects[1:]))
                 if contexts != seen[number]:
                     changed = self._apply(action, contexts, seen[number]) or changed
                     seen[number] = contexts
@@ -280,7 +277,10 @@ class Counts:
                 break
             seen |= fresh
         self._vectors = vectors
-        self.laws = [self._law(vector) for vector in vectors]
+        self.laws = [
+            Law(tuple((name, weight) for name, weight in zip(self._names, v, strict=True) if weight), self._total(v))
+            for v in vectors
+        ]
 
     def clash(self, cube: Cube) -> str | None:
         """Return the law that a goal breaks, in words; ``None`` if it breaks none."""
@@ -298,10 +298,6 @@ class Counts:
 
     def _total(self, vector: Sequence[int]) -> int:
         return sum(weight * count for weight, count in zip(vector, self._start, strict=True))
-
-    def _law(self, vector: Sequence[int]) -> Law:
-        pairs = tuple((name, weight) for name, weight in zip(self._names, vector, strict=True) if weight)
-        return Law(pairs, self._total(vector))
 
     def _bounds(self, cube: Cube) -> tuple[tuple[int, int], ...]:
         """Return the least and the most atoms of each predicate in a state that satisfies ``cube``."""

@@ -168,14 +168,9 @@ def left_behind(plan: RankedPlan, world: World) -> list[GroundAtom]:
     for atom in task.names(plan.state & ~task.init):
         name, bit = thing(atom.args), 1 << task.index[atom]
         ends = any(takes_back(operator, bit) for operator, other in alone.items() if other == name)
-        if ends and not any(_requires(formula, atom, end, task.problem) for formula in reached):
+        if ends and all(holds(formula, end - {atom}, objects) for formula in reached):  # none of them requires it
             found.append(atom)
     return sorted(found)
-
-
-def _requires(formula: Formula, atom: GroundAtom, state: State, problem: Problem) -> bool:
-    """Return whether a goal that holds in a state would not without an atom."""
-    return not holds(formula, state - {atom}, universe(problem))
 
 
 def _reached(plan: RankedPlan, world: World) -> list[Formula]:

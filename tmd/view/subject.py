@@ -108,7 +108,7 @@ def title_of(text: str, environment: str) -> str:
     return f"{short} ({environment})"
 
 
-def text_subject(grounded: Grounded, made: Iterable[tuple[str, str]] = ()) -> Subject:
+def text_subject(grounded: Grounded) -> Subject:
     """Return the subject of a grounded text: its best plan beside the others, or why there is none."""
     return grounded_subject(
         title_of(grounded.parsed.text, grounded.world.name),
@@ -118,7 +118,6 @@ def text_subject(grounded: Grounded, made: Iterable[tuple[str, str]] = ()) -> Su
         grounded.rejected,
         unseen=grounded.unseen,
         unknown=grounded.unknown,
-        made=made,
         refused=grounded.refusal,
     )
 

@@ -168,8 +168,7 @@ def _in_atoms(nodes: Sequence[Node], source: Source) -> Iterator[Node]:
             del rest[:2]
             continue
         if isinstance(node, Word):
-            begin = node.location.line
-            words = [node, *takewhile(lambda n, line=begin: isinstance(n, Word) and n.location.line == line, rest)]
+            words = [node, *_words_of_line(node.location.line, rest)]
             atom = atom_of_words(words, source)
             del rest[: len(words) - 1 if atom else 0]
             node = atom or node
@@ -182,3 +181,7 @@ def _value(place: Location, function: Node, number: Node, end: Location, source:
     edits = [Edit(place, end, shown)]
     source.fault_once('"=" stands before a function and its value', place, f"write {shown}", "other-notation", edits)
     return Group((Word("=", place), function, number), place, shifted(end, -1), 2)
+
+
+def _words_of_line(line: int | None, nodes: Sequence[Node]) -> list[Node]:
+    return list(takewhile(lambda node: isinstance(node, Word) and node.location.line == line, nodes))

@@ -94,7 +94,7 @@ class OptimalSearch:
 
     def _made(self, backend: str) -> _Kernel:
         """Return the kernel in one of its forms."""
-        tables = _tables(_Same(self.task), backend)
+        tables = _tables(self.task, backend)
         if backend == "python":
             functions = Functions(prepared, kernel.search, greedy.search_any)
             return _Kernel(tables, functions.prepared, getattr(functions, self.entry), list)
@@ -126,23 +126,10 @@ def chosen(backend: str) -> Literal["numba", "python"]:
     return "numba"
 
 
-class _Same:
-    """A task as a key: equal to nothing but itself, since comparing tasks takes long."""
-
-    def __init__(self, task: Task) -> None:
-        self.task = task
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _Same) and self.task is other.task
-
-    def __hash__(self) -> int:
-        return id(self.task)
-
-
 @lru_cache(TASKS_KEPT)
-def _tables(same: _Same, backend: str) -> Tables:
+def _tables(task: Task, backend: str) -> Tables:
     """Return a task in flat form; several searches of one request share it."""
-    return build(same.task) if backend == "python" else arrays(_tables(same, "python"))
+    return build(task) if backend == "python" else arrays(_tables(task, "python"))
 
 
 class _Kernel:
