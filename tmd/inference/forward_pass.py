@@ -14,7 +14,7 @@ from functools import cached_property
 from itertools import islice
 
 from tmd.inference.config import InferenceConfig
-from tmd.inference.energy import Energy, Factors
+from tmd.inference.energy import Energy
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation
 from tmd.inference.ranking import (
     Choice,
@@ -92,8 +92,7 @@ class ForwardPass:
                 break
             match self._answer(situation.state, candidate.instructions):  # lines 8 and 9
                 case Filled(latent):
-                    own, names, raw = candidate.instructions, candidate.names, candidate.raw
-                    choice, end = self.weighed(situation, candidate.source, names, latent, own, raw)  # lines 10 and 11
+                    choice, end = self.weighed(situation, candidate, latent)  # lines 10 and 11
                     found.setdefault(end, []).extend(w.extended(choice, end) for w in groups[situation])  # line 12
                 case Unreachable(reason):
                     self.rejected[RejectedProposal(number, candidate.source, reason)] = None
@@ -133,23 +132,14 @@ class ForwardPass:
         return self.planner.fill(state, self.constraints.of(instructions))
 
     def weighed(
-        self,
-        situation: Situation,
-        source: str,
-        names: Sequence[str],
-        latent: Instructions,
-        own: Instructions,
-        raw: Factors,
-        aim: Sequence[Cube] = (),
+        self, situation: Situation, proposal: Proposal, latent: Instructions, aim: Sequence[Cube] = ()
     ) -> tuple[Choice, Bits]:
         """Return the choice of a candidate with all its factors, and the state that it ends in (Φ, lines 10 and 11).
 
-        ``latent`` are the planner's instructions (I_jl), ``own`` those of the candidate (I_j), ``names`` the objects
-        that the clause speaks of, ``raw`` the factors of ψ_j that are known already. ``aim`` is the goal that is
-        reached, if there is one.
+        ``latent`` are the planner's instructions (I_jl); ``aim`` is the goal that is reached, if there is one.
         """
-        energy = self.setup.energy
-        factors, end = dict(raw), situation.state  # ψ_j
+        energy, own, names = self.setup.energy, proposal.instructions, proposal.names
+        factors, end = dict(proposal.raw), situation.state  # ψ_j
         if self.config.knowledge:  # a robot without knowledge takes its environment to stay as it was
             middle = self.world.task.trace(situation.state, latent)[-1]  # E_j, line 10
             end = self.world.task.trace(middle, own)[-1]  # E'_j, line 11
@@ -165,7 +155,7 @@ class ForwardPass:
                 factors |= proposer.judge(situation, (*latent, *own), end)
         steps = tuple(PlanStep(i, situation.number, latent=True) for i in latent)
         steps += tuple(PlanStep(i, situation.number, latent=False) for i in own)
-        return Choice(source, steps, energy.weigh(factors), factors), end
+        return Choice(proposal.source, steps, energy.weigh(factors), factors), end
 
     @cached_property
     def lasting(self) -> Bits:

@@ -23,7 +23,6 @@ from tmd.inference.commitments import (
     kept_throughout,
     violated,
 )
-from tmd.inference.energy import Factors
 from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
 from tmd.inference.ranking import Choice, Inferred, LostGoal, PlanStep, StepGoal, Way
@@ -50,8 +49,8 @@ _MOST_READINGS = 4
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
 PRIOR = "reading_prior"
 """The factor of the reader's prior: the negative logarithm of its belief in the candidate goal."""
-# A proposal that can be carried out, the planner's instructions before it, and its own instructions.
-_Executable = tuple[Proposal, Instructions, Instructions]
+# A proposal that can be carried out, and the planner's instructions before it.
+_Executable = tuple[Proposal, Instructions]
 
 
 @dataclass(frozen=True, slots=True)
@@ -279,10 +278,7 @@ class GoalPass(ForwardPass):
 
     def _proposed(self, step: Step, way: Way) -> list[tuple[Choice, Bits]]:
         """Return what templates and policy propose for a step without a goal, as far as it can be carried out."""
-        return [
-            self._weighed(step, way, candidate.source, latent, own, candidate.raw)
-            for candidate, latent, own in self._executables(step, way)
-        ]
+        return [self._weighed(step, way, candidate, latent) for candidate, latent in self._executables(step, way)]
 
     def _without_effect(self, ways: Sequence[Way]) -> Refusal | None:
         """Return a refusal where no predicate of the domain can represent what was asked: *fold the blanket*."""
@@ -335,8 +331,8 @@ class GoalPass(ForwardPass):
             elif isinstance(answer, Filled):
                 plan = (*begun, *answer.plan)
                 if self.config.guess or self._passes(target, way.state, plan):
-                    raw = {"policy_proposal": 1.0}
-                    found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), plan, raw, aim))
+                    planned = Proposal(PLANNER_SOURCE, plan, (), {"policy_proposal": 1.0}, 0.0)
+                    found.append(self._weighed(target.step, way, planned, (), aim))
             if found:
                 return self._undisturbing(found, state)
         if reason:
@@ -544,7 +540,7 @@ class GoalPass(ForwardPass):
                 continue
             answer = self.planner.fill(way.state, self.constraints.of(candidate.instructions))
             if isinstance(answer, Filled):
-                yield candidate, answer.plan, candidate.instructions
+                yield candidate, answer.plan
 
     def _completed(
         self, way: Way, proposal: _Executable, target: Target, aim: tuple[Cube, ...]
@@ -553,9 +549,9 @@ class GoalPass(ForwardPass):
 
         Objects that it handles for nothing are left alone.
         """
-        candidate, latent, own = proposal
+        candidate, latent = proposal
         state = way.state
-        whole = (*latent, *own)
+        whole = (*latent, *candidate.instructions)
         if not self._passes(target, state, whole):
             return None
         answer = self.planner.fill(self.world.task.trace(state, whole)[-1], aim)
@@ -564,25 +560,17 @@ class GoalPass(ForwardPass):
         whole = tidy((*whole, *answer.plan), self.world, state)
         kept = list(self._tidying.pruned(state, PlanPart(whole, Need(aim, target.ways))))
         first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
-        return self._weighed(target.step, way, candidate.source, tuple(first), tuple(kept), candidate.raw, aim)
+        return self._weighed(target.step, way, replace(candidate, instructions=tuple(kept)), tuple(first), aim)
 
     def _weighed(
-        self,
-        step: Step,
-        way: Way,
-        source: str,
-        latent: Instructions,
-        own: Instructions,
-        raw: Factors,
-        aim: Sequence[Cube] = (),
+        self, step: Step, way: Way, proposal: Proposal, latent: Instructions, aim: Sequence[Cube] = ()
     ) -> tuple[Choice, Bits]:
         """Return the choice of a candidate, and the state it ends in; ``aim`` is what it reaches."""
-        situation = Situation(self.clauses, step.number, way)
-        arguments = [a for i in own for a in i.args]
-        names = self.world.mentions.meant(situation.clause, arguments, way.state)
-        if source == PLANNER_SOURCE:
+        situation, own, raw = Situation(self.clauses, step.number, way), proposal.instructions, proposal.raw
+        names = self.world.mentions.meant(situation.clause, [a for i in own for a in i.args], way.state)
+        if proposal.source == PLANNER_SOURCE:
             raw = {**raw, **self.setup.energy.of_sequence(own, len(own), names)}
-        return self.weighed(situation, source, names, latent, own, raw, aim)
+        return self.weighed(situation, replace(proposal, names=names, raw=raw), latent, aim)
 
     @cached_property
     def _contents(self) -> Bits:

@@ -56,12 +56,7 @@ class Deadline:
         over: Whether it ends already, for another reason.
     """
 
-    def __init__(
-        self,
-        seconds: float,
-        memory: int | None = None,
-        over: Callable[[], bool] = lambda: False,
-    ) -> None:
+    def __init__(self, seconds: float, memory: int | None = None, over: Callable[[], bool] = lambda: False) -> None:
         self.seconds = seconds
         self.memory = memory
         self._end = time.monotonic() + seconds

@@ -157,13 +157,7 @@ class RunRecord(RunRequest):
     seconds: float = Field(description="Simulated time.")
 
     @classmethod
-    def of(
-        cls,
-        asked: RunRequest,
-        steps: Sequence[RanStep],
-        execution: Execution,
-        ticks: int,
-    ) -> RunRecord:
+    def of(cls, asked: RunRequest, steps: Sequence[RanStep], execution: Execution, ticks: int) -> RunRecord:
         """Return a run that is over. ``ticks`` are steps of the physics."""
         ended = how_it_ended(execution, ticks)
         return cls.model_validate({**asked.given(), "steps": tuple(steps), **ended})
