@@ -194,11 +194,6 @@ def _check_fact(
 _ONE_LETTER = 0.65
 
 
-def _is_of(diagnostic: Diagnostic, folder: DomainFolder) -> bool:
-    """Return whether a diagnostic is about the folder of a domain."""
-    return real(Path(diagnostic.location.file)).parent == real(folder.path)
-
-
 class FaultCollector(Protocol):
     """Receiver of the faults of data files, which knows the places of domains and problems."""
 
@@ -273,7 +268,8 @@ class DataFiles:
 
         folder = self._folder(file)
         actions = [action.name for action in folder.domain.actions]
-        corpora = self._corpora(folder.path)
+        problems = self._beside(folder.path)
+        corpora = sorted(problems.glob("*/demonstrations.jsonl")) if problems else []
         lexicon = read_lexicon(file)
         texts = [text for path in corpora for text in texts_of(path)]
         meant = declared_verbs(lexicon, folder.domain)
@@ -293,11 +289,6 @@ class DataFiles:
         for fault in (*faults_of(lexicon), *check_phrases(file, lexicon)):
             self.checker.report(fault, file)
 
-    def _corpora(self, folder: Path) -> list[Path]:
-        """Return the demonstrations of a domain."""
-        problems = self._beside(folder)
-        return sorted(problems.glob("*/demonstrations.jsonl")) if problems else []
-
     def _beside(self, folder: Path) -> Path | None:
         """Return the problems of a domain: those beside its folder, or the known ones."""
         name = real(folder).name
@@ -309,7 +300,8 @@ class DataFiles:
 
     def _problems_of(self, folder: DomainFolder) -> Iterator[Problem]:
         """Yield the environments of a domain that have no faults; faults are reported where those files are checked."""
-        problems = None if self._has_faults(folder) else self._beside(folder.path)
+        faulty = any(d.severity is Severity.ERROR for d in self._found_in(folder))  # they may be incomplete then
+        problems = None if faulty else self._beside(folder.path)
         for path in sorted((problems / "environments").glob("*")) if problems else ():
             try:
                 if path.suffix == ".yaml":
@@ -319,9 +311,10 @@ class DataFiles:
             except (TmdError, RecursionError):
                 continue
 
-    def _has_faults(self, folder: DomainFolder) -> bool:
-        """Return whether a domain's folder has an error, so that its environments may be incomplete."""
-        return any(d.severity is Severity.ERROR and _is_of(d, folder) for d in self.checker.findings.sorted())
+    def _found_in(self, folder: DomainFolder) -> list[Diagnostic]:
+        """Return what was found in the folder of a domain."""
+        found = self.checker.findings.sorted()
+        return [d for d in found if real(Path(d.location.file)).parent == real(folder.path)]
 
     def _nameable(self, folder: DomainFolder) -> frozenset[str]:
         """Return the names that a group may have: as for nouns, or, without classes, those of objects as well."""
@@ -351,7 +344,7 @@ class DataFiles:
             folder = self._domain_of(file, environment.domain)
             problem = compile_problem(environment, folder)
             scene = faults or _scene_faults(file, folder)
-            told = {(d.code, d.message) for d in self.checker.findings.sorted() if _is_of(d, folder)}
+            told = {(d.code, d.message) for d in self._found_in(folder)}
             for fault in scene:
                 if (fault.code, fault.message) not in told:  # a fault of a class is reported there
                     self.checker.report(fault, file)

@@ -118,13 +118,11 @@ class ForcedExecution:
         for instruction in known:
             target = bound[instruction]
             self._operators[instruction] = target and _without(task.by_instruction[target], real)
-            exists = target == instruction
-            self._preconditions[instruction] = self._conditions(instruction, task) if exists else ()
+            self._preconditions[instruction] = ()
+            if target == instruction:
+                needed, binding = schema_of(self.problem, instruction).precondition, bind(self.problem, instruction)
+                self._preconditions[instruction] = ground_condition(task, needed, binding)
         return task
-
-    def _conditions(self, instruction: Instruction, task: Task) -> tuple[Cube, ...]:
-        schema = schema_of(self.problem, instruction)
-        return ground_condition(task, schema.precondition, bind(self.problem, instruction))
 
     def _bound(self, instruction: Instruction) -> Instruction | None:
         """Return the instruction with stand-ins for objects that do not exist; nothing where it fits no action."""

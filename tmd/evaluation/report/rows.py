@@ -152,15 +152,12 @@ def headline(metrics: Metrics) -> str:
         return f"{title(first)}: {score}."
     second = others[0]
     ahead = mean - (metrics.models[second].mean(column) or 0.0)
-    told = f"{title(first)}: {score}, {ahead:.1f} more than {title(second)}{_sure(metrics, first, second, column)}."
+    found = difference(metrics, first, second, column)
+    sure = "" if found is None else f" ({_p(found)})"
+    told = f"{title(first)}: {score}, {ahead:.1f} more than {title(second)}{sure}."
     best = best_of(metrics.models, TESTED if column == SUCCESS else TESTED[1:])
     also = [LABELS[metric] for metric in TESTED if metric != column and (first, metric) in best]
     return f"{told} It is also the best in {_listed(also)}." if also else told
-
-
-def _sure(metrics: Metrics, first: str, second: str, column: str) -> str:
-    found = difference(metrics, first, second, column)
-    return "" if found is None else f" ({_p(found)})"
 
 
 def _p(found: Difference) -> str:

@@ -70,17 +70,14 @@ def _plan(config: ExperimentConfig) -> _Plan:
     for model in config.models:
         make_model(model)
     data = open_dataset(config)
-    config = replace(config, models=config.models or _usual_models(data))
+    # *Predefined Templates* only where somebody has written some for the domain
+    written = (data.folder.path / TEMPLATES).is_file()
+    usual = tuple(model for model in DEFAULT_MODELS if written or model != "templates")
+    config = replace(config, models=config.models or usual)
     if "templates" in config.models:
         load_templates(data.folder)  # a fault in them is reported before anything is done
     directory = RunDirectory(config.out, config.identity(data.fingerprint()))
     return _Plan(config, data, folds_of(config, data), directory)
-
-
-def _usual_models(data: Dataset) -> tuple[str, ...]:
-    """:data:`DEFAULT_MODELS`, but for *Predefined Templates* where nobody has written any for the domain."""
-    written = (data.folder.path / TEMPLATES).is_file()
-    return tuple(model for model in DEFAULT_MODELS if written or model != "templates")
 
 
 def _work(plan: _Plan, progress: Progress | None) -> None:

@@ -83,10 +83,6 @@ class KnownObjects:
             for kind in kinds:
                 self.of_kind.setdefault(kind, []).append(name)
 
-    def primary(self, instruction: Instruction) -> tuple[str, ...]:
-        """Return the nearest kind of each argument."""
-        return tuple(self.kinds[arg][0] for arg in instruction.args)
-
     def well_formed(self, instruction: Instruction) -> bool:
         """Return whether an action has such parameters, and nothing is named twice."""
         types = self.parameters.get(instruction.name)
@@ -178,7 +174,7 @@ def properties(choice: Instruction, things: KnownObjects) -> list[tuple[str, ...
         if not things.is_constant(arg):
             found += [("", kind) for kind in things.kinds[arg]]
     if len(choice.args) > 1:
-        found.append((choice.name, *things.primary(choice)))
+        found.append((choice.name, *(things.kinds[arg][0] for arg in choice.args)))
     return list(dict.fromkeys(found))
 
 

@@ -122,7 +122,8 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
         letter = node.text[strange]
         place, shown = shifted(node.location, strange), f"{letter!r} ({unicodedata.name(letter, 'unnamed')})"
         message = f'"{node.text}" has a character that PDDL does not: {shown}'
-        plain = look_alike(letter)
+        plain = _LOOK_ALIKES.get(letter) or unicodedata.normalize("NFKD", letter)[0]
+        plain = plain if plain.isascii() and plain.isprintable() else ""
         edits = [Edit(place, shifted(place, 1), plain)] if plain else []
         raise source.error(message, place, f'write "{plain}"' if plain else hint, "look-alike", edits)
     if not accepted.fullmatch(node.text):
@@ -133,12 +134,6 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
     source.warn(
         f'"{node.text}" is not a name by the letter of PDDL; some tools refuse it', node.location, hint, "odd-name"
     )
-
-
-def look_alike(letter: str) -> str | None:
-    """Return the ASCII character that ``letter`` looks like, if there is one."""
-    plain = _LOOK_ALIKES.get(letter) or unicodedata.normalize("NFKD", letter)[0]
-    return plain if plain.isascii() and plain.isprintable() else None
 
 
 # Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like.
