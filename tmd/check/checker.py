@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tmd.check.diagnostic import SEVERITY, Findings, Severity
-from tmd.check.lint.problem import lint_together
+from tmd.check.lint import lint_together
 from tmd.check.pddl_file import (
     CheckedDomain,
     check_domain_text,

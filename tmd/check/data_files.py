@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Protocol
 
 from tmd.check.diagnostic import Diagnostic, Findings, Severity
-from tmd.check.lint.problem import lint_cases
+from tmd.check.lint import lint_cases
 from tmd.diagnostics import Location, MissingToolError, TmdError
 from tmd.files import real
 from tmd.language import parse, print_clause

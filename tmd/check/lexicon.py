@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tmd.check.diagnostic import SEVERITY, Severity
-from tmd.check.lint.problem import Possible, Scope, types_of
+from tmd.check.lint import Possible, Scope, types_of
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, read_pattern, read_table
 from tmd.goals.tables import declared_goals

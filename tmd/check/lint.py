@@ -1,4 +1,4 @@
-"""Warnings on problems: goals that hold already, or that nothing reaches."""
+"""Warnings on domains and problems that are legal PDDL and hardly ever meant, such as goals that nothing reaches."""
 
 from __future__ import annotations
 
@@ -7,23 +7,28 @@ from functools import cache
 from math import prod
 from pathlib import Path
 
-from tmd.check.lint.domain import said_twice
 from tmd.diagnostics import Edit, TmdError
 from tmd.pddl.derived import as_actions
 from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, Reachability, Rule
 from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import (
+    TRUE,
     ActionSchema,
     And,
     Atom,
     Domain,
     Effect,
+    Equals,
+    Formula,
     GroundAtom,
     Not,
+    Or,
     Problem,
     TypedName,
     conjuncts,
+    free_variables,
     universe,
+    walk,
 )
 from tmd.pddl.reading.syntax import Node, Source, Word, after, read_text, split_lines
 from tmd.pddl.semantics import instantiate, size, solutions
@@ -33,6 +38,109 @@ from tmd.planning.unsolvable import reachable, relaxed_literals, unreachable_rea
 
 Scope = Mapping[str, tuple[str, ...]]
 """The types of variables."""
+
+
+def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
+    """Return the warnings for a domain that has no faults."""
+    found = list(_unused_predicates(domain, source))
+    for action in domain.actions:
+        found += _contradictory_effects(action, source)
+        found += _never_applies(action, source)
+        found += said_twice(action.precondition, f'the precondition of action "{action.name}"', source)
+        found += _effects_twice(action, source)
+        found += _unused_parameters(action, source)
+        if not action.effects and action.cost is None:
+            hint = "write its :effect, or remove it"
+            found.append(source.error(f'action "{action.name}" changes nothing', action.location, hint, "no-effect"))
+    return found
+
+
+def _unused_predicates(domain: Domain, source: Source) -> Iterator[TmdError]:
+    used = {part.predicate for part in walk((domain.actions, domain.derived)) if isinstance(part, Atom)}
+    for predicate in domain.predicates:
+        if predicate.name not in used and domain.actions and predicate.name != "=":
+            yield source.error(
+                f'no action speaks of the predicate "{predicate.name}"',
+                source.word(predicate.location, 0),
+                "use it, or remove it",
+                "unused-predicate",
+            )
+
+
+def _contradictory_effects(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    """Yield the same atom added and deleted under the same condition: adding wins."""
+    added = {(e.atom, e.condition, e.parameters) for e in action.effects if e.positive}
+    for effect in action.effects:
+        if not effect.positive and (effect.atom, effect.condition, effect.parameters) in added:
+            atom = " ".join((effect.atom.predicate, *effect.atom.terms))
+            yield source.error(
+                f'action "{action.name}" adds and deletes ({atom}); adding wins',
+                effect.location,
+                "remove one of the two",
+                "contradictory-effects",
+            )
+
+
+def said_twice(formula: Formula, what: str, source: Source) -> Iterator[TmdError]:
+    """Yield the conjuncts of ``formula`` that stand in it twice, ``and`` within ``and`` spread out."""
+    seen: set[Formula] = set()
+    for part in conjuncts(formula):
+        if part in seen:
+            message = f"{format_formula(part)} stands twice in {what}"
+            yield source.error(message, part.location, "remove one of the two", "said-twice")
+        seen.add(part)
+
+
+def _effects_twice(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    seen: set[Effect] = set()
+    for effect in action.effects:
+        if effect in seen:
+            atom = format_formula(effect.atom if effect.positive else Not(effect.atom))
+            message = f'{atom} stands twice among the effects of action "{action.name}"'
+            yield source.error(message, effect.location, "remove one of the two", "said-twice")
+        seen.add(effect)
+
+
+def _never_applies(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    """Yield a precondition that no state satisfies, as far as one can tell by looking at it."""
+    parts = conjuncts(action.precondition)
+    stated = set(parts)
+    for part in parts:
+        if _is_false(part) or (isinstance(part, Not) and part.part in stated):
+            yield source.error(
+                f'action "{action.name}" can never apply: its precondition contradicts itself here',
+                part.location or action.location,
+                "remove one of the conditions",
+                "never-applies",
+            )
+
+
+def _is_false(formula: Formula) -> bool:
+    if isinstance(formula, Or):
+        return not formula.parts
+    if isinstance(formula, Not):
+        inner = formula.part
+        return inner == TRUE or (isinstance(inner, Equals) and inner.left == inner.right)
+    return (
+        isinstance(formula, Equals) and formula.left != formula.right and "?" not in formula.left[0] + formula.right[0]
+    )
+
+
+def _unused_parameters(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    used = set(free_variables(action.precondition))
+    for effect in action.effects:
+        used.update(effect.atom.terms)
+        used |= free_variables(effect.condition)
+    if isinstance(action.cost, Atom):
+        used.update(action.cost.terms)
+    for parameter in action.parameters:
+        if parameter.name not in used:
+            yield source.error(
+                f'action "{action.name}" does not speak of its parameter "{parameter.name}"',
+                parameter.location,
+                "use it, or remove it",
+                "unused-parameter",
+            )
 
 
 class Possible:
