@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from tmd import __version__
-from tmd.evaluation.report.downloads import csv_table, data_address, latex_table
 from tmd.evaluation.report.predictions import NOTHING, SHOWN, SYMBOLS, Mark, best_and_worst, by_instruction
 from tmd.evaluation.report.rows import (
     ALPHA,
@@ -18,9 +17,12 @@ from tmd.evaluation.report.rows import (
     TASKS,
     best_of,
     by_merit,
+    csv_table,
+    data_address,
     differing,
     headline,
     in_order,
+    latex_table,
     other_order,
     reasons,
     reference,

@@ -73,9 +73,6 @@ def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], j
 @contextmanager
 def _interrupts_blocked() -> Iterator[None]:
     """Block SIGINT in processes and threads started here; this process receives it afterwards and ends them."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
     # Python's resource tracker unblocks SIGINT when it starts, so it is started first
     ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
