@@ -15,6 +15,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
+from operator import or_
 
 from tmd.export.planned_problem import Planned
 from tmd.pddl.grounding.ground_task import ground
@@ -160,10 +162,7 @@ def _kept_false(cube: Cube, needs: Cube, state: Bits) -> Cube:
 
 def _written(task: Task, steps: Sequence[_Decided], goal: Cube) -> Strips:
     names = _names(steps)
-    negated = goal.negative
-    for step in steps:
-        negated |= step.needs.negative
-    writer = _Writer(task, negated)
+    writer = _Writer(task, reduce(or_, (step.needs.negative for step in steps), goal.negative))
     actions = {names[step]: writer.action(names[step], step) for step in steps}
     problem = writer.problem(tuple(actions.values()), goal)
     plan = tuple(Instruction(names[step]) for step in steps)

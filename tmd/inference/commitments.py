@@ -11,7 +11,7 @@ from tmd.pddl.ground_formula import goal_cubes
 from tmd.pddl.grounding.ground_task import ground_condition
 from tmd.pddl.model import Formula, GroundAtom
 from tmd.pddl.semantics import opposite
-from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.pddl.task import Bits, Cube, Operator, Task, atoms_in
 from tmd.readers.interface import PlanConstraints
 
 # Maximum number of conjunctions of a goal and its commitments.
@@ -112,15 +112,12 @@ def _gives_way(kept: Commitment, cube: Cube) -> bool:
 
 
 def _objects(kept: Commitment, task: Task) -> set[str]:
-    return {a for way in kept.ways[:1] for atom in task.names(way.positive | way.negative) for a in atom.args}
+    return {a for atom in task.names(atoms_in(kept.ways[:1])) for a in atom.args}
 
 
 def _named(cubes: Sequence[Cube], task: Task) -> set[str]:
-    bits = 0
-    for cube in cubes:
-        bits |= cube.positive | cube.negative
     constants = {c.name for c in task.problem.domain.constants}
-    return {a for atom in task.names(bits) for a in atom.args} - constants
+    return {a for atom in task.names(atoms_in(cubes)) for a in atom.args} - constants
 
 
 def constrained(task: Task, constraints: PlanConstraints) -> Task:

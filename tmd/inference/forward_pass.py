@@ -27,7 +27,7 @@ from tmd.inference.ranking import (
 )
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.semantics import Constraints
-from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.task import Bits, Cube, Task, atoms_in
 from tmd.planning.backends import TaskPlanners
 from tmd.planning.result import Answer, Filled, GaveUp, NoPlanner, Planner, Unreachable
 from tmd.world.verb_clause import VerbClause
@@ -146,10 +146,7 @@ class ForwardPass:
             factors |= energy.of_end(situation.clause.verb, names, end)  # ψ'_j
             factors |= energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
             if aim:
-                asked = 0
-                for cube in aim:
-                    asked |= cube.positive | cube.negative
-                changed = (end ^ situation.state) & self.lasting & ~asked
+                changed = (end ^ situation.state) & self.lasting & ~atoms_in(aim)
                 factors["changes_not_asked_for"] = float(changed.bit_count())
             for proposer in self.setup.proposers:
                 factors |= proposer.judge(situation, (*latent, *own), end)

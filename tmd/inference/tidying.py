@@ -16,7 +16,7 @@ from typing import TypeAlias
 from tmd.pddl.domain_traits import single_valued
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.semantics import opposite
-from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.pddl.task import Bits, Cube, Operator, Task, atoms_in
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled, GaveUp, Planner
 from tmd.world.compile import PART_OF
@@ -339,9 +339,7 @@ class _Improvement:
 
     def _home(self, state: Bits, goal: Condition) -> Bits:
         """Return where things were that are in a hand now and need not be, unless the request settles that."""
-        wanted = 0
-        for cube in goal:
-            wanted |= cube.positive
+        wanted = atoms_in(Cube(cube.positive) for cube in goal)
         held = {
             argument
             for number in self._untidy(state)
@@ -577,28 +575,21 @@ class _Improvement:
 
     def _relied_on(self, plan: Plan, place: int, at: int) -> Cube:
         """Return the literals of a state in a plan that the instructions and needs after it read."""
-        read = 0
         states = self._states(plan)
-        for cubes, state in ((self.kept, states[-1][-1]), *_ends(plan[place:], states[place:])):
-            cube = next((c for c in cubes if c.holds(state)), Cube())
-            read |= cube.positive | cube.negative
-        for number in self.watched:
-            for cube in self.setup.restored[number]:
-                read |= cube.positive | cube.negative
+        cubes = [cube for number in self.watched for cube in self.setup.restored[number]]
+        for needed, state in ((self.kept, states[-1][-1]), *_ends(plan[place:], states[place:])):
+            cubes.append(next((c for c in needed if c.holds(state)), Cube()))
         for index in range(place, len(plan)):
             first = at if index == place else 0
-            own = zip(plan[index].instructions[first:], states[index][first:], strict=False)
-            for instruction, state in own:
-                read |= _read_by(self.task.by_instruction[instruction], state)
-        state = states[place][at]
+            for instruction, state in zip(plan[index].instructions[first:], states[index][first:], strict=False):
+                cubes += _read_by(self.task.by_instruction[instruction], state)
+        state, read = states[place][at], atoms_in(cubes)
         return Cube(read & state, read & ~state)
 
 
 def _with_name(instruction: Instruction, name: str, other: str) -> Instruction:
     """Return an instruction with another object in the place of one."""
-    return Instruction(
-        instruction.name, tuple(other if argument == name else argument for argument in instruction.args)
-    )
+    return instruction._replace(args=tuple(other if argument == name else argument for argument in instruction.args))
 
 
 def _asked(kept: Condition, end: Bits, plan: Plan, states: Sequence[Sequence[Bits]]) -> tuple[Bits, Bits]:
@@ -641,15 +632,10 @@ def _ends(plan: Plan, states: Sequence[Sequence[Bits]]) -> Iterator[tuple[Condit
             yield condition, next((s for s in trace if _any_holds(condition, s)), trace[-1])
 
 
-def _read_by(operator: Operator, state: Bits) -> Bits:
-    """Return the atoms that matter to an operator in a state: of its condition, and of the effects that it has."""
-    read = operator.precondition.positive | operator.precondition.negative
-    for cube in operator.forbidden:
-        read |= cube.positive | cube.negative
-    for condition, _, _ in operator.conditional:
-        if condition.holds(state):
-            read |= condition.positive | condition.negative
-    return read
+def _read_by(operator: Operator, state: Bits) -> list[Cube]:
+    """Return the conditions that matter to an operator in a state: its own, and those of the effects that it has."""
+    effects = (effect.condition for effect in operator.conditional if effect.condition.holds(state))
+    return [operator.precondition, *operator.forbidden, *effects]
 
 
 def _any_holds(condition: Condition, state: Bits) -> bool:

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import reduce
+from operator import or_
 from typing import NamedTuple, TypeAlias
 
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
@@ -47,6 +49,11 @@ class Cube(NamedTuple):
         """Return the conjunction with another cube; ``None`` where they contradict each other."""
         positive, negative = self.positive | other.positive, self.negative | other.negative
         return None if positive & negative else Cube(positive, negative)
+
+
+def atoms_in(cubes: Iterable[Cube]) -> Bits:
+    """Return the atoms that cubes speak of."""
+    return reduce(or_, (cube.positive | cube.negative for cube in cubes), 0)
 
 
 class ConditionalEffect(NamedTuple):

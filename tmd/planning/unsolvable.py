@@ -169,9 +169,7 @@ class Mutexes:
         """
         new = False
         may = [bool(context) or not e.condition for e, context in zip(action.effects, contexts, strict=True)]
-        live = [
-            (effect.condition, effect.makes) for effect, happens in zip(action.effects, may, strict=True) if happens
-        ]
+        live = [(e.condition, e.makes) for e, happens in zip(action.effects, may, strict=True) if happens]
         same = before is not None and all(
             bool(old) or not effect.condition or not happens
             for effect, old, happens in zip(action.effects, before, may, strict=True)
@@ -305,9 +303,7 @@ class Counts:
 
     def _cases(self, operator: Operator) -> Iterator[_Case]:
         """Yield the ways in which ``operator`` may change the counts."""
-        unknown = 0
-        for mask in self._masks:
-            unknown |= _unknown(operator, mask)
+        unknown = reduce(or_, (_unknown(operator, mask) for mask in self._masks), 0)
         positive, negative = operator.precondition
         for chosen in subsets(unknown):
             case = Cube(positive | chosen, negative | (unknown & ~chosen))

@@ -111,13 +111,8 @@ def _number(problem: Problem, instances: Instances) -> Task:
 
 
 def _cube(literals: Iterable[int]) -> Cube:
-    positive = negative = 0
-    for literal in literals:
-        if literal & 1:
-            negative |= 1 << (literal >> 1)
-        else:
-            positive |= 1 << (literal >> 1)
-    return Cube(positive, negative)
+    own = set(literals)
+    return Cube(sum(1 << (lit >> 1) for lit in own if not lit & 1), sum(1 << (lit >> 1) for lit in own if lit & 1))
 
 
 def _operator(action: GroundAction, bit: dict[int, int]) -> Operator:
@@ -150,11 +145,8 @@ def _renumber(literals: Literals, bit: dict[int, int]) -> list[int]:
     return [2 * bit[literal >> 1] + (literal & 1) for literal in literals]
 
 
-def _bits(atoms: Iterable[int], bit: dict[int, int]) -> Bits:
-    found = 0
-    for atom in atoms:
-        found |= 1 << bit[atom]
-    return found
+def _bits(atoms: frozenset[int], bit: dict[int, int]) -> Bits:
+    return sum(1 << bit[atom] for atom in atoms)
 
 
 def _prune(instances: Instances) -> tuple[tuple[GroundAction, ...], _Known]:
