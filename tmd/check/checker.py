@@ -10,12 +10,7 @@ from typing import TYPE_CHECKING
 
 from tmd.check.diagnostic import SEVERITY, Findings, Severity
 from tmd.check.lint import lint_together
-from tmd.check.pddl_file import (
-    CheckedDomain,
-    check_domain_text,
-    check_problem_text,
-    explain_objects,
-)
+from tmd.check.pddl_file import CheckedDomain, check_domain_text, check_problem_text, explain_objects
 from tmd.diagnostics import Location, TmdError
 from tmd.files import real
 from tmd.language.lexicon.file import BASES

@@ -257,13 +257,7 @@ class DataFiles:
             check_shapes(folder)
 
     def _lexicon(self, file: Path) -> None:
-        from tmd.check.lexicon import (
-            check_goals,
-            check_lexicon,
-            check_phrases,
-            declared_verbs,
-            texts_of,
-        )
+        from tmd.check.lexicon import check_goals, check_lexicon, check_phrases, declared_verbs, texts_of
         from tmd.goals.tables import faults_of
 
         folder = self._folder(file)

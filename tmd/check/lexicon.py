@@ -154,11 +154,7 @@ class _Sound:
 
 
 def check_goals(
-    path: Path,
-    lexicon: Lexicon,
-    domain: Domain,
-    environments: Iterable[Problem],
-    kinds: Callable[[], Collection[str]],
+    path: Path, lexicon: Lexicon, domain: Domain, environments: Iterable[Problem], kinds: Callable[[], Collection[str]]
 ) -> list[TmdError]:
     """Return every fault of ``goals``, ``attributes`` and ``groups``.
 

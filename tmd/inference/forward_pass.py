@@ -16,15 +16,7 @@ from itertools import islice
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation
-from tmd.inference.ranking import (
-    Choice,
-    Inferred,
-    PlanStep,
-    RankedPlan,
-    RejectedProposal,
-    Way,
-    why_lost,
-)
+from tmd.inference.ranking import Choice, Inferred, PlanStep, RankedPlan, RejectedProposal, Way, why_lost
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube, Task, atoms_in

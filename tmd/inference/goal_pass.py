@@ -14,15 +14,7 @@ from functools import cache, cached_property
 from itertools import islice, pairwise
 
 from tmd.diagnostics import Refusal, RefusalKind
-from tmd.inference.commitments import (
-    Commitment,
-    aims,
-    combined,
-    commitments_of,
-    constrained,
-    kept_throughout,
-    violated,
-)
+from tmd.inference.commitments import Commitment, aims, combined, commitments_of, constrained, kept_throughout, violated
 from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
 from tmd.inference.ranking import Choice, Inferred, LostGoal, PlanStep, StepGoal, Way

@@ -53,10 +53,7 @@ class ForcedExecution:
     """
 
     def __init__(
-        self,
-        problem: Problem,
-        instructions: Iterable[Instruction] = (),
-        absent: Mapping[str, str] | None = None,
+        self, problem: Problem, instructions: Iterable[Instruction] = (), absent: Mapping[str, str] | None = None
     ) -> None:
         self.problem = problem
         self._absent = dict(absent or {})

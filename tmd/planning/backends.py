@@ -258,12 +258,7 @@ class PartByPart:
         return Filled(plan, state, cost)
 
     def _nearest(
-        self,
-        searches: Sequence[OptimalSearch],
-        state: Bits,
-        kept: Cube,
-        parts: Sequence[Cube],
-        known: dict[Cube, int],
+        self, searches: Sequence[OptimalSearch], state: Bits, kept: Cube, parts: Sequence[Cube], known: dict[Cube, int]
     ) -> Filled | None:
         """Return the cheapest plan to one of several parts; ``known`` has what each cost last."""
         best: Filled | None = None

@@ -34,11 +34,7 @@ from tmd.view.goals import ShownGoal, in_words
 
 
 def grounding_record(
-    grounded: Grounded,
-    *,
-    domain: str,
-    environment_file: str | None,
-    made_with: Mapping[str, object],
+    grounded: Grounded, *, domain: str, environment_file: str | None, made_with: Mapping[str, object]
 ) -> GroundingRecord:
     """Return everything that is known of the plans.
 

@@ -65,8 +65,7 @@ def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], j
             yield from found
         except BrokenProcessPool:
             raise WorkerLostError(
-                "a worker process was killed, most likely because memory ran out",
-                hint=f"take fewer --jobs; {GO_ON}",
+                "a worker process was killed, most likely because memory ran out", hint=f"take fewer --jobs; {GO_ON}"
             ) from None
 
 

@@ -112,8 +112,7 @@ def _distributed() -> ModuleType:
         import distributed
     except ImportError:
         raise MissingToolError(
-            "--scheduler needs the package distributed, which is not installed",
-            hint=install_extra("cluster"),
+            "--scheduler needs the package distributed, which is not installed", hint=install_extra("cluster")
         ) from None
     for name in _NOISY:
         logging.getLogger(name).setLevel(logging.CRITICAL + 1)

@@ -92,10 +92,7 @@ def _work(plan: _Plan, progress: Progress | None) -> None:
     if progress:
         progress(done, parts)
     if left:
-        with (
-            recorded(config),
-            closing(outcomes(config, left, directory.fits, plan.data.fingerprint())) as ended,
-        ):
+        with recorded(config), closing(outcomes(config, left, directory.fits, plan.data.fingerprint())) as ended:
             for outcome in ended:
                 directory.keep(outcome)
                 done += len(outcome.parts)

@@ -138,11 +138,7 @@ def pairs(examples: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
 def _fold(
     name: str, examples: Sequence[Example], pool: Sequence[Example], train: Collection[int], test: Collection[int]
 ) -> Fold:
-    return Fold(
-        name,
-        tuple(e for e in pool if e.number in train),
-        tuple(e for e in examples if e.number in test),
-    )
+    return Fold(name, tuple(e for e in pool if e.number in train), tuple(e for e in examples if e.number in test))
 
 
 def ranges(numbers: Iterable[int]) -> str:

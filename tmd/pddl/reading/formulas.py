@@ -149,11 +149,7 @@ def read_term(node: Node, source: Source) -> str:
     """Return a variable, constant or object."""
     if isinstance(node, Group):
         raise unsupported(
-            source,
-            "object fluents and nested terms",
-            f"({node.head} ...)",
-            node.location,
-            "write a name or ?variable",
+            source, "object fluents and nested terms", f"({node.head} ...)", node.location, "write a name or ?variable"
         )
     if is_variable(node.text):
         if not _VARIABLE.fullmatch(node.text):
