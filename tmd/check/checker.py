@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,7 +42,7 @@ MOST_SHOWN = 200
 MAX_BYTES = 10_000_000
 
 
-@dataclass(slots=True)
+@dataclass
 class Checker:
     """Checker of files and folders, each once, which collects their faults.
 
@@ -61,7 +62,6 @@ class Checker:
     _checked: dict[Path, CheckedDomain | None] = field(default_factory=dict)
     _problems: dict[Path, list[Problem]] = field(default_factory=dict)
     _read: dict[Path, Problem | None] = field(default_factory=dict)
-    _data_files: DataFiles | None = None
     _given: dict[Path, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -95,13 +95,11 @@ class Checker:
         else:
             self._pddl(file)
 
-    @property
+    @cached_property
     def _data(self) -> DataFiles:
         from tmd.check.data_files import DataFiles
 
-        if self._data_files is None:
-            self._data_files = DataFiles(self)
-        return self._data_files
+        return DataFiles(self)
 
     def report(self, fault: TmdError, file: Path) -> None:
         """Take in a fault of ``file``; the source line is read where the fault has none."""
