@@ -46,8 +46,9 @@ def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
     for action in domain.actions:
         found += _contradictory_effects(action, source)
         found += _never_applies(action, source)
-        found += said_twice(action.precondition, f'the precondition of action "{action.name}"', source)
-        found += _effects_twice(action, source)
+        needed = conjuncts(action.precondition)
+        found += _said_twice(needed, f'in the precondition of action "{action.name}"', source)
+        found += _said_twice(action.effects, f'among the effects of action "{action.name}"', source)
         found += _unused_parameters(action, source)
         if not action.effects and action.cost is None:
             hint = "write its :effect, or remove it"
@@ -81,24 +82,15 @@ def _contradictory_effects(action: ActionSchema, source: Source) -> Iterator[Tmd
             )
 
 
-def said_twice(formula: Formula, what: str, source: Source) -> Iterator[TmdError]:
-    """Yield the conjuncts of ``formula`` that stand in it twice, ``and`` within ``and`` spread out."""
-    seen: set[Formula] = set()
-    for part in conjuncts(formula):
+def _said_twice(parts: Iterable[Formula | Effect], where: str, source: Source) -> Iterator[TmdError]:
+    """Yield the conditions or effects that stand twice among some."""
+    seen: set[Formula | Effect] = set()
+    for part in parts:
         if part in seen:
-            message = f"{format_formula(part)} stands twice in {what}"
+            plain = part if not isinstance(part, Effect) else part.atom if part.positive else Not(part.atom)
+            message = f"{format_formula(plain)} stands twice {where}"
             yield source.error(message, part.location, "remove one of the two", "said-twice")
         seen.add(part)
-
-
-def _effects_twice(action: ActionSchema, source: Source) -> Iterator[TmdError]:
-    seen: set[Effect] = set()
-    for effect in action.effects:
-        if effect in seen:
-            atom = format_formula(effect.atom if effect.positive else Not(effect.atom))
-            message = f'{atom} stands twice among the effects of action "{action.name}"'
-            yield source.error(message, effect.location, "remove one of the two", "said-twice")
-        seen.add(effect)
 
 
 def _never_applies(action: ActionSchema, source: Source) -> Iterator[TmdError]:
@@ -249,7 +241,7 @@ def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
     return [
         *_constants_again(problem, source),
         *_costs_missing(problem, source),
-        *said_twice(problem.goal, "the goal", source),
+        *_said_twice(conjuncts(problem.goal), "in the goal", source),
         *lint_cases(problem),
         *(_contradictory_goal(problem, source) or _goal_holds(problem, source) or _unreachable(problem, source)),
     ]
