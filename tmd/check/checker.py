@@ -177,11 +177,8 @@ class Checker:
             column = line.lower().find(":domain")
             if column >= 0:
                 place = Location(source.file, number, column + 1)
-                what, code, hint = (
-                    "was not found",
-                    "domain-not-found",
-                    "put the domain beside it, or give --domain FILE",
-                )
+                what, code = "was not found", "domain-not-found"
+                hint = "put the domain beside it, or give --domain FILE"
                 if others:
                     what, code = "stands in several files", "ambiguous-domain"
                     hint = f"give --domain FILE, one of {', '.join(path.name for path in others[:8])}"
