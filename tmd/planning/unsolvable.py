@@ -275,10 +275,7 @@ class Counts:
                 break
             seen |= fresh
         self._vectors = vectors
-        self.laws = [
-            Law(tuple((name, weight) for name, weight in zip(self._names, v, strict=True) if weight), self._total(v))
-            for v in vectors
-        ]
+        self.laws = [self._law(vector) for vector in vectors]
 
     def clash(self, cube: Cube) -> str | None:
         """Return the law that a goal breaks, in words; ``None`` if it breaks none."""
@@ -296,6 +293,10 @@ class Counts:
 
     def _total(self, vector: Sequence[int]) -> int:
         return sum(weight * count for weight, count in zip(vector, self._start, strict=True))
+
+    def _law(self, vector: Sequence[int]) -> Law:
+        pairs = tuple((name, weight) for name, weight in zip(self._names, vector, strict=True) if weight)
+        return Law(pairs, self._total(vector))
 
     def _bounds(self, cube: Cube) -> tuple[tuple[int, int], ...]:
         """Return the least and the most atoms of each predicate in a state that satisfies ``cube``."""

@@ -547,8 +547,7 @@ def read_condition(node: Node, source: Source) -> Formula:
         return And((), node.location)
     head, parts, place = node.head, node.parts[1:], node.location
     if head in ("and", "or"):
-        read = (source.recover(None, read_condition, p, source) for p in in_prefix(parts, source))
-        inner = tuple(part for part in read if part is not None)
+        inner = _read_parts(parts, source)
         return And(inner, place) if head == "and" else Or(inner, place)
     if head == "not":
         _expect(node, 1, "(not condition)", source)
@@ -584,6 +583,11 @@ def read_only_condition(document: Document) -> Formula:
         place = Location(source.file, 1, 1)
         raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
     return read_condition(document.groups[0], source)
+
+
+def _read_parts(parts: Sequence[Node], source: Source) -> tuple[Formula, ...]:
+    read = (source.recover(None, read_condition, p, source) for p in in_prefix(parts, source))
+    return tuple(part for part in read if part is not None)
 
 
 def read_atom(node: Group, source: Source) -> Atom:
