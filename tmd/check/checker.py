@@ -46,11 +46,9 @@ MAX_BYTES = 10_000_000
 class Checker:
     """Checker of files and folders, each once, which collects their faults.
 
-    Args:
-        domains: The directory of all domains; the usual one by default.
-        domain: The file of the domain of all problems, if it is known.
-        problems: The directory of all problems; the usual one by default.
-        given: Files that are checked together: a problem that nothing else has a domain for is of one of these.
+    ``domain`` is the file of the domain of all problems, if it is known; ``domains`` and ``problems`` are the
+    directories of all of them, if not the usual ones. A problem that nothing else has a domain for is of one of the
+    files ``given``, which are checked together.
     """
 
     domains: Path | None = None

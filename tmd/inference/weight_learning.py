@@ -70,17 +70,11 @@ def learn_weights(
 ) -> Learned:
     """Learn weights from ``examples`` training examples.
 
-    Args:
-        propose: Inference and loss for one example.
-        examples: How many examples there are.
-        start: Where to begin.
-        random: The order in which examples are visited.
-        factors: The factors to be weighed; all others keep weight 0.
-        rounds: How often plans are proposed again.
-        epochs: Passes over the examples in each round.
-        rate: The step of the descent, in units of each factor's spread.
-        pull: How strongly weights are drawn to ``start``.
-        journal: Where proposals are written down, and read again after an interruption.
+    ``propose`` does inference and loss for one of the ``examples``, which are visited in the order that ``random``
+    draws. All but ``factors`` keep weight 0. In each of ``rounds`` plans are proposed again, and there are ``epochs``
+    passes over the examples. ``rate`` is the step of the descent, in units of each factor's spread, and ``pull`` how
+    strongly weights are drawn to ``start``. Proposals are kept in the ``journal``, and read again after an
+    interruption.
     """
     fixed = {name: start[name] for name in FIXED}
     start = Weights({name: start[name] for name in NAMES if name in factors})

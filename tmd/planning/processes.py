@@ -50,10 +50,7 @@ PROGRAM = "TMD_PROGRAM"
 class Deadline:
     """A time limit for several processes one after another, with the memory that each of them may take.
 
-    Args:
-        seconds: Time limit, from now.
-        memory: Bytes for each process; ``None`` for most of the machine's memory.
-        over: Whether it ends already, for another reason.
+    ``memory`` is in bytes, ``None`` for most of that of the machine. It also ends as soon as ``over`` holds.
     """
 
     def __init__(self, seconds: float, memory: int | None = None, over: Callable[[], bool] = lambda: False) -> None:
@@ -84,15 +81,10 @@ class Deadline:
 class PlannerProcess:
     """A running planner; leaving its ``with`` block kills it and its process group.
 
-    Args:
-        name: Name of the planner for messages.
-        command: Program and arguments.
-        deadline: Memory that it may take. The caller watches the time limit.
-        stdin: Standard input; empty by default.
-        passed: Files that it inherits under their descriptors.
-        environment: Variables that are set in addition to those of this program.
-        directory: Working directory.
-        behind: Whether it gives way to other processes.
+    Its standard input is empty by default; ``passed`` are files that it inherits under their descriptors,
+    ``environment`` variables beside those of this program. The ``deadline`` gives the memory that it may take; its time
+    is the caller's to watch. One that is ``behind`` gives way to other processes. ``name`` is that of the planner, for
+    messages.
 
     Raises:
         PlannerError: It cannot be started.

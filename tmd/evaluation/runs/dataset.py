@@ -113,12 +113,8 @@ class Worlds(Protocol):
 class Dataset(ABC):
     """Examples, and the worlds they were made in.
 
-    Args:
-        folder: The domain's folder.
-        lexicon: The words of the domain.
-        pool: All examples of all tasks, in the data set's order. They may be trained on.
-        tested: Tasks of which examples are tested.
-        files: Files that the data were read from, for the fingerprint: directory and patterns by kind.
+    Examples of all tasks, the ``pool``, may be trained on, those of ``tested`` tasks are tested; both have the data
+    set's order. ``files`` are what the data were read from, for the fingerprint: directory and patterns by kind.
     """
 
     def __init__(

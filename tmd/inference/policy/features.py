@@ -208,9 +208,9 @@ class WeightBlocks(NamedTuple):
 class Features:
     """The numbering of all features, in sorted order of their names.
 
-    Args:
-        seen: The :func:`properties` of the training instructions.
-        syntax: The constraints.
+    ``words`` are those of the training clauses, with those of :func:`followers`; ``seen`` the :func:`properties` of the
+    training instructions; ``facts`` those of a thing: a predicate and the thing's place. Without any the policy knows
+    no states, no words but the clause's and no later clauses, as the paper's baseline.
 
     Attributes:
         actions: The numbers of the actions, STOP among them.
