@@ -488,7 +488,7 @@ def conjoined(message: str, parts: Sequence[Node], source: Source) -> Group:
     """Return the conjunction of several conditions or effects where one should be, which is reported."""
     place, edits = parts[0].location, enclosed(parts[0], parts[-1], "(and ")
     source.fault_at(message, place, "use (and (...) (...)) for several", "syntax", edits)
-    return Group((Word("and", place), *parts), place, after(parts[-1]), 2)
+    return Group((Word("and", place), *parts), place, shifted(after(parts[-1]), -1), 2)
 
 
 def _equation(node: Group, sign: str, terms: Sequence[Node], source: Source) -> Group:
