@@ -337,7 +337,9 @@ class GoalPass(ForwardPass):
     ) -> list[tuple[Choice, Bits]]:
         """Return the proposals completed to an aim, of which those are left that mix in the least unasked."""
         completed = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
-        found = [c for c in completed if not self._redone(way.state, _instructions(c[0]), aim, target)]
+        sequences = (tuple(step.instruction for step in choice.steps) for choice, _ in completed)
+        pairs = zip(completed, sequences, strict=True)
+        found = [c for c, own in pairs if not self._redone(way.state, own, aim, target)]
         foreign = [len(self._foreign(way.state, end, aim)) if self.config.orderly else 0 for _, end in found]
         return [c for c, count in zip(found, foreign, strict=True) if count == min(foreign)]
 
@@ -656,11 +658,6 @@ def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) 
     handled = {arg for taken in choice.steps for arg in taken.instruction.args}
     handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}
     return names <= handled if every else bool(names & handled)
-
-
-def _instructions(choice: Choice) -> Instructions:
-    """Return the instructions of a choice."""
-    return tuple(step.instruction for step in choice.steps)
 
 
 def _impossible(target: Target, reason: str) -> Refusal:

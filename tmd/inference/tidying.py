@@ -345,14 +345,11 @@ class _Improvement:
             for number in self._untidy(state)
             for cube in self.setup.restored[number]
             if not cube.positive & wanted
-            for argument in self._arguments(cube)
+            for argument in self._names(cube.positive)
         }
         held -= self.settled
         lost = self.task.names(self.start & ~state & self.setup.lasting & ~self.asked)
         return sum(1 << self.task.index[atom] for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
-
-    def _arguments(self, cube: Cube) -> Iterator[str]:
-        return (argument for atom in self.task.names(cube.positive) for argument in atom.args)
 
     # ------------------------------------------------------------------ shorter plans
 
@@ -454,7 +451,8 @@ class _Improvement:
         """Return the plan with things put down where things stand at the start, rather than where nothing does."""
         for atom in self._new_places(self._states(plan)[-1][-1]) if plan else ():
             thing, there = atom.args[:2]
-            put_down = [(p, a) for p, a in _numbered(plan) if {thing, there} <= set(plan[p].instructions[a].args)]
+            numbered = ((place, at, i) for place, part in enumerate(plan) for at, i in enumerate(part.instructions))
+            put_down = [(place, at) for place, at, i in numbered if {thing, there} <= set(i.args)]
             if not put_down or there in self.usual or plan[put_down[-1][0]].need.fixed:
                 continue
             place, at = put_down[-1]
@@ -618,11 +616,6 @@ def _arranged(plan: Plan, placed: Placed) -> Plan:
     """Return the plan with other instructions, each with the number of its part."""
     parts = (tuple(i for own, i in placed if own == number) for number in range(len(plan)))
     return tuple(replace(s, instructions=own) for s, own in zip(plan, parts, strict=True))
-
-
-def _numbered(plan: Plan) -> list[tuple[int, int]]:
-    """Return the number of the part of each instruction, and its number there."""
-    return [(place, at) for place, segment in enumerate(plan) for at in range(len(segment.instructions))]
 
 
 def _ends(plan: Plan, states: Sequence[Sequence[Bits]]) -> Iterator[tuple[Condition, Bits]]:
