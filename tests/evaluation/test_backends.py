@@ -20,7 +20,7 @@ from tests.cli.conftest import Ended, heed_interrupts, run_tmd
 from tmd import __version__
 from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation.models import model
-from tmd.evaluation.runs import backends, cluster
+from tmd.evaluation.runs import backends
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.experiment import run
 from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, WorkerLostError, do
@@ -32,11 +32,11 @@ PARTS = 12
 # in this small domain a unit takes milliseconds: nobody could interrupt the run between two of them
 SLOWLY = """
 import time
-from tmd.evaluation.runs import backends, cluster, jobs
+from tmd.evaluation.runs import backends, jobs
 def slowly(config, unit, fits):
     time.sleep(0.15)
     return jobs.do(config, unit, fits)
-backends.do = cluster.do = slowly
+backends.do = slowly
 """
 COMMAND = (
     *("experiment", "--domain", "02_table", "--task", "set_table", "--train-tasks", "set_table"),
@@ -350,7 +350,7 @@ def test_a_worker_with_another_version_or_data_is_told(
 ) -> None:
     cluster_.work(1)
     with monkeypatch.context() as other:
-        other.setattr(cluster, "__version__", "9.9")
+        other.setattr(backends, "__version__", "9.9")
         with pytest.raises(DataError, match=rf"has tmd {__version__}, and the run has 9\.9"):
             run(on(cluster_, tmp_path / "out"))
     problems = tmp_path / "problems"
@@ -374,19 +374,19 @@ def test_a_worker_without_tmd_is_told(tmp_path: Path, cluster_: Cluster) -> None
 def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
     here = config(tmp_path, test_environments=(1,))
     unit = EvaluationJob("empty", "set_table_2", ("given",))
-    found = cluster.open_dataset(here).fingerprint()
-    assert cluster.remote(here, unit, __version__, found).parts.keys() == {"given"}
+    found = backends.open_dataset(here).fingerprint()
+    assert backends.remote(here, unit, __version__, found).parts.keys() == {"given"}
     with pytest.raises(DataError, match=r"other data: their fingerprint is \w+, and not 0123"):
-        cluster.remote(here, unit, __version__, "0123")
+        backends.remote(here, unit, __version__, "0123")
     with pytest.raises(DataError, match="and the run has 0"):
-        cluster.remote(here, unit, "0", found)
+        backends.remote(here, unit, "0", found)
 
 
 @needs_dask
 def test_a_scheduler_without_workers_is_told(
     tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(cluster, "CONNECT", 1.0)
+    monkeypatch.setattr(backends, "CONNECT", 1.0)
     with pytest.raises(MissingToolError, match=r"the scheduler at .* has no workers"):
         run(on(cluster_, tmp_path / "out"))
 
@@ -398,7 +398,7 @@ def told(tmp_path: Path, *options: str, before: str = "") -> Ended:
 @needs_dask
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "tcp://no-such-host.invalid:8786"])
 def test_a_scheduler_out_of_reach_is_told(tmp_path: Path, address: str) -> None:
-    hurry = "import tmd.evaluation.runs.cluster as c; c.CONNECT = 1.0"
+    hurry = "import tmd.evaluation.runs.backends as b; b.CONNECT = 1.0"
     ended = told(tmp_path, "--scheduler", address, before=hurry)
     assert ended.code == ExitCode.MISSING_TOOL
     assert ended.err.splitlines()[-2:][0] == f"error: no scheduler answers at {address}"
@@ -408,7 +408,7 @@ def test_a_scheduler_out_of_reach_is_told(tmp_path: Path, address: str) -> None:
 @needs_dask
 @pytest.mark.parametrize("address", ["", "nonsense", "tcp://", "tcp://127.0.0.1:port"])
 def test_an_address_that_is_none_is_told(tmp_path: Path, address: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cluster, "CONNECT", 1.0)
+    monkeypatch.setattr(backends, "CONNECT", 1.0)
     with pytest.raises(TmdError, match="scheduler"):
         run(config(tmp_path / "out", backend="dask", scheduler=address))
 
@@ -446,7 +446,7 @@ def test_a_client_that_could_not_connect_is_gone_at_once(
 
     from distributed import Client
 
-    monkeypatch.setattr(cluster, "CONNECT", 0.5)
+    monkeypatch.setattr(backends, "CONNECT", 0.5)
     gc.disable()
     try:
         with pytest.raises(TmdError):

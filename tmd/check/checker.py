@@ -5,17 +5,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tmd.check.diagnostic import SEVERITY, Findings, Severity
-from tmd.check.lint.problem import lint_together
-from tmd.check.pddl_file import (
-    CheckedDomain,
-    check_domain_text,
-    check_problem_text,
-    explain_objects,
-)
+from tmd.check.lint import lint_together
+from tmd.check.pddl_file import CheckedDomain, check_domain_text, check_problem_text, explain_objects
 from tmd.diagnostics import Location, TmdError
 from tmd.files import real
 from tmd.language.lexicon.file import BASES
@@ -46,15 +42,13 @@ MOST_SHOWN = 200
 MAX_BYTES = 10_000_000
 
 
-@dataclass(slots=True)
+@dataclass
 class Checker:
     """Checker of files and folders, each once, which collects their faults.
 
-    Args:
-        domains: The directory of all domains; the usual one by default.
-        domain: The file of the domain of all problems, if it is known.
-        problems: The directory of all problems; the usual one by default.
-        given: Files that are checked together: a problem that nothing else has a domain for is of one of these.
+    ``domain`` is the file of the domain of all problems, if it is known; ``domains`` and ``problems`` are the
+    directories of all of them, if not the usual ones. A problem that nothing else has a domain for is of one of the
+    files ``given``, which are checked together.
     """
 
     domains: Path | None = None
@@ -66,7 +60,6 @@ class Checker:
     _checked: dict[Path, CheckedDomain | None] = field(default_factory=dict)
     _problems: dict[Path, list[Problem]] = field(default_factory=dict)
     _read: dict[Path, Problem | None] = field(default_factory=dict)
-    _data_files: DataFiles | None = None
     _given: dict[Path, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -100,13 +93,11 @@ class Checker:
         else:
             self._pddl(file)
 
-    @property
+    @cached_property
     def _data(self) -> DataFiles:
         from tmd.check.data_files import DataFiles
 
-        if self._data_files is None:
-            self._data_files = DataFiles(self)
-        return self._data_files
+        return DataFiles(self)
 
     def report(self, fault: TmdError, file: Path) -> None:
         """Take in a fault of ``file``; the source line is read where the fault has none."""
@@ -184,11 +175,8 @@ class Checker:
             column = line.lower().find(":domain")
             if column >= 0:
                 place = Location(source.file, number, column + 1)
-                what, code, hint = (
-                    "was not found",
-                    "domain-not-found",
-                    "put the domain beside it, or give --domain FILE",
-                )
+                what, code = "was not found", "domain-not-found"
+                hint = "put the domain beside it, or give --domain FILE"
                 if others:
                     what, code = "stands in several files", "ambiguous-domain"
                     hint = f"give --domain FILE, one of {', '.join(path.name for path in others[:8])}"

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Protocol
 
 from tmd.check.diagnostic import Diagnostic, Findings, Severity
-from tmd.check.lint.problem import lint_cases
+from tmd.check.lint import lint_cases
 from tmd.diagnostics import Location, MissingToolError, TmdError
 from tmd.files import real
 from tmd.language import parse, print_clause
@@ -31,11 +31,7 @@ from tmd.world.yaml_positions import YamlSource
 def check_demonstrations(path: Path, world: Callable[[str], Problem | None], known: list[str], report: Report) -> None:
     """Check every demonstration of a file: read it, and play it in its environment.
 
-    Args:
-        path: JSON Lines.
-        world: Returns the environment of a name; ``None`` where it has faults.
-        known: The names of all environments.
-        report: Takes the faults.
+    ``world`` returns the environment of a name, ``None`` where it has faults; ``known`` are the names of all.
 
     Raises:
         TmdError: The file cannot be read.
@@ -198,11 +194,6 @@ def _check_fact(
 _ONE_LETTER = 0.65
 
 
-def _is_of(diagnostic: Diagnostic, folder: DomainFolder) -> bool:
-    """Return whether a diagnostic is about the folder of a domain."""
-    return real(Path(diagnostic.location.file)).parent == real(folder.path)
-
-
 class FaultCollector(Protocol):
     """Receiver of the faults of data files, which knows the places of domains and problems."""
 
@@ -219,11 +210,7 @@ class FaultCollector(Protocol):
 
 
 class DataFiles:
-    """Checker of files that are not PDDL; each folder and environment is read once.
-
-    Args:
-        checker: Takes what is found, and knows where domains and problems are.
-    """
+    """Checker of files that are not PDDL; each folder and environment is read once."""
 
     def __init__(self, checker: FaultCollector) -> None:
         self.checker = checker
@@ -270,18 +257,13 @@ class DataFiles:
             check_shapes(folder)
 
     def _lexicon(self, file: Path) -> None:
-        from tmd.check.lexicon import (
-            check_goals,
-            check_lexicon,
-            check_phrases,
-            declared_verbs,
-            texts_of,
-        )
+        from tmd.check.lexicon import check_goals, check_lexicon, check_phrases, declared_verbs, texts_of
         from tmd.goals.tables import faults_of
 
         folder = self._folder(file)
         actions = [action.name for action in folder.domain.actions]
-        corpora = self._corpora(folder.path)
+        problems = self._beside(folder.path)
+        corpora = sorted(problems.glob("*/demonstrations.jsonl")) if problems else []
         lexicon = read_lexicon(file)
         texts = [text for path in corpora for text in texts_of(path)]
         meant = declared_verbs(lexicon, folder.domain)
@@ -301,11 +283,6 @@ class DataFiles:
         for fault in (*faults_of(lexicon), *check_phrases(file, lexicon)):
             self.checker.report(fault, file)
 
-    def _corpora(self, folder: Path) -> list[Path]:
-        """Return the demonstrations of a domain."""
-        problems = self._beside(folder)
-        return sorted(problems.glob("*/demonstrations.jsonl")) if problems else []
-
     def _beside(self, folder: Path) -> Path | None:
         """Return the problems of a domain: those beside its folder, or the known ones."""
         name = real(folder).name
@@ -317,7 +294,8 @@ class DataFiles:
 
     def _problems_of(self, folder: DomainFolder) -> Iterator[Problem]:
         """Yield the environments of a domain that have no faults; faults are reported where those files are checked."""
-        problems = None if self._has_faults(folder) else self._beside(folder.path)
+        faulty = any(d.severity is Severity.ERROR for d in self._found_in(folder))  # they may be incomplete then
+        problems = None if faulty else self._beside(folder.path)
         for path in sorted((problems / "environments").glob("*")) if problems else ():
             try:
                 if path.suffix == ".yaml":
@@ -327,9 +305,10 @@ class DataFiles:
             except (TmdError, RecursionError):
                 continue
 
-    def _has_faults(self, folder: DomainFolder) -> bool:
-        """Return whether a domain's folder has an error, so that its environments may be incomplete."""
-        return any(d.severity is Severity.ERROR and _is_of(d, folder) for d in self.checker.findings.sorted())
+    def _found_in(self, folder: DomainFolder) -> list[Diagnostic]:
+        """Return what was found in the folder of a domain."""
+        found = self.checker.findings.sorted()
+        return [d for d in found if real(Path(d.location.file)).parent == real(folder.path)]
 
     def _nameable(self, folder: DomainFolder) -> frozenset[str]:
         """Return the names that a group may have: as for nouns, or, without classes, those of objects as well."""
@@ -359,7 +338,7 @@ class DataFiles:
             folder = self._domain_of(file, environment.domain)
             problem = compile_problem(environment, folder)
             scene = faults or _scene_faults(file, folder)
-            told = {(d.code, d.message) for d in self.checker.findings.sorted() if _is_of(d, folder)}
+            told = {(d.code, d.message) for d in self._found_in(folder)}
             for fault in scene:
                 if (fault.code, fault.message) not in told:  # a fault of a class is reported there
                     self.checker.report(fault, file)

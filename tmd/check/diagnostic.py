@@ -54,12 +54,7 @@ SEVERITY: Mapping[str, Severity] = {
 
 @dataclass(frozen=True, slots=True)
 class Diagnostic:
-    """One problem.
-
-    Attributes:
-        code: Its kind, one of :data:`SEVERITY`.
-        edits: The remedy, where it is mechanical.
-    """
+    """One problem. ``code`` is one of :data:`SEVERITY`; ``edits`` are the remedy, where it is mechanical."""
 
     location: Location
     code: str

@@ -30,9 +30,7 @@ _FARTHEST = 3
 def explain(verb: str, corpora: Sequence[Corpus]) -> str:
     """Explain a verb, in English and in domains, as lines for people.
 
-    Args:
-        verb: The verb in any form, with its particle if it has one: ``turn on``, ``wiping``.
-        corpora: The domains, each with its demonstrations.
+    It may be in any form, with its particle if it has one: ``turn on``, ``wiping``.
 
     Raises:
         TmdError: It is not a word, or a file of a domain is wrong.
@@ -52,11 +50,7 @@ def explain(verb: str, corpora: Sequence[Corpus]) -> str:
 
 
 def _stem(said: str, lexicon: Lexicon) -> str:
-    """Return the stem of a verb, with its particle joined to it.
-
-    Raises:
-        TmdError: It is not a word.
-    """
+    """Return the stem of a verb, with its particle joined to it."""
     head, *particles = said.lower().replace("-", "_").replace("_", " ").split() or [""]
     if not all(word.isalpha() for word in (head, *particles)):
         raise TmdError(f"'{said}' is not a verb", hint="write it as it is said: tidy, 'turn on'")

@@ -10,13 +10,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from tmd.check.diagnostic import SEVERITY, Severity
-from tmd.check.lint.problem import Possible, Scope, types_of
+from tmd.check.lint import Possible, Scope, types_of
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, read_pattern, read_table
 from tmd.goals.tables import declared_goals
 from tmd.language import parse as parse_text
 from tmd.language.lexicon.lexicon import Declared, Lexicon, verb_candidates
-from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
+from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem, with_parts
 from tmd.pddl.reading.checking import check_condition
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, nearest, parse, read_text, split_lines
@@ -45,13 +45,8 @@ def check_lexicon(
 ) -> list[TmdError]:
     """Return the warnings on the words of a lexicon itself.
 
-    Args:
-        path: The file.
-        lexicon: What it says.
-        meant: The verbs that have a declared meaning.
-        actions: The names of the domain's actions.
-        names: What nouns may lead to: classes, parts, substances, objects. Empty where that is not known.
-        texts: The texts of the domain's demonstrations.
+    ``meant`` are the verbs with a declared meaning, ``names`` what nouns may lead to, empty where that is not known,
+    and ``texts`` those of the demonstrations.
     """
     source = Written(path)
     return [*_unknown_targets(lexicon, names, source), *_unserved(lexicon, meant, _Served(texts, actions), source)]
@@ -159,20 +154,12 @@ class _Sound:
 
 
 def check_goals(
-    path: Path,
-    lexicon: Lexicon,
-    domain: Domain,
-    environments: Iterable[Problem],
-    kinds: Callable[[], Collection[str]],
+    path: Path, lexicon: Lexicon, domain: Domain, environments: Iterable[Problem], kinds: Callable[[], Collection[str]]
 ) -> list[TmdError]:
     """Return every fault of ``goals``, ``attributes`` and ``groups``.
 
-    Args:
-        path: The lexicon's file.
-        lexicon: What it says.
-        domain: The domain that the conditions speak of.
-        environments: What of them can hold is looked up there; no more are taken than needed.
-        kinds: The classes, types, constants and objects that a group may name; empty where that is not known.
+    What can hold is looked up in the environments; no more are taken than needed. ``kinds`` returns what a group may
+    name: classes, types, constants and objects; nothing where that is not known.
     """
     if not (lexicon.goals or lexicon.attributes or lexicon.groups or lexicon.restored):
         return []
@@ -314,11 +301,7 @@ def _read(text: str, report: Report) -> tuple[Formula | None, Source]:
 
 
 def _one_condition(document: Document) -> Formula:
-    """Return the condition that a text consists of.
-
-    Raises:
-        TmdError: It is none, or several.
-    """
+    """Return the condition that a text consists of."""
     document.check_depth()
     if len(document.groups) != 1:
         place = document.groups[1].location if document.groups else None
@@ -342,7 +325,11 @@ def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: 
     looked = False
     for problem in environments if waiting else ():
         looked, world = True, Possible(problem)
-        lacking = {key: _lacking(_related(key[0].formula, key[1]), _scope(key[0]), world) for key in waiting}
+        # slots are of any type, because a part is taken where the thing itself does not fit
+        lacking = {
+            (one, preposition): _lacking(_related(one.formula, preposition), dict.fromkeys(one.variables, _ANY), world)
+            for one, preposition in waiting
+        }
         waiting = {key: atom for key, atom in lacking.items() if atom is not None}
         if not waiting:
             return
@@ -354,21 +341,11 @@ def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: 
         yield written.error(place, message, hint, "impossible-goal")
 
 
-def _scope(one: _Sound) -> Scope:
-    """Return the types of slots: any, because a part is taken where the thing itself does not fit."""
-    return dict.fromkeys(one.variables, _ANY)
-
-
 def _related(formula: Formula, preposition: str) -> Formula:
     """Return a condition with a preposition for ``?rel``."""
-    match formula:
-        case Atom(predicate, terms):
-            return Atom(predicate, tuple(preposition if term == RELATION else term for term in terms))
-        case And(parts) | Or(parts):
-            return replace(formula, parts=tuple(_related(part, preposition) for part in parts))
-        case Exists(_, part) | Forall(_, part):
-            return replace(formula, part=_related(part, preposition))
-    return formula
+    if isinstance(formula, Atom):
+        return replace(formula, terms=tuple(preposition if term == RELATION else term for term in formula.terms))
+    return with_parts(formula, lambda part: _related(part, preposition))
 
 
 def _lacking(formula: Formula, scope: Scope, world: Possible) -> str | None:

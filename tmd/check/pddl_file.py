@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tmd.check.diagnostic import SEVERITY, Severity
-from tmd.check.lint.domain import lint_domain
-from tmd.check.lint.problem import lint_problem
+from tmd.check.lint import lint_domain, lint_problem
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reading.checking import check_domain, check_problem

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
@@ -22,18 +23,13 @@ def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
         TmdError: The file cannot be read.
     """
     if any(diagnostic.code == "stale-domain" for diagnostic in diagnostics):
-        return _compiled(file)
-    return _edited(file, _edits(file, diagnostics))
+        from tmd.world.compile import compile_domain
+        from tmd.world.folder import DomainFolder
 
-
-def _compiled(file: Path) -> str | None:
-    from tmd.world.compile import compile_domain
-    from tmd.world.folder import DomainFolder
-
-    try:
-        return compile_domain(DomainFolder(file.parent))
-    except TmdError:
+        with suppress(TmdError):
+            return compile_domain(DomainFolder(file.parent))
         return None
+    return _edited(file, _edits(file, diagnostics))
 
 
 def _edits(file: Path, diagnostics: Sequence[Diagnostic]) -> list[Edit]:
@@ -46,11 +42,7 @@ def _edits(file: Path, diagnostics: Sequence[Diagnostic]) -> list[Edit]:
 
 
 def _edited(file: Path, edits: Iterable[Edit]) -> str | None:
-    """Return the text of ``file`` with ``edits``, without those that overlap others; ``None`` where there are none.
-
-    Raises:
-        TmdError: The file cannot be read.
-    """
+    """Return the text of ``file`` with ``edits``, without those that overlap others; ``None`` where there are none."""
     wanted = sorted(set(edits))
     if not wanted:
         return None
@@ -88,11 +80,7 @@ _MOST_ROUNDS = 8
 @short_repr(lambda r: f"{len(r.files)} file(s): " + ", ".join(f"{n} {severity}(s)" for severity, n in r.counts.items()))
 @dataclass(frozen=True, slots=True)
 class CheckReport:
-    """Result of a check.
-
-    Attributes:
-        diagnostics: What is wrong with them, by file, line and column.
-    """
+    """Result of a check. Diagnostics are sorted by file, line and column."""
 
     files: tuple[Path, ...]
     diagnostics: tuple[Diagnostic, ...]
@@ -114,12 +102,9 @@ def check_paths(
 ) -> CheckReport:
     """Check files, and all files of folders.
 
-    Args:
-        paths: The files and folders.
-        domain: The file of the domain of all problems, if it is known.
-        domains: The directory of all domains; the usual one by default.
-        problems: The directory of all problems; the usual one by default.
-        fix: Fix what can be fixed without knowing what the author meant, and check again.
+    ``domain`` is the file of the domain of all problems, if it is known; ``domains`` and ``problems`` are the
+    directories of all of them, if not the usual ones. ``fix`` mends what needs no knowledge of what the author meant,
+    and checks again.
 
     Raises:
         TmdError: There is nothing at a path, or a fixed file cannot be written.
@@ -155,9 +140,7 @@ def _stamp(file: Path) -> tuple[int, int, int] | None:
 def _fix(checker: Checker, stamps: Mapping[Path, tuple[int, int, int] | None]) -> tuple[list[Path], bool]:
     """Fix the files that were checked, each written whole.
 
-    Args:
-        checker: What was found.
-        stamps: The files as they were before that.
+    ``stamps`` are those of the files before they were checked.
 
     Returns:
         The files that changed; and whether another program, an editor or another fix, wrote one meanwhile: the

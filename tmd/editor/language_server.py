@@ -382,11 +382,7 @@ class DomainServer(LanguageServer):
         return f"{text}\n{chosen}\n\n{''.join(notes)}{output.decode('utf-8', errors='replace')}"
 
     def _where(self, file: Path, environment: str) -> tuple[Path, str]:
-        """Return the domain of a file and the environment for its requests.
-
-        Raises:
-            TmdError: One of them is missing.
-        """
+        """Return the domain of a file and the environment for its requests."""
         domain = self.project.domain_of(file)
         places = [Path(environment)] if environment else self.project.environments(domain) if domain else []
         if domain is None or not places:

@@ -43,11 +43,7 @@ def _names(text: str, file: str) -> tuple[Occurrence, ...]:
 
 @dataclass(slots=True)
 class Project:
-    """The files that are open, and those on the disk that belong to them.
-
-    Attributes:
-        files: The files that are open, without links.
-    """
+    """The files that are open, and those on the disk that belong to them."""
 
     roots: Roots = field(default_factory=Roots)
     files: dict[Path, None] = field(default_factory=dict)

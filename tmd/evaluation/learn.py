@@ -17,12 +17,7 @@ from tmd.world.demonstration import check_goal
 
 @dataclass(frozen=True, slots=True)
 class LearnedDomain:
-    """A learned domain, and where it was saved.
-
-    Attributes:
-        knowledge: Library, policy, goals of verbs, and weights if they were learned.
-        tuned: How the weights were learned; ``None`` where they were not.
-    """
+    """A learned domain, and where it was saved. ``tuned`` is ``None`` where no weights were learned."""
 
     knowledge: Knowledge
     tuned: Learned | None
@@ -32,11 +27,8 @@ class LearnedDomain:
 def learn_domain(corpus: Corpus, root: Path | None = None, *, weights: bool = True, seed: int = 0) -> LearnedDomain:
     """Learn from the demonstrations of a domain, and save it.
 
-    Args:
-        corpus: The domain.
-        root: Save in its directory of the domain's name; beside the demonstrations where none is given.
-        weights: Learn weights of the factors as well, which takes by far the longest.
-        seed: Random seed of the weights.
+    It is saved in the directory of its name below ``root``, or beside the demonstrations. Weights of the factors, which
+    take by far the longest, are learned if ``weights`` says so, with the random ``seed``.
 
     Raises:
         TmdError: There are no demonstrations, one is wrong, or it cannot be saved.

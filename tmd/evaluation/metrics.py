@@ -155,10 +155,8 @@ def visible(task: Task, problem: Problem, cover: AbstractSet[str]) -> Bits:
 class Scorer:
     """All metrics in one environment; many predictions for the same recorded sequences are quick.
 
-    Args:
-        problem: The environment.
-        mentions: Which objects an instruction names, for EED's cover.
-        absent: Types of things that do not exist and still choose a rule by their name (VEIL-500 has some).
+    ``mentions`` tells which objects an instruction names, for EED's cover; ``absent`` are the types of things that do
+    not exist and still choose a rule by their name (VEIL-500 has some).
     """
 
     def __init__(

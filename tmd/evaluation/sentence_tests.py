@@ -13,13 +13,7 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.semantics import holds
 from tmd.readers.interface import Usage
 from tmd.records.grounding import ModelUse
-from tmd.records.sentence_test import (
-    KindSummary,
-    Outcome,
-    SentenceCase,
-    SentenceReport,
-    SentenceSummary,
-)
+from tmd.records.sentence_test import KindSummary, Outcome, SentenceCase, SentenceReport, SentenceSummary
 from tmd.short_repr import short_repr
 from tmd.world.sentence_file import SentenceTest
 
@@ -34,7 +28,6 @@ class SentenceResult:
     Attributes:
         plan: The instructions of the first plan, as PDDL.
         goals: The goals of its steps, as PDDL.
-        reason: Why there is no plan, or why it is wrong.
         usage: The effort of the language model; ``None`` where none was asked.
     """
 

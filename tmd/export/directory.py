@@ -43,11 +43,8 @@ def _first_above(path: Path) -> Path:
 def write_directory(directory: Path, files: Mapping[str, bytes], *, overwrite: bool = False) -> None:
     """Write ``files`` into ``directory``, which becomes what they are in one step where it was empty or not there.
 
-    Args:
-        directory: Where to.
-        files: Contents by path within the directory, with ``/`` between its parts.
-        overwrite: Whether the directory may hold other files; those stay, and those of the same name are replaced,
-            each of them whole.
+    Paths have ``/`` between their parts. With ``overwrite`` the directory may hold other files; those stay, and those
+    of the same name are replaced, each of them whole.
 
     Raises:
         OutputError: It cannot be written.

@@ -53,8 +53,7 @@ def to_pddl(problem: Problem) -> PddlProblem:
 def from_pddl(problem: PddlProblem) -> Problem:
     """Return a ``pddl.core.Problem`` as one of ours.
 
-    Args:
-        problem: A problem that knows its domain: typed ADL with action costs.
+    It must know its domain: typed ADL with action costs.
 
     Raises:
         TmdError: It has no domain, or has what we do not support; places are those of its text.

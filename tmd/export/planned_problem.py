@@ -17,10 +17,8 @@ from tmd.pddl.validator import validate
 class Planned:
     """A problem, a plan that reaches its goal, and the states on the way.
 
-    Make it with :func:`planned`, which executes the plan.
-
-    Attributes:
-        states: The states before, between and after them; one more than there are instructions.
+    Make it with :func:`planned`, which executes the plan. There is one more of the states, before, between and after
+    the instructions, than of these.
     """
 
     problem: Problem

@@ -46,10 +46,7 @@ class _Part:
 def scene_files(environment: Environment, folder: DomainFolder, formats: tuple[str, ...]) -> dict[str, bytes]:
     """Return the files of a scene, by their paths.
 
-    Args:
-        environment: What there is and where.
-        folder: Its domain.
-        formats: Some of :data:`FORMATS`.
+    ``formats`` are some of :data:`FORMATS`.
 
     Returns:
         ``scene.urdf`` and ``scene.xml`` (MJCF) as far as they are asked for; ``meshes/`` for what is not made of boxes
@@ -162,11 +159,7 @@ def _urdf(name: str, parts: list[_Part]) -> ET.Element:
 
 
 def _mjcf(urdf: ET.Element, meshes: Mapping[str, bytes], positions: Mapping[str, float]) -> bytes:
-    """Compile the URDF with MuJoCo, with its meshes in ``meshes/`` and the joints at the start as a key frame.
-
-    Raises:
-        MissingToolError: MuJoCo is not installed.
-    """
+    """Compile the URDF with MuJoCo, with its meshes in ``meshes/`` and the joints at the start as a key frame."""
     try:
         import mujoco
     except ImportError as error:

@@ -15,6 +15,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
+from operator import or_
 
 from tmd.export.planned_problem import Planned
 from tmd.pddl.grounding.ground_task import ground
@@ -65,11 +67,8 @@ class _Decided:
 def strips(source: Planned, *, typed: bool = False) -> Strips:
     """Return the plan-resolved ground STRIPS of a planned problem.
 
-    Costs are left out: in the export each action costs 1.
-
-    Args:
-        source: The problem and its plan.
-        typed: Whether the types of the original are written; the actions have no parameters and need none.
+    Costs are left out: in the export each action costs 1. With ``typed`` the types of the original are written; the
+    actions have no parameters and need none.
 
     Raises:
         TmdError: The problem cannot be ground.
@@ -89,8 +88,7 @@ def _without_types(problem: Problem) -> Problem:
 class Checked:
     """An instruction of a plan between what is to be checked around it; literals are atoms that hold or do not.
 
-    Attributes:
-        before: Its precondition; of a disjunction the literal that holds.
+    Of a disjunction, ``before`` has the literal that holds.
     """
 
     instruction: Instruction
@@ -164,10 +162,7 @@ def _kept_false(cube: Cube, needs: Cube, state: Bits) -> Cube:
 
 def _written(task: Task, steps: Sequence[_Decided], goal: Cube) -> Strips:
     names = _names(steps)
-    negated = goal.negative
-    for step in steps:
-        negated |= step.needs.negative
-    writer = _Writer(task, negated)
+    writer = _Writer(task, reduce(or_, (step.needs.negative for step in steps), goal.negative))
     actions = {names[step]: writer.action(names[step], step) for step in steps}
     problem = writer.problem(tuple(actions.values()), goal)
     plan = tuple(Instruction(names[step]) for step in steps)

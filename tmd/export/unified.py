@@ -77,12 +77,9 @@ def _without_idle_costs(problem: Problem) -> Problem:
 def from_unified_planning(problem: UpProblem, *, domain: str | None = None) -> Problem:
     """Return a ``unified_planning.model.Problem`` as one of ours, by way of the text of PDDL.
 
-    Names are taken over in lower case. Objects that an action names become constants.
-
-    Args:
-        problem: A classical problem: fluents are true or false, effects may be conditional and universal, and
-            ``MinimizeActionCosts`` may be minimised.
-        domain: The name of the domain, which unified-planning does not know; the problem's own name by default.
+    Names are taken over in lower case. Objects that an action names become constants. It is classical: fluents are true
+    or false, effects may be conditional and universal, and ``MinimizeActionCosts`` may be minimised. The domain, whose
+    name unified-planning does not know, is called as the problem by default.
 
     Raises:
         TmdError: The problem has what we do not support, or a name that PDDL does not allow; places are those of its
@@ -141,9 +138,7 @@ def _named(name: str) -> str:
 def plan_to_unified_planning(plan: Iterable[Instruction], problem: UpProblem) -> UpPlan:
     """Return a plan as a ``SequentialPlan`` for ``problem``.
 
-    Args:
-        plan: The instructions.
-        problem: What :func:`to_unified_planning` returned.
+    ``problem`` is what :func:`to_unified_planning` returned.
 
     Raises:
         TmdError: An instruction names what ``problem`` does not have.

@@ -57,14 +57,8 @@ def decided(
 ) -> Inferred:
     """Return the ``top`` plans of least expected loss, among those that inference found and those that were drawn.
 
-    Args:
-        inferred: The outcome of inference, with about :data:`PLANS` plans; where it refuses the text it stays as it is.
-        clauses: The clauses of the text.
-        world: The environment.
-        policy: The distribution over the sequences of people.
-        planner: Fills in the instructions that a drawn one needs.
-        config: The preset: how many sequences are drawn, and whether they are candidates.
-        top: The number of plans.
+    There should be about :data:`PLANS` plans; where inference refuses the text, that stays. ``planner`` fills in the
+    instructions that a drawn one needs.
     """
     if not inferred.plans or not clauses:
         return replace(inferred, plans=inferred.plans[:top])
@@ -105,10 +99,7 @@ def similarities(
 ) -> NDArray[np.float64]:
     """Return IED and END of each plan with each sequence, from 0 to 1: 2 x plans x people.
 
-    Args:
-        plans: The plans.
-        people: The sequences.
-        changed: Returns the changes of a sequence, by the rules of END.
+    ``changed`` returns the changes of a sequence, by the rules of END.
     """
     from rapidfuzz import process  # most models decide by energy
     from rapidfuzz.distance import Levenshtein
@@ -133,12 +124,7 @@ def _alike(a: Bits, b: Bits) -> float:
 
 
 class SequenceCompleter:
-    """Makes sequences executable: puts in missing instructions, and leaves out impossible ones.
-
-    Args:
-        world: The environment.
-        planner: Fills in the instructions that another one needs.
-    """
+    """Makes sequences executable: puts in missing instructions, and leaves out impossible ones."""
 
     def __init__(self, world: World, planner: Planner) -> None:
         self.world = world

@@ -10,7 +10,8 @@ from tmd.pddl.domain_traits import passing_predicates, transformations
 from tmd.pddl.ground_formula import goal_cubes
 from tmd.pddl.grounding.ground_task import ground_condition
 from tmd.pddl.model import Formula, GroundAtom
-from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.pddl.semantics import opposite
+from tmd.pddl.task import Bits, Cube, Operator, Task, atoms_in
 from tmd.readers.interface import PlanConstraints
 
 # Maximum number of conjunctions of a goal and its commitments.
@@ -23,7 +24,6 @@ class Commitment:
 
     Attributes:
         ways: The condition first, then what it may turn into by itself; one of them must hold.
-        clause: The clause whose step reached it.
         hard: Whether it must be kept at any price, because the request says so.
     """
 
@@ -41,19 +41,13 @@ def commitments_of(cube: Cube, clause: int, task: Task) -> tuple[Commitment, ...
     domain = task.problem.domain
     passing = passing_predicates(domain) - {predicate for _, predicate, _ in transformations(domain)}
     found = []
-    for literal, atom in _literals(cube, task):
+    for literal in cube.literals():
+        (atom,) = task.names(literal.positive | literal.negative)
         if atom.predicate in passing:
             continue
         later = tuple(_later(atom, task)) if literal.positive else ()
         found.append(Commitment((literal, *later), clause))
     return tuple(found)
-
-
-def _literals(cube: Cube, task: Task) -> Iterator[tuple[Cube, GroundAtom]]:
-    for atom in task.names(cube.positive):
-        yield Cube(1 << task.index[atom], 0), atom
-    for atom in task.names(cube.negative):
-        yield Cube(0, 1 << task.index[atom]), atom
 
 
 def _later(atom: GroundAtom, task: Task) -> Iterator[Cube]:
@@ -78,11 +72,7 @@ def aims(
 ) -> Iterator[tuple[Cube, ...]]:
     """Yield what to plan for, in the order of trying: the goal with all commitments, then with ever fewer of them.
 
-    Args:
-        cubes: The goal.
-        kept: The commitments.
-        released: Objects whose commitments lapse.
-        task: The task.
+    Commitments about ``released`` objects lapse.
     """
     names = set(released)
     own = [k for k in kept if not (names & _objects(k, task)) or k.hard]
@@ -122,15 +112,12 @@ def _gives_way(kept: Commitment, cube: Cube) -> bool:
 
 
 def _objects(kept: Commitment, task: Task) -> set[str]:
-    return {a for way in kept.ways[:1] for atom in task.names(way.positive | way.negative) for a in atom.args}
+    return {a for atom in task.names(atoms_in(kept.ways[:1])) for a in atom.args}
 
 
 def _named(cubes: Sequence[Cube], task: Task) -> set[str]:
-    bits = 0
-    for cube in cubes:
-        bits |= cube.positive | cube.negative
     constants = {c.name for c in task.problem.domain.constants}
-    return {a for atom in task.names(bits) for a in atom.args} - constants
+    return {a for atom in task.names(atoms_in(cubes)) for a in atom.args} - constants
 
 
 def constrained(task: Task, constraints: PlanConstraints) -> Task:
@@ -164,8 +151,8 @@ def _without(operator: Operator, forbidden: Iterable[Cube], task: Task) -> Opera
             further = _brought_about(cube, operator.add | add, operator.delete | delete)
             if further is None:
                 # this effect undoes the cube: the unconditional ones bring it about only where its condition fails
-                fails = [Cube(negative, positive) for (positive, negative), _ in _literals(condition, task)]
-                unconditional = [both for c, f in product(unconditional, fails) if (both := c.joined(f)) is not None]
+                pairs = product(unconditional, opposite(condition))
+                unconditional = [both for c, fails in pairs if (both := c.joined(fails)) is not None]
             elif (both := further.joined(condition)) is not None:
                 states[both] = None
         states.update(dict.fromkeys(unconditional))

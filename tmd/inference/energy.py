@@ -349,14 +349,7 @@ Factors = dict[str, float]
 
 
 class Energy:
-    """The factors of one environment under given weights.
-
-    Args:
-        weights: The weight of each factor.
-        statistics: The tables of the training data.
-        world: The environment.
-        akin: As for :func:`~tmd.inference.energy.clause_distance`.
-    """
+    """The factors of one environment under given weights. ``akin`` is as for :func:`clause_distance`."""
 
     def __init__(self, weights: Weights, statistics: Statistics, world: World, *, akin: float = AKIN) -> None:
         self.weights = weights

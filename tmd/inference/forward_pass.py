@@ -14,20 +14,12 @@ from functools import cached_property
 from itertools import islice
 
 from tmd.inference.config import InferenceConfig
-from tmd.inference.energy import Energy, Factors
+from tmd.inference.energy import Energy
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation
-from tmd.inference.ranking import (
-    Choice,
-    Inferred,
-    PlanStep,
-    RankedPlan,
-    RejectedProposal,
-    Way,
-    why_lost,
-)
+from tmd.inference.ranking import Choice, Inferred, PlanStep, RankedPlan, RejectedProposal, Way, why_lost
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.semantics import Constraints
-from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.task import Bits, Cube, Task, atoms_in
 from tmd.planning.backends import TaskPlanners
 from tmd.planning.result import Answer, Filled, GaveUp, NoPlanner, Planner, Unreachable
 from tmd.world.verb_clause import VerbClause
@@ -41,13 +33,8 @@ NOTHING = Choice(None, (), {}, {})
 class InferenceSetup:
     """The fixed inputs of inference in one environment. Nothing of a request is kept in it.
 
-    Attributes:
-        world: The environment.
-        energy: The factors with their weights.
-        planners: Its planners.
-        proposers: The sources of candidates; each also judges the candidates of the others.
-        config: The preset.
-        restored: Conditions that hold at the end of no plan unless they did at the start, or the request asks for them.
+    ``restored`` are conditions that hold at the end of no plan unless they did at the start, or the request asks for
+    them.
     """
 
     world: World
@@ -61,11 +48,7 @@ class InferenceSetup:
 class ForwardPass:
     """The forward pass over the clauses of one request.
 
-    Args:
-        setup: The inputs of inference.
-        clauses: The clauses.
-        task: The task of the environment, without what the request forbids.
-        top: The number of distinct plans that are wanted.
+    ``task`` is that of the environment, without what the request forbids; ``top`` is the number of distinct plans.
     """
 
     def __init__(self, setup: InferenceSetup, clauses: Sequence[VerbClause], task: Task, top: int) -> None:
@@ -101,8 +84,7 @@ class ForwardPass:
                 break
             match self._answer(situation.state, candidate.instructions):  # lines 8 and 9
                 case Filled(latent):
-                    own, names, raw = candidate.instructions, candidate.names, candidate.raw
-                    choice, end = self.weighed(situation, candidate.source, names, latent, own, raw)  # lines 10 and 11
+                    choice, end = self.weighed(situation, candidate, latent)  # lines 10 and 11
                     found.setdefault(end, []).extend(w.extended(choice, end) for w in groups[situation])  # line 12
                 case Unreachable(reason):
                     self.rejected[RejectedProposal(number, candidate.source, reason)] = None
@@ -142,44 +124,27 @@ class ForwardPass:
         return self.planner.fill(state, self.constraints.of(instructions))
 
     def weighed(
-        self,
-        situation: Situation,
-        source: str,
-        names: Sequence[str],
-        latent: Instructions,
-        own: Instructions,
-        raw: Factors,
-        aim: Sequence[Cube] = (),
+        self, situation: Situation, proposal: Proposal, latent: Instructions, aim: Sequence[Cube] = ()
     ) -> tuple[Choice, Bits]:
         """Return the choice of a candidate with all its factors, and the state that it ends in (Φ, lines 10 and 11).
 
-        Args:
-            situation: The clause, and the way to it.
-            source: The source of the candidate.
-            names: The objects that the clause speaks of.
-            latent: The planner's instructions (I_jl).
-            own: The candidate's instructions (I_j).
-            raw: The factors of ψ_j that are known already.
-            aim: The goal that it reaches, where there is one.
+        ``latent`` are the planner's instructions (I_jl); ``aim`` is the goal that is reached, if there is one.
         """
-        energy = self.setup.energy
-        factors, end = dict(raw), situation.state  # ψ_j
+        energy, own, names = self.setup.energy, proposal.instructions, proposal.names
+        factors, end = dict(proposal.raw), situation.state  # ψ_j
         if self.config.knowledge:  # a robot without knowledge takes its environment to stay as it was
             middle = self.world.task.trace(situation.state, latent)[-1]  # E_j, line 10
             end = self.world.task.trace(middle, own)[-1]  # E'_j, line 11
             factors |= energy.of_end(situation.clause.verb, names, end)  # ψ'_j
             factors |= energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
             if aim:
-                asked = 0
-                for cube in aim:
-                    asked |= cube.positive | cube.negative
-                changed = (end ^ situation.state) & self.lasting & ~asked
+                changed = (end ^ situation.state) & self.lasting & ~atoms_in(aim)
                 factors["changes_not_asked_for"] = float(changed.bit_count())
             for proposer in self.setup.proposers:
                 factors |= proposer.judge(situation, (*latent, *own), end)
         steps = tuple(PlanStep(i, situation.number, latent=True) for i in latent)
         steps += tuple(PlanStep(i, situation.number, latent=False) for i in own)
-        return Choice(source, steps, energy.weigh(factors), factors), end
+        return Choice(proposal.source, steps, energy.weigh(factors), factors), end
 
     @cached_property
     def lasting(self) -> Bits:

@@ -14,16 +14,7 @@ from functools import cache, cached_property
 from itertools import islice, pairwise
 
 from tmd.diagnostics import Refusal, RefusalKind
-from tmd.inference.commitments import (
-    Commitment,
-    aims,
-    combined,
-    commitments_of,
-    constrained,
-    kept_throughout,
-    violated,
-)
-from tmd.inference.energy import Factors
+from tmd.inference.commitments import Commitment, aims, combined, commitments_of, constrained, kept_throughout, violated
 from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
 from tmd.inference.ranking import Choice, Inferred, LostGoal, PlanStep, StepGoal, Way
@@ -50,20 +41,16 @@ _MOST_READINGS = 4
 _FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
 PRIOR = "reading_prior"
 """The factor of the reader's prior: the negative logarithm of its belief in the candidate goal."""
-# A proposal that can be carried out, the planner's instructions before it, and its own instructions.
-_Executable = tuple[Proposal, Instructions, Instructions]
+# A proposal that can be carried out, and the planner's instructions before it.
+_Executable = tuple[Proposal, Instructions]
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
     """A candidate goal of a step in one state, with what must hold beside it.
 
-    Attributes:
-        step: The step.
-        goal: The candidate.
-        already: Whether it holds already.
-        aims: What to plan for: the goal with all commitments, then with ever fewer of them.
-        ways: Conditions to be reached on the way, before the goal.
+    ``aims`` are what to plan for: the goal with all commitments, then with ever fewer of them. ``ways`` are conditions
+    to be reached before the goal.
     """
 
     step: Step
@@ -76,11 +63,7 @@ class Target:
 class GoalPass(ForwardPass):
     """The forward pass over the steps of one dialogue.
 
-    Args:
-        setup: The inputs of inference.
-        dialogue: The request as it was read.
-        top: The number of distinct plans that are wanted.
-        chosen: For steps of :attr:`Dialogue.steps` that the user was asked about, the goal that is meant.
+    ``top`` is the number of distinct plans; ``chosen`` is as for :meth:`Inference.infer`.
     """
 
     def __init__(self, setup: InferenceSetup, dialogue: Dialogue, top: int, chosen: Mapping[int, Formula]) -> None:
@@ -107,7 +90,8 @@ class GoalPass(ForwardPass):
             ways = found
         refusal = self._without_effect(ways)
         if refusal is None:
-            ways = sorted((w for w in ways if self._respects_constraints(w, state)), key=lambda way: way.order)
+            allowed = (w for w in ways if self._allowed(self.world.task.trace(state, w.instructions)))
+            ways = sorted(allowed, key=lambda way: way.order)
             ways = self._all_finished(ways, state)
             refusal = None if ways else _FORBIDDEN
         if refusal is not None:
@@ -286,10 +270,7 @@ class GoalPass(ForwardPass):
 
     def _proposed(self, step: Step, way: Way) -> list[tuple[Choice, Bits]]:
         """Return what templates and policy propose for a step without a goal, as far as it can be carried out."""
-        return [
-            self._weighed(step, way, candidate.source, latent, own, candidate.raw)
-            for candidate, latent, own in self._executables(step, way)
-        ]
+        return [self._weighed(step, way, candidate, latent) for candidate, latent in self._executables(step, way)]
 
     def _without_effect(self, ways: Sequence[Way]) -> Refusal | None:
         """Return a refusal where no predicate of the domain can represent what was asked: *fold the blanket*."""
@@ -303,12 +284,9 @@ class GoalPass(ForwardPass):
         message = f"no predicate of this domain can represent the result of '{text}'"
         return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "say what shall be different afterwards, or allow guesses")
 
-    def _respects_constraints(self, way: Way, first: Bits) -> bool:
-        """Return whether a way brings about nothing that the request forbids."""
-        constraints = self.dialogue.constraints
-        if not constraints.never:
-            return True
-        return violated(self.task, constraints, self.world.task.trace(first, way.instructions)) is None
+    def _allowed(self, states: Sequence[Bits]) -> bool:
+        """Return whether states bring about nothing that the request forbids."""
+        return violated(self.task, self.dialogue.constraints, states) is None
 
     # ------------------------------------------------------------------ planning
 
@@ -345,8 +323,8 @@ class GoalPass(ForwardPass):
             elif isinstance(answer, Filled):
                 plan = (*begun, *answer.plan)
                 if self.config.guess or self._passes(target, way.state, plan):
-                    raw = {"policy_proposal": 1.0}
-                    found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), plan, raw, aim))
+                    planned = Proposal(PLANNER_SOURCE, plan, (), {"policy_proposal": 1.0}, 0.0)
+                    found.append(self._weighed(target.step, way, planned, (), aim))
             if found:
                 return self._undisturbing(found, state)
         if reason:
@@ -359,7 +337,9 @@ class GoalPass(ForwardPass):
     ) -> list[tuple[Choice, Bits]]:
         """Return the proposals completed to an aim, of which those are left that mix in the least unasked."""
         completed = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
-        found = [c for c in completed if not self._redone(way.state, _instructions(c[0]), aim, target)]
+        sequences = (tuple(step.instruction for step in choice.steps) for choice, _ in completed)
+        pairs = zip(completed, sequences, strict=True)
+        found = [c for c, own in pairs if not self._redone(way.state, own, aim, target)]
         foreign = [len(self._foreign(way.state, end, aim)) if self.config.orderly else 0 for _, end in found]
         return [c for c, count in zip(found, foreign, strict=True) if count == min(foreign)]
 
@@ -554,7 +534,7 @@ class GoalPass(ForwardPass):
                 continue
             answer = self.planner.fill(way.state, self.constraints.of(candidate.instructions))
             if isinstance(answer, Filled):
-                yield candidate, answer.plan, candidate.instructions
+                yield candidate, answer.plan
 
     def _completed(
         self, way: Way, proposal: _Executable, target: Target, aim: tuple[Cube, ...]
@@ -563,9 +543,9 @@ class GoalPass(ForwardPass):
 
         Objects that it handles for nothing are left alone.
         """
-        candidate, latent, own = proposal
+        candidate, latent = proposal
         state = way.state
-        whole = (*latent, *own)
+        whole = (*latent, *candidate.instructions)
         if not self._passes(target, state, whole):
             return None
         answer = self.planner.fill(self.world.task.trace(state, whole)[-1], aim)
@@ -574,25 +554,17 @@ class GoalPass(ForwardPass):
         whole = tidy((*whole, *answer.plan), self.world, state)
         kept = list(self._tidying.pruned(state, PlanPart(whole, Need(aim, target.ways))))
         first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
-        return self._weighed(target.step, way, candidate.source, tuple(first), tuple(kept), candidate.raw, aim)
+        return self._weighed(target.step, way, replace(candidate, instructions=tuple(kept)), tuple(first), aim)
 
     def _weighed(
-        self,
-        step: Step,
-        way: Way,
-        source: str,
-        latent: Instructions,
-        own: Instructions,
-        raw: Factors,
-        aim: Sequence[Cube] = (),
+        self, step: Step, way: Way, proposal: Proposal, latent: Instructions, aim: Sequence[Cube] = ()
     ) -> tuple[Choice, Bits]:
         """Return the choice of a candidate, and the state it ends in; ``aim`` is what it reaches."""
-        situation = Situation(self.clauses, step.number, way)
-        arguments = [a for i in own for a in i.args]
-        names = self.world.mentions.meant(situation.clause, arguments, way.state)
-        if source == PLANNER_SOURCE:
+        situation, own, raw = Situation(self.clauses, step.number, way), proposal.instructions, proposal.raw
+        names = self.world.mentions.meant(situation.clause, [a for i in own for a in i.args], way.state)
+        if proposal.source == PLANNER_SOURCE:
             raw = {**raw, **self.setup.energy.of_sequence(own, len(own), names)}
-        return self.weighed(situation, source, names, latent, own, raw, aim)
+        return self.weighed(situation, replace(proposal, names=names, raw=raw), latent, aim)
 
     @cached_property
     def _contents(self) -> Bits:
@@ -606,20 +578,8 @@ class GoalPass(ForwardPass):
 
     @cached_property
     def _tidying(self) -> Tidying:
-        constraints = self.dialogue.constraints
-
-        def allowed(states: Sequence[Bits]) -> bool:
-            return not constraints.never or violated(self.task, constraints, states) is None
-
-        return Tidying(
-            self.task,
-            self.planner,
-            self.setup.restored,
-            self.lasting,
-            self._contents,
-            allowed,
-            orderly=self.config.orderly,
-        )
+        restored, orderly = self.setup.restored, self.config.orderly
+        return Tidying(self.task, self.planner, restored, self.lasting, self._contents, self._allowed, orderly)
 
     def _all_finished(self, ways: Sequence[Way], first: Bits) -> list[Way]:
         """Return the best ways, improved; where too many become equal, others follow as they are."""
@@ -662,11 +622,7 @@ class Inference(InferenceSetup):
     ) -> Inferred:
         """Return the ``top`` best distinct plans for a request.
 
-        Args:
-            dialogue: The request as it was read.
-            state: The state in which it was made.
-            top: The number of plans.
-            chosen: The answers to questions: for steps, the goal that is meant.
+        ``chosen`` has the answers to questions: for numbers of :attr:`Dialogue.steps` the goal that is meant.
         """
         if self.config.goals:
             return GoalPass(self, dialogue, top, chosen or {}).infer(state)
@@ -702,11 +658,6 @@ def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) 
     handled = {arg for taken in choice.steps for arg in taken.instruction.args}
     handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}
     return names <= handled if every else bool(names & handled)
-
-
-def _instructions(choice: Choice) -> Instructions:
-    """Return the instructions of a choice."""
-    return tuple(step.instruction for step in choice.steps)
 
 
 def _impossible(target: Target, reason: str) -> Refusal:

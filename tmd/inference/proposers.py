@@ -31,13 +31,7 @@ PLANNER_SOURCE = "planner"
 
 @dataclass(frozen=True, eq=False)
 class Situation:
-    """A clause in an environment: what proposers are asked about. Each is itself only, so it may be a key.
-
-    Attributes:
-        clauses: All clauses of the text.
-        number: Which of them it is about, from 0.
-        way: The cheapest way to the environment.
-    """
+    """A clause in an environment: what proposers are asked about. Each is itself only, so it may be a key."""
 
     clauses: Sequence[VerbClause]
     number: int
@@ -65,8 +59,6 @@ class Proposal:
 
     Attributes:
         source: The demonstration or the proposer that it comes from.
-        instructions: The sequence I_j.
-        names: The objects that its clause speaks of.
         raw: The factors of ψ_j that are known already, not weighed.
         energy: The same, weighed and summed: what the candidate costs at least.
     """
@@ -92,14 +84,7 @@ class Proposer(Protocol):
 
 @dataclass(frozen=True)
 class TemplateProposer(Proposer):
-    """The paper's: every template of the clause's verb, instantiated here, and all of its trimmings.
-
-    Attributes:
-        world: The environment.
-        library: The templates.
-        energy: The factors, weighed.
-        config: The model.
-    """
+    """The paper's: every template of the clause's verb, instantiated here, and all of its trimmings."""
 
     world: World
     library: Library
@@ -154,13 +139,6 @@ class PolicyProposer(Proposer):
     """Proposes sequences of a policy, and judges all by the words of the clause. Not in the paper.
 
     It has no say about a clause whose templates all have verbs that it does not know: it is older than the library.
-
-    Attributes:
-        policy: What was learned, for this environment.
-        world: The environment.
-        library: The templates.
-        energy: The factors, weighed.
-        config: The model.
     """
 
     policy: Policy

@@ -21,7 +21,6 @@ class PlanStep:
     """One instruction of a plan.
 
     Attributes:
-        instruction: What to do.
         clause: The clause it serves. A latent step serves the instructions of this clause that follow it.
         latent: Whether the person left it unsaid (it is in I_il, found by the planner).
     """
@@ -40,7 +39,6 @@ class Choice:
         source: The demonstration whose template was used, or the name of another proposer; ``None`` where none could
             be used: the verb is in no demonstration, or nothing that was shown for it can be done here.
         steps: The latent steps, then those of the template.
-        factors: The weighed factors, by name.
         raw: The same factors before they are weighed.
     """
 
@@ -70,9 +68,7 @@ class LostGoal:
     """A candidate goal of a step that was not taken.
 
     Attributes:
-        formula: The goal.
         row: The lexicon row, action or model's words that it was derived from.
-        why: Why it was not taken.
         planned: Whether there is a plan for it.
     """
 
@@ -89,15 +85,12 @@ class StepGoal:
 
     Attributes:
         clause: The clause of the text, counted from 0.
-        text: What was said.
         formula: The goal; ``None`` where nothing was to be done, or where no goal is known.
         source: Where its meaning comes from: ``declared``, ``learned``, ``actions``; empty for none.
         row: The row it was read by, as it was written.
-        already: It held already.
         note: What else is to be said: why nothing is done, or what was left out of account.
         first: The first instruction of the plan that serves it, counted from 0.
         last: The one after the last.
-        others: The other candidate goals of the step.
         words: The goal in English, at most 200 characters; empty without a goal.
     """
 
@@ -128,12 +121,7 @@ class Way:
     """A way through the first steps of a request.
 
     Attributes:
-        energy: What it cost.
-        state: The state it ends in.
         choices: One for each step.
-        memory: The reader's memory.
-        kept: The commitments.
-        goals: The goals of the steps.
         needs: What each choice is for.
         readings: For each step with several candidate goals, its index and the goal that was taken.
     """
@@ -168,8 +156,6 @@ class RankedPlan:
     """A plan for the whole text.
 
     Attributes:
-        choices: One for each clause.
-        state: The state it ends in.
         why: Why it is not ranked first; empty for the first.
         goals: What was asked for, step by step, where the model has goals.
     """
@@ -211,7 +197,6 @@ class Inferred:
 
     Attributes:
         plans: The plans, cheapest first.
-        rejected: The candidates that could not be executed.
         refused: Why there is no plan for what was said, and the clause where that showed, if it is one clause.
         question: A question to the user, where two readings of the request are about equally good.
     """

@@ -16,7 +16,7 @@ from typing import TypeAlias
 from tmd.pddl.domain_traits import single_valued
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.semantics import opposite
-from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.pddl.task import Bits, Cube, Operator, Task, atoms_in
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled, GaveUp, Planner
 from tmd.world.compile import PART_OF
@@ -67,10 +67,11 @@ Placed: TypeAlias = Sequence[tuple[int, Instruction]]
 """Instructions, each with the number of its part."""
 
 
+@dataclass(frozen=True, slots=True)
 class Tidying:
     """Improves plans for one request.
 
-    Args:
+    Attributes:
         task: The task, without what the request forbids.
         planner: The planner for short gaps.
         restored: The conditions that are restored unless the request asks for them.
@@ -80,24 +81,13 @@ class Tidying:
         orderly: Whether instructions are put in order, and things are taken back to where they were.
     """
 
-    def __init__(
-        self,
-        task: Task,
-        planner: Planner,
-        restored: Sequence[Condition],
-        lasting: Bits,
-        contents: Bits,
-        allowed: Callable[[Sequence[Bits]], bool],
-        *,
-        orderly: bool = True,
-    ) -> None:
-        self.task = task
-        self.planner = planner
-        self.restored = restored
-        self.lasting = lasting
-        self.contents = contents
-        self.allowed = allowed
-        self.orderly = orderly
+    task: Task
+    planner: Planner
+    restored: Sequence[Condition]
+    lasting: Bits
+    contents: Bits
+    allowed: Callable[[Sequence[Bits]], bool]
+    orderly: bool = True
 
     def is_careless(self, instruction: Instruction) -> bool:
         """Return whether an instruction lets something fall."""
@@ -105,13 +95,7 @@ class Tidying:
         return isinstance(planner, GapFiller) and instruction not in planner.careful.task.by_instruction
 
     def improved(self, start: Bits, plan: Plan, kept: Condition) -> Plan:
-        """Return a plan that is at least as good.
-
-        Args:
-            start: The state in which the plan starts.
-            plan: The plan.
-            kept: What must hold at the end, beside the needs of the segments.
-        """
+        """Return a plan that is at least as good. ``kept`` must hold at its end, beside the needs of its parts."""
         return _Improvement(self, start, plan, kept).improved(plan)
 
     def pruned(self, start: Bits, part: PlanPart) -> tuple[Instruction, ...]:
@@ -355,22 +339,17 @@ class _Improvement:
 
     def _home(self, state: Bits, goal: Condition) -> Bits:
         """Return where things were that are in a hand now and need not be, unless the request settles that."""
-        wanted = 0
-        for cube in goal:
-            wanted |= cube.positive
+        wanted = atoms_in(Cube(cube.positive) for cube in goal)
         held = {
             argument
             for number in self._untidy(state)
             for cube in self.setup.restored[number]
             if not cube.positive & wanted
-            for argument in self._arguments(cube)
+            for argument in self._names(cube.positive)
         }
         held -= self.settled
         lost = self.task.names(self.start & ~state & self.setup.lasting & ~self.asked)
         return sum(1 << self.task.index[atom] for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
-
-    def _arguments(self, cube: Cube) -> Iterator[str]:
-        return (argument for atom in self.task.names(cube.positive) for argument in atom.args)
 
     # ------------------------------------------------------------------ shorter plans
 
@@ -384,10 +363,7 @@ class _Improvement:
     def _executable(self, plan: Plan, *, without: str = "", but: tuple[int, int] | None = None) -> Plan:
         """Return the plan without one object or one instruction, and without what cannot be executed then.
 
-        Args:
-            plan: The plan.
-            without: The object.
-            but: The number of the part and of the instruction in it.
+        ``but`` are the number of a part and that of the instruction in it.
         """
         found, state = [], self.start
         for place, segment in enumerate(plan):
@@ -452,12 +428,8 @@ class _Improvement:
     ) -> Iterator[Plan]:
         """Yield plans without some instructions that take a thing to where it was as soon as it has served.
 
-        Args:
-            plan: The plan.
-            placed: Its instructions.
-            used: The numbers of those for which the thing is needed.
-            without: The numbers of those that are left out.
-            atom: The place of the thing.
+        ``used`` are the numbers of those of the ``placed`` for which the thing is needed; those ``without`` are left
+        out. ``atom`` is the place of the thing.
         """
         at = used[-1] + 1 if used else 0
         kept = [pair for n, pair in enumerate(placed[:at]) if n not in without]
@@ -479,7 +451,8 @@ class _Improvement:
         """Return the plan with things put down where things stand at the start, rather than where nothing does."""
         for atom in self._new_places(self._states(plan)[-1][-1]) if plan else ():
             thing, there = atom.args[:2]
-            put_down = [(p, a) for p, a in _numbered(plan) if {thing, there} <= set(plan[p].instructions[a].args)]
+            numbered = ((place, at, i) for place, part in enumerate(plan) for at, i in enumerate(part.instructions))
+            put_down = [(place, at) for place, at, i in numbered if {thing, there} <= set(i.args)]
             if not put_down or there in self.usual or plan[put_down[-1][0]].need.fixed:
                 continue
             place, at = put_down[-1]
@@ -600,28 +573,21 @@ class _Improvement:
 
     def _relied_on(self, plan: Plan, place: int, at: int) -> Cube:
         """Return the literals of a state in a plan that the instructions and needs after it read."""
-        read = 0
         states = self._states(plan)
-        for cubes, state in ((self.kept, states[-1][-1]), *_ends(plan[place:], states[place:])):
-            cube = next((c for c in cubes if c.holds(state)), Cube())
-            read |= cube.positive | cube.negative
-        for number in self.watched:
-            for cube in self.setup.restored[number]:
-                read |= cube.positive | cube.negative
+        cubes = [cube for number in self.watched for cube in self.setup.restored[number]]
+        for needed, state in ((self.kept, states[-1][-1]), *_ends(plan[place:], states[place:])):
+            cubes.append(next((c for c in needed if c.holds(state)), Cube()))
         for index in range(place, len(plan)):
             first = at if index == place else 0
-            own = zip(plan[index].instructions[first:], states[index][first:], strict=False)
-            for instruction, state in own:
-                read |= _read_by(self.task.by_instruction[instruction], state)
-        state = states[place][at]
+            for instruction, state in zip(plan[index].instructions[first:], states[index][first:], strict=False):
+                cubes += _read_by(self.task.by_instruction[instruction], state)
+        state, read = states[place][at], atoms_in(cubes)
         return Cube(read & state, read & ~state)
 
 
 def _with_name(instruction: Instruction, name: str, other: str) -> Instruction:
     """Return an instruction with another object in the place of one."""
-    return Instruction(
-        instruction.name, tuple(other if argument == name else argument for argument in instruction.args)
-    )
+    return instruction._replace(args=tuple(other if argument == name else argument for argument in instruction.args))
 
 
 def _asked(kept: Condition, end: Bits, plan: Plan, states: Sequence[Sequence[Bits]]) -> tuple[Bits, Bits]:
@@ -652,11 +618,6 @@ def _arranged(plan: Plan, placed: Placed) -> Plan:
     return tuple(replace(s, instructions=own) for s, own in zip(plan, parts, strict=True))
 
 
-def _numbered(plan: Plan) -> list[tuple[int, int]]:
-    """Return the number of the part of each instruction, and its number there."""
-    return [(place, at) for place, segment in enumerate(plan) for at in range(len(segment.instructions))]
-
-
 def _ends(plan: Plan, states: Sequence[Sequence[Bits]]) -> Iterator[tuple[Condition, Bits]]:
     for segment, trace in zip(plan, states, strict=True):
         yield segment.need.end, trace[-1]
@@ -664,15 +625,10 @@ def _ends(plan: Plan, states: Sequence[Sequence[Bits]]) -> Iterator[tuple[Condit
             yield condition, next((s for s in trace if _any_holds(condition, s)), trace[-1])
 
 
-def _read_by(operator: Operator, state: Bits) -> Bits:
-    """Return the atoms that matter to an operator in a state: of its condition, and of the effects that it has."""
-    read = operator.precondition.positive | operator.precondition.negative
-    for cube in operator.forbidden:
-        read |= cube.positive | cube.negative
-    for condition, _, _ in operator.conditional:
-        if condition.holds(state):
-            read |= condition.positive | condition.negative
-    return read
+def _read_by(operator: Operator, state: Bits) -> list[Cube]:
+    """Return the conditions that matter to an operator in a state: its own, and those of the effects that it has."""
+    effects = (effect.condition for effect in operator.conditional if effect.condition.holds(state))
+    return [operator.precondition, *operator.forbidden, *effects]
 
 
 def _any_holds(condition: Condition, state: Bits) -> bool:

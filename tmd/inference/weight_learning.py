@@ -36,7 +36,6 @@ class Learned:
     """The outcome of learning.
 
     Attributes:
-        weights: The weights.
         curve: For each epoch ``round``, ``epoch``, the mean ``loss`` over the examples of the plan that the weights
             prefer among those proposed so far, and the mean hinge (``objective``). Epoch 0 is before the first step
             of a round: there ``loss`` is that of the plans that inference itself has just chosen.
@@ -71,17 +70,11 @@ def learn_weights(
 ) -> Learned:
     """Learn weights from ``examples`` training examples.
 
-    Args:
-        propose: Inference and loss for one example.
-        examples: How many examples there are.
-        start: Where to begin.
-        random: The order in which examples are visited.
-        factors: The factors to be weighed; all others keep weight 0.
-        rounds: How often plans are proposed again.
-        epochs: Passes over the examples in each round.
-        rate: The step of the descent, in units of each factor's spread.
-        pull: How strongly weights are drawn to ``start``.
-        journal: Where proposals are written down, and read again after an interruption.
+    ``propose`` does inference and loss for one of the ``examples``, which are visited in the order that ``random``
+    draws. All but ``factors`` keep weight 0. In each of ``rounds`` plans are proposed again, and there are ``epochs``
+    passes over the examples. ``rate`` is the step of the descent, in units of each factor's spread, and ``pull`` how
+    strongly weights are drawn to ``start``. Proposals are kept in the ``journal``, and read again after an
+    interruption.
     """
     fixed = {name: start[name] for name in FIXED}
     start = Weights({name: start[name] for name in NAMES if name in factors})
@@ -222,11 +215,8 @@ Proposed = list[tuple[Vector, float]]
 class Journal:
     """Proposals by round and example.
 
-    A line that was cut off by a kill is dropped, and what comes after it as well.
-
-    Args:
-        path: The file; made when there is something to write.
-        part: What the lines are about, where several learners share a file.
+    A line that was cut off by a kill is dropped, and what comes after it as well. ``part`` says what the lines are
+    about, where several learners share a file.
     """
 
     def __init__(self, path: Path, part: str = "") -> None:

@@ -47,20 +47,13 @@ class Rollout:
 class ForcedExecution:
     """Forced execution in one environment.
 
-    Only the instructions that are really run are ground, so this is quick where the full task is large.
-    Naming them beforehand saves grounding again later; results do not depend on it.
-
-    Args:
-        problem: The environment.
-        instructions: What will be run.
-        absent: Types of things that do not exist and still choose a rule by their name.
+    Only the instructions that are really run are ground, so this is quick where the full task is large. Naming them
+    beforehand saves grounding again later; results do not depend on it. ``absent`` are the types of things that do not
+    exist and still choose a rule by their name.
     """
 
     def __init__(
-        self,
-        problem: Problem,
-        instructions: Iterable[Instruction] = (),
-        absent: Mapping[str, str] | None = None,
+        self, problem: Problem, instructions: Iterable[Instruction] = (), absent: Mapping[str, str] | None = None
     ) -> None:
         self.problem = problem
         self._absent = dict(absent or {})
@@ -122,13 +115,11 @@ class ForcedExecution:
         for instruction in known:
             target = bound[instruction]
             self._operators[instruction] = target and _without(task.by_instruction[target], real)
-            exists = target == instruction
-            self._preconditions[instruction] = self._conditions(instruction, task) if exists else ()
+            self._preconditions[instruction] = ()
+            if target == instruction:
+                needed, binding = schema_of(self.problem, instruction).precondition, bind(self.problem, instruction)
+                self._preconditions[instruction] = ground_condition(task, needed, binding)
         return task
-
-    def _conditions(self, instruction: Instruction, task: Task) -> tuple[Cube, ...]:
-        schema = schema_of(self.problem, instruction)
-        return ground_condition(task, schema.precondition, bind(self.problem, instruction))
 
     def _bound(self, instruction: Instruction) -> Instruction | None:
         """Return the instruction with stand-ins for objects that do not exist; nothing where it fits no action."""

@@ -20,15 +20,12 @@ def portable(problem: Problem) -> Problem:
     Raises:
         TmdError: As :func:`without_either`.
     """
-    plain = without_either(_each_object_once(problem))
+    constants = {constant.name for constant in problem.domain.constants}
+    # some readers refuse objects that are constants of the domain as well
+    own = tuple(named for named in problem.objects if named.name not in constants)
+    plain = without_either(replace(problem, objects=own))
     requirements = used_requirements(plain.domain, plain)
     return replace(plain, domain=replace(plain.domain, requirements=requirements), requirements=())
-
-
-def _each_object_once(problem: Problem) -> Problem:
-    """Remove objects that are constants of the domain as well: some readers refuse them."""
-    constants = {constant.name for constant in problem.domain.constants}
-    return replace(problem, objects=tuple(named for named in problem.objects if named.name not in constants))
 
 
 def without_either(problem: Problem) -> Problem:

@@ -110,13 +110,8 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
     """Return the plan in a text or in JSON.
 
     Of several plans in a text the last whole one is taken, because planners go on to better ones; of those in JSON the
-    first. Steps with times are put in the order of their times.
-
-    Args:
-        text: The text.
-        file: Its file, for messages.
-        problem: The problem that the plan is for. Without it, only steps with parentheses are found, on lines where
-            nothing else stands.
+    first. Steps with times are put in the order of their times. Without the problem that the plan is for, only steps
+    with parentheses are found, on lines where nothing else stands. ``file`` names the text in messages.
 
     Raises:
         TmdError: There is no plan, it is cut off, something in the place of a step is none, or only some steps have a
@@ -143,11 +138,7 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
 
 
 def _plans(text: str, reader: _Reader) -> tuple[list[_Found], bool]:
-    """Return the plans in a text, and whether they stand in data.
-
-    Raises:
-        TmdError: Something in the place of a step is none.
-    """
+    """Return the plans in a text, and whether they stand in data."""
     value = _json(text)
     plans = [] if value is not None else reader.plans_of_text(text)
     data: list[_Found] = []
@@ -350,11 +341,7 @@ class _Reader:
         self.vocabulary = vocabulary
 
     def plans_of_text(self, text: str) -> list[_Found]:
-        """Return the plans in the order in which they stand; one without steps if the text is one.
-
-        Raises:
-            TmdError: Something in the place of a step is none.
-        """
+        """Return the plans in the order in which they stand; one without steps if the text is one."""
         lines = [self._line(line, number) for number, line in enumerate(split_lines(text), start=1)]
         _confirm(lines)
         split = _split(lines)
@@ -440,11 +427,7 @@ class _Reader:
     def _groups(
         self, source: str, code: str, place: Location, head: re.Match[str], start: Decimal | None
     ) -> list[_Step]:
-        """Return the steps of a line that have parentheses.
-
-        Raises:
-            TmdError: A step is not closed, or has something else than names.
-        """
+        """Return the steps of a line that have parentheses."""
         self._check_end(source, code, place, head.end())
         found = [self._group(group) for group in _GROUP.finditer(code)]
         known = any(words and self.vocabulary.has(words) for words, _, _ in found)
@@ -464,11 +447,7 @@ class _Reader:
         return steps
 
     def _check_end(self, source: str, code: str, place: Location, position: int) -> None:
-        """Make sure that the last step of a line is closed.
-
-        Raises:
-            TmdError: It is not.
-        """
+        """Make sure that the last step of a line is closed."""
         unclosed = _OPEN.search(code, position)
         if unclosed and self.vocabulary.may_begin(unclosed[1].lower()):
             hint = "add the missing ); if the text ends here, give all of it"
@@ -558,11 +537,7 @@ class _JsonReader:
         self._position = 0
 
     def plans(self, value: Any) -> Iterator[_Found]:  # noqa: ANN401 - any JSON
-        """Yield the plans in ``value``, in the order in which they stand.
-
-        Raises:
-            TmdError: Something in the place of a step is none.
-        """
+        """Yield the plans in ``value``, in the order in which they stand."""
         before = self._position
         if isinstance(value, dict) and len(value) > 1 and all(map(_NUMBER.fullmatch, value)):
             value = list(value.values())
@@ -697,10 +672,7 @@ def _overlap(steps: Sequence[_Step]) -> list[str]:
 def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
     """Return the text of a plan file.
 
-    Args:
-        instructions: The plan.
-        cost: Its cost; the number of instructions where ``None``.
-        unit: Whether each instruction costs 1, as the last line says.
+    ``cost`` is the number of instructions where it is ``None``; ``unit`` is what the last line says: each costs 1.
     """
     lines = [instruction.pddl() for instruction in instructions]
     total = len(lines) if cost is None else cost

@@ -36,7 +36,7 @@ from tmd.pddl.model import (
     walk,
 )
 from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.pddl.task import Bits, Cube, Operator, Task, single_bits
 from tmd.pddl.writer import format_formula
 
 Row: TypeAlias = tuple[str, ...]
@@ -499,10 +499,10 @@ def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
         may_delete |= delete & ~add
         if add & negative:
             clauses.append(opposite(condition))
-    for bit in _bits(wanted & (may_add | may_delete | operator.delete)):
+    for bit in single_bits(wanted & (may_add | may_delete | operator.delete)):
         wanted &= ~bit
         clauses.append(_made_true(bit, operator))
-    for bit in _bits(unwanted & may_delete):
+    for bit in single_bits(unwanted & may_delete):
         unwanted &= ~bit
         made_false = [c for c, _, delete in operator.conditional if delete & bit]
         clauses.append([*made_false, Cube(0, bit)])
@@ -522,7 +522,7 @@ def _made_true(bit: Bits, operator: Operator) -> Sequence[Cube]:
 @lru_cache(maxsize=65536)
 def opposite(cube: Cube) -> tuple[Cube, ...]:
     """Return the negation of ``cube``, as a disjunction of single literals."""
-    return (*(Cube(0, b) for b in _bits(cube.positive)), *(Cube(b, 0) for b in _bits(cube.negative)))
+    return tuple(Cube(literal.negative, literal.positive) for literal in cube.literals())
 
 
 def _conjoin(start: Cube, clauses: Iterable[Sequence[Cube]]) -> tuple[Cube, ...]:
@@ -553,13 +553,6 @@ def minimal(cubes: Iterable[Cube]) -> list[Cube]:
         if not any(k.positive & ~cube.positive == 0 and k.negative & ~cube.negative == 0 for k in kept):
             kept.append(cube)
     return kept
-
-
-def _bits(bits: Bits) -> Iterable[Bits]:
-    while bits:
-        low = bits & -bits
-        yield low
-        bits ^= low
 
 
 MOST_CUBES = 64

@@ -7,8 +7,10 @@ microseconds. The meaning is that of :mod:`tmd.pddl.semantics`, and tests hold t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import reduce
+from operator import or_
 from typing import NamedTuple, TypeAlias
 
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
@@ -16,6 +18,14 @@ from tmd.short_repr import short_repr
 
 Bits: TypeAlias = int
 """A set of fluent atoms, bit ``i`` for ``task.atoms[i]``."""
+
+
+def single_bits(bits: Bits) -> Iterator[Bits]:
+    """Yield each bit of a set by itself, lowest first."""
+    while bits:
+        low = bits & -bits
+        yield low
+        bits ^= low
 
 
 class Cube(NamedTuple):
@@ -28,10 +38,22 @@ class Cube(NamedTuple):
         """Return whether ``state`` satisfies every literal."""
         return state & self.positive == self.positive and not state & self.negative
 
+    def literals(self) -> list[Cube]:
+        """Return its literals, each as a cube, the positive ones first."""
+        return [
+            *(Cube(bit, 0) for bit in single_bits(self.positive)),
+            *(Cube(0, b) for b in single_bits(self.negative)),
+        ]
+
     def joined(self, other: Cube) -> Cube | None:
         """Return the conjunction with another cube; ``None`` where they contradict each other."""
         positive, negative = self.positive | other.positive, self.negative | other.negative
         return None if positive & negative else Cube(positive, negative)
+
+
+def atoms_in(cubes: Iterable[Cube]) -> Bits:
+    """Return the atoms that cubes speak of."""
+    return reduce(or_, (cube.positive | cube.negative for cube in cubes), 0)
 
 
 class ConditionalEffect(NamedTuple):
@@ -78,9 +100,9 @@ class Operator:
 
 
 @short_repr(lambda task: task.problem.name)
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Task:
-    """A ground problem.
+    """A ground problem; equal to nothing but itself, since comparing tasks takes long.
 
     Attributes:
         atoms: The fluent atoms, sorted; an atom's bit is its index.
@@ -119,9 +141,4 @@ class Task:
 
     def names(self, bits: Bits) -> list[GroundAtom]:
         """Return the atoms of ``bits``, sorted."""
-        found = []
-        while bits:
-            low = bits & -bits
-            found.append(self.atoms[low.bit_length() - 1])
-            bits ^= low
-        return found
+        return [self.atoms[bit.bit_length() - 1] for bit in single_bits(bits)]

@@ -28,7 +28,6 @@ class Verdict:
 
     Attributes:
         valid: Whether every instruction applies in turn and the goal holds at the end.
-        status: How it ended.
         step: The number of the instruction that fails, from 1; ``None`` where none does.
         broken: The first ground part of the precondition or goal that does not hold.
         reason: One line for people; empty for a valid plan.
@@ -48,10 +47,7 @@ class Verdict:
 def validate(problem: Problem, plan: Iterable[Instruction], *, trace: bool = False) -> Verdict:
     """Execute ``plan`` from the problem's initial state and look for the goal.
 
-    Args:
-        problem: The initial state and the goal.
-        plan: The instructions.
-        trace: Whether the verdict holds the states that were passed.
+    With ``trace`` the verdict holds the states that were passed.
 
     Raises:
         TmdError: The problem gives no value for an instruction's cost.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib.util import find_spec
 from threading import Thread
@@ -63,10 +63,8 @@ PLAN_CAP = 1_000_000
 def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
     """Return the planner ``name`` for the gaps of ``task``.
 
-    Args:
-        name: The planner.
-        task: The instantiated problem.
-        cap: Generated states after which the in-process search gives up; the usual cap for gaps by default.
+    ``cap`` is the number of generated states after which the in-process search gives up; the usual cap for gaps by
+    default.
 
     Raises:
         TmdError: There is no such planner, or it refuses the problem.
@@ -118,45 +116,36 @@ def soon(task: Task) -> Planner:
     return InTurn((EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON)), PartByPart(task)))
 
 
+@dataclass(frozen=True, slots=True)
 class TaskPlanners:
     """The planners of one environment, and of its task without what a request forbids.
 
     Other programs plan for the PDDL problem, which does not have the prohibitions of a request. Only the searches of
-    this process plan for a task with prohibitions.
-
-    Args:
-        task: The task of the environment.
-        quick: Its planner for gaps.
-        name: The name of that planner.
-        cap: Generated states after which a planner for gaps gives up; the usual cap by default.
+    this process plan for a task with prohibitions. ``planner`` fills the gaps of ``task`` and is called ``name``;
+    planners for gaps give up after ``cap`` generated states.
     """
 
-    def __init__(self, task: Task, quick: Planner, name: str = IN_PROCESS, cap: int | None = None) -> None:
-        self._task = task
-        self._quick = quick
-        self._name = name
-        self._cap = cap
+    task: Task
+    planner: Planner
+    name: str = IN_PROCESS
+    cap: int | None = None
 
     def quick(self, task: Task) -> Planner:
         """Return the planner that fills gaps."""
-        return self._quick if task is self._task else make(IN_PROCESS, task, cap=self._cap)
+        return self.planner if task is self.task else make(IN_PROCESS, task, cap=self.cap)
 
     def resort(self, task: Task, *, brief: bool = False) -> Planner:
         """Return the planner that is asked where the quick one gave up; a ``brief`` one gives up after some seconds."""
         if brief:
             return soon(task)
-        ours = self._name == IN_PROCESS or task is not self._task
-        return last_resort(task) if ours else make(self._name, task)
+        ours = self.name == IN_PROCESS or task is not self.task
+        return last_resort(task) if ours else make(self.name, task)
 
 
 class GapsAsProblems:
     """Fills gaps with a planner for whole problems, which executes its plans before it returns them.
 
     Where a goal has several cubes, it is asked cube by cube, and the cheapest answer is taken.
-
-    Args:
-        task: The instantiated problem.
-        solver: The planner.
     """
 
     def __init__(self, task: Task, solver: Callable[[Problem], Solution]) -> None:
@@ -204,9 +193,6 @@ class EachAlone:
     """A planner that is asked for each alternative of a goal by itself, for the cheapest of its plans.
 
     The way to one alternative leads away from another: a greedy search for all at once approaches none of them.
-
-    Args:
-        planner: The planner that is asked.
     """
 
     # Maximum number of alternatives that are asked for one by one.
@@ -228,11 +214,8 @@ class PartByPart:
     """Reaches the parts of a goal one after another, the nearest first, and keeps those that it has reached.
 
     Where many things are to be put away, or one part is for the next, each part is near, and all together are far.
-    Where no part is near, an instruction that brings one about is made ready: the bowl gets into a shut microwave.
-
-    Args:
-        task: The instantiated problem.
-        patient: Whether an instruction is made ready before a far part is looked for, which leaves time for more parts.
+    Where no part is near, an instruction that brings one about is made ready: the bowl gets into a shut microwave. With
+    ``patient``, an instruction is made ready before a far part is looked for, which leaves time for more parts.
     """
 
     # Generated states after which the optimal search for one part gives up, then the greedy one, and all together.
@@ -259,7 +242,7 @@ class PartByPart:
     def _parts(self, state: Bits, cube: Cube, purpose: Cube, depth: int) -> Filled | None:
         """Return a plan for one alternative, or for its purpose: water that heats may cook what is in it at once."""
         plan: tuple[Instruction, ...] = ()
-        cost, known = 0, dict.fromkeys(_literals(cube), 0)
+        cost, known = 0, dict.fromkeys(cube.literals(), 0)
         while not (cube.holds(state) or purpose.holds(state)):
             kept = cube._replace(positive=cube.positive & state, negative=cube.negative & ~state)
             parts = sorted((p for p in known if not p.holds(state)), key=lambda p: known[p])
@@ -275,12 +258,7 @@ class PartByPart:
         return Filled(plan, state, cost)
 
     def _nearest(
-        self,
-        searches: Sequence[OptimalSearch],
-        state: Bits,
-        kept: Cube,
-        parts: Sequence[Cube],
-        known: dict[Cube, int],
+        self, searches: Sequence[OptimalSearch], state: Bits, kept: Cube, parts: Sequence[Cube], known: dict[Cube, int]
     ) -> Filled | None:
         """Return the cheapest plan to one of several parts; ``known`` has what each cost last."""
         best: Filled | None = None
@@ -336,22 +314,8 @@ def _open(state: Bits, cube: Cube) -> int:
     return (cube.positive & ~state).bit_count() + (cube.negative & state).bit_count()
 
 
-def _literals(cube: Cube) -> list[Cube]:
-    """Return the literals of a cube, each as a cube."""
-    from tmd.pddl.task import Cube
-
-    def bits(whole: Bits) -> list[Bits]:
-        return [1 << n for n in range(whole.bit_length()) if whole >> n & 1]
-
-    return [*(Cube(bit, 0) for bit in bits(cube.positive)), *(Cube(0, bit) for bit in bits(cube.negative))]
-
-
 class InTurn:
-    """Planners that are asked one after another, until one does not give up.
-
-    Args:
-        planners: The planners in this order.
-    """
+    """Planners that are asked one after another, until one does not give up."""
 
     def __init__(self, planners: Sequence[Planner]) -> None:
         self._planners = planners

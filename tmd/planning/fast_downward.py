@@ -80,10 +80,12 @@ class _Downward(ExitStack):
     def __init__(self, problem: Problem, deadline: Deadline) -> None:
         super().__init__()
         self._binaries = binaries()
+        self._problem = problem
         self._deadline = deadline
         files = (*texts_for_planners(problem), unnamed_file(), unnamed_file())
         self._files = tuple(self.enter_context(file) for file in files)
         *_, self.sas, self.plan = files
+        self._prover = self.enter_context(Prover(problem, deadline))
 
     def translate(self, search: str | None) -> PlannerProcess:
         """Start the translator, which becomes the search with this configuration."""
@@ -100,14 +102,34 @@ class _Downward(ExitStack):
     def _command(self, search: str) -> list[str]:
         return [str(self._binaries / "downward"), "--search", search, "--internal-plan-file", path_of(self.plan)]
 
+    def answer(self, process: PlannerProcess, search: str) -> Solution | None:
+        """Wait for one search and return its answer; ``None`` where an exhaustive one has to be asked."""
+        reason = self._prover.watch(process, self._deadline)
+        if reason is not None:
+            return Unreachable(reason)
+        code, optimal = process.wait(self._deadline), search in _OPTIMAL
+        if code == 0:
+            self.plan.seek(0)
+            text = self.plan.read().decode(errors="replace")
+            return checked(self._problem, text, process, optimal, self._deadline)
+        limit = _limit(code, process, self._deadline)
+        if limit is not None:
+            return GaveUp(f"{limit} of {NAME}")
+        # the dead ends of searches that are not optimal prove nothing
+        if code in _UNSOLVABLE or (code == _INCOMPLETE and optimal and _EXHAUSTED in process.output()):
+            reason = self._prover.explain()
+            return Unreachable(
+                reason or f"{NAME} looked at every state that can be reached, and the goal holds in none"
+            )
+        if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and not optimal):
+            return None
+        raise process.failed(ending(code or 0))
+
 
 def fast_downward(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
     """Solve a whole problem with Fast Downward.
 
-    Args:
-        problem: The problem.
-        optimal: Whether the plan must be optimal; otherwise it is the first that is found.
-        deadline: The limits.
+    The plan is optimal if that is asked for; otherwise it is the first that is found.
 
     Raises:
         MissingToolError: Fast Downward is not installed.
@@ -115,47 +137,18 @@ def fast_downward(problem: Problem, *, optimal: bool, deadline: Deadline) -> Sol
         TmdError: It does not take the problem.
     """
     first = OPTIMAL if optimal else FIRST
-    with _Downward(problem, deadline) as files, Prover(problem, deadline) as prover:
+    with _Downward(problem, deadline) as files:
         with files.translate(first) as process:
-            answer = _answer(problem, process, first, files.plan, prover, deadline)
+            answer = files.answer(process, first)
             if answer is not None:
                 return answer
             axioms = _AXIOMS.search(process.output())
         exhaustive = OPTIMAL_WITH_CONDITIONS if axioms and axioms[1] == "0" else OPTIMAL_WITH_AXIOMS
         with files.search(exhaustive) as process:
-            answer = _answer(problem, process, exhaustive, files.plan, prover, deadline)
+            answer = files.answer(process, exhaustive)
             if answer is None:
                 raise process.failed("ended without a plan and without a proof")
             return answer
-
-
-def _answer(
-    problem: Problem,
-    process: PlannerProcess,
-    search: str,
-    plan: IO[bytes],
-    prover: Prover,
-    deadline: Deadline,
-) -> Solution | None:
-    """Wait for one search and return its answer; ``None`` where an exhaustive one has to be asked."""
-    reason = prover.watch(process, deadline)
-    if reason is not None:
-        return Unreachable(reason)
-    code = process.wait(deadline)
-    if code == 0:
-        plan.seek(0)
-        return checked(problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL, deadline)
-    limit = _limit(code, process, deadline)
-    if limit is not None:
-        return GaveUp(f"{limit} of {NAME}")
-    # the dead ends of searches that are not optimal prove nothing
-    exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.output()
-    if code in _UNSOLVABLE or exhausted:
-        reason = prover.explain()
-        return Unreachable(reason or f"{NAME} looked at every state that can be reached, and the goal holds in none")
-    if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search not in _OPTIMAL):
-        return None
-    raise process.failed(ending(code or 0))
 
 
 def _limit(code: int | None, process: PlannerProcess, deadline: Deadline) -> str | None:

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache, cached_property
+from functools import cache, cached_property, reduce
+from operator import or_
 
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube, Operator, Task
@@ -86,9 +87,7 @@ def _careless(operator: Operator, task: Task) -> bool:
     """Return whether an instruction puts something in a place that it does not name: it lets it fall."""
     own = set(operator.instruction.args)
     named = own | {constant.name for constant in task.problem.domain.constants}
-    add = operator.add
-    for _, also_add, _ in operator.conditional:
-        add |= also_add
+    add = reduce(or_, (effect.add for effect in operator.conditional), operator.add)
     return any(len(a.args) > 1 and a.args[0] in own and not named.issuperset(a.args) for a in task.names(add))
 
 

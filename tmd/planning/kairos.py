@@ -63,11 +63,6 @@ def kairos_beside(problem: Problem, other: Callable[[Deadline], Solution], deadl
     Only a plan of kairos counts: all else is for the other planner to find. It begins after some processor time, so
     that the load of the machine does not decide which of them solves a small problem, and goes first from then on.
 
-    Args:
-        problem: The problem.
-        other: The other planner.
-        deadline: The limits of both.
-
     Raises:
         MissingToolError, PlannerError, TmdError: As the other planner, where kairos finds no plan.
     """

@@ -50,18 +50,10 @@ PROGRAM = "TMD_PROGRAM"
 class Deadline:
     """A time limit for several processes one after another, with the memory that each of them may take.
 
-    Args:
-        seconds: Time limit, from now.
-        memory: Bytes for each process; ``None`` for most of the machine's memory.
-        over: Whether it ends already, for another reason.
+    ``memory`` is in bytes, ``None`` for most of that of the machine. It also ends as soon as ``over`` holds.
     """
 
-    def __init__(
-        self,
-        seconds: float,
-        memory: int | None = None,
-        over: Callable[[], bool] = lambda: False,
-    ) -> None:
+    def __init__(self, seconds: float, memory: int | None = None, over: Callable[[], bool] = lambda: False) -> None:
         self.seconds = seconds
         self.memory = memory
         self._end = time.monotonic() + seconds
@@ -89,15 +81,10 @@ class Deadline:
 class PlannerProcess:
     """A running planner; leaving its ``with`` block kills it and its process group.
 
-    Args:
-        name: Name of the planner for messages.
-        command: Program and arguments.
-        deadline: Memory that it may take. The caller watches the time limit.
-        stdin: Standard input; empty by default.
-        passed: Files that it inherits under their descriptors.
-        environment: Variables that are set in addition to those of this program.
-        directory: Working directory.
-        behind: Whether it gives way to other processes.
+    Its standard input is empty by default; ``passed`` are files that it inherits under their descriptors,
+    ``environment`` variables beside those of this program. The ``deadline`` gives the memory that it may take; its time
+    is the caller's to watch. One that is ``behind`` gives way to other processes. ``name`` is that of the planner, for
+    messages.
 
     Raises:
         PlannerError: It cannot be started.
@@ -383,13 +370,8 @@ def call_in_process(
 ) -> PlannerProcess:
     """Start a Python process that calls a function and prints the result as JSON.
 
-    Args:
-        name: Name of the process for messages.
-        function: The function as ``module:name``, so that this program need not import it.
-        arguments: Its arguments, which are pickled.
-        deadline: As for :class:`PlannerProcess`.
-        directory: Its directory, for temporary files as well; by default that of this program.
-        behind: Whether it gives way to other processes.
+    The function is given as ``module:name``, so that this program need not import it, and its arguments are pickled. A
+    ``directory`` is for its temporary files as well. Other arguments are those of :class:`PlannerProcess`.
     """
     with unnamed_file(pickle.dumps((function, arguments))) as question:
         variables = {**python_environment(), **({"TMPDIR": directory} if directory else {})}
@@ -412,11 +394,8 @@ class Prover(ExitStack):
 
     No search finds out that a mug cannot be in two places; it runs to its limit. The proofs that do
     (:mod:`tmd.planning.unsolvable`) need the instantiated problem, which takes long where the problem is large. So they
-    run beside a search that has not ended soon, and give way to it. Leaving the ``with`` block ends them.
-
-    Args:
-        problem: The problem.
-        deadline: The memory that the process may take.
+    run beside a search that has not ended soon, and give way to it. Leaving the ``with`` block ends them. ``deadline``
+    gives the memory that the process may take.
     """
 
     # Seconds of search after which proofs are looked for.

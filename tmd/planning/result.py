@@ -21,7 +21,6 @@ class Filled:
 
     Attributes:
         plan: The missing instructions; empty where the goal holds already.
-        state: The state after them.
         cost: The sum of their costs. It is the least possible one for every optimal back-end.
     """
 
@@ -59,8 +58,6 @@ class Solved:
     """A plan for a whole problem, executed by our own validator before anybody sees it.
 
     Attributes:
-        plan: The instructions.
-        cost: The sum of their costs.
         optimal: Whether the planner proved that there is no cheaper plan; otherwise it was just found.
     """
 

@@ -82,12 +82,7 @@ class _Action:
 
 
 class Mutexes:
-    """The pairs of literals that hold together in no state reachable from ``start``.
-
-    Args:
-        task: The ground problem.
-        start: The state to begin in.
-    """
+    """The pairs of literals that hold together in no state reachable from ``start``."""
 
     def __init__(self, task: Task, start: Bits) -> None:
         self.task = task
@@ -161,10 +156,7 @@ class Mutexes:
                 context = self._context(action.precondition, self._reached)
                 if context == 0 and (action.precondition or not self._reached):
                     continue
-                contexts = (
-                    context,
-                    *(self._context(effect.condition, context) for effect in action.effects[1:]),
-                )
+                contexts = (context, *(self._context(e.condition, context) for e in action.effects[1:]))
                 if contexts != seen[number]:
                     changed = self._apply(action, contexts, seen[number]) or changed
                     seen[number] = contexts
@@ -177,9 +169,7 @@ class Mutexes:
         """
         new = False
         may = [bool(context) or not e.condition for e, context in zip(action.effects, contexts, strict=True)]
-        live = [
-            (effect.condition, effect.makes) for effect, happens in zip(action.effects, may, strict=True) if happens
-        ]
+        live = [(e.condition, e.makes) for e, happens in zip(action.effects, may, strict=True) if happens]
         same = before is not None and all(
             bool(old) or not effect.condition or not happens
             for effect, old, happens in zip(action.effects, before, may, strict=True)
@@ -253,16 +243,9 @@ class _Case:
 class Counts:
     """The laws of a task, and the goals they rule out.
 
-    The laws are found as the least fixed point of an affine analysis (Karr 1976): at first every count is taken
-    to be constant; then each change that can occur where the present laws hold weakens them.
-
-    Args:
-        task: The ground problem.
-        start: The state whose counts the laws keep.
-
-    Attributes:
-        mutexes: What excludes each other from the same start.
-        laws: The laws.
+    The laws are found as the least fixed point of an affine analysis (Karr 1976): at first every count is taken to be
+    constant; then each change that can occur where the present laws hold weakens them. They keep the counts of the
+    state ``start``.
     """
 
     def __init__(self, task: Task, start: Bits) -> None:
@@ -321,9 +304,7 @@ class Counts:
 
     def _cases(self, operator: Operator) -> Iterator[_Case]:
         """Yield the ways in which ``operator`` may change the counts."""
-        unknown = 0
-        for mask in self._masks:
-            unknown |= _unknown(operator, mask)
+        unknown = reduce(or_, (_unknown(operator, mask) for mask in self._masks), 0)
         positive, negative = operator.precondition
         for chosen in subsets(unknown):
             case = Cube(positive | chosen, negative | (unknown & ~chosen))
@@ -446,9 +427,6 @@ class Impossible:
 
     What is derived from a state holds in every state reachable from it. It is derived from the task's initial
     state when first asked, and again from states that are out of its reach (forced instructions lead there).
-
-    Args:
-        task: The ground problem.
     """
 
     def __init__(self, task: Task) -> None:

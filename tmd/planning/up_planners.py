@@ -38,9 +38,6 @@ class EngineSpec:
     """An engine of unified-planning and how it is called.
 
     Attributes:
-        name: Its name there.
-        parameters: Its parameters.
-        time_limit: Seconds after which it is stopped.
         skip_checks: Whether to leave out the engine's own check of the problem kind, which costs 14 ms a call.
         memory: Bytes that it may take beyond those of unified-planning; ``None`` for most of the machine's memory.
     """
@@ -102,11 +99,7 @@ def _asked(engine: EngineSpec, question: tuple[object, ...]) -> dict[str, Any] |
 
 
 def _judged(status: str, engine: EngineSpec) -> Unreachable | GaveUp:
-    """Interpret a status without a plan. ``UNSOLVABLE_INCOMPLETELY`` means "gave up", never "impossible".
-
-    Raises:
-        TmdError: The engine failed or refused the problem.
-    """
+    """Interpret a status without a plan. ``UNSOLVABLE_INCOMPLETELY`` means "gave up", never "impossible"."""
     match status:
         case "UNSOLVABLE_PROVEN":
             return Unreachable(f"{engine.name} proved it")

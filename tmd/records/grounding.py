@@ -7,7 +7,7 @@ from typing import Self
 from pydantic import Field, field_validator, model_validator
 
 from tmd.diagnostics import TmdError
-from tmd.inference.ranking import Choice, PlanStep, RankedPlan, RejectedProposal, StepGoal
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan, StepGoal
 from tmd.json_record import JsonRecord, Rounded, TextOrNull
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.reading.formulas import read_only_condition
@@ -80,11 +80,7 @@ class GoalRecord(JsonRecord):
 
 
 def _condition(text: str) -> Formula:
-    """Return the condition that a text states.
-
-    Raises:
-        ValueError: It is not a condition.
-    """
+    """Return the condition that a text states."""
     try:
         return read_only_condition(parse(text, "pddl"))
     except TmdError as error:
@@ -230,10 +226,6 @@ class GroundingRecord(ParsedRecord, GroundedText):
     def ranked(self) -> tuple[RankedPlan, ...]:
         """Return the plans."""
         return tuple(plan.ranked() for plan in self.plans)
-
-    def refused_templates(self) -> tuple[RejectedProposal, ...]:
-        """Return the demonstrations whose templates cannot be used."""
-        return tuple(RejectedProposal(refusal.clause, refusal.source, refusal.reason) for refusal in self.refusals)
 
     def goal_only(self) -> GoalOnlyRecord:
         """Return the record that ``tmd ground --goal-only --json`` prints."""

@@ -157,21 +157,8 @@ class RunRecord(RunRequest):
     seconds: float = Field(description="Simulated time.")
 
     @classmethod
-    def of(
-        cls,
-        asked: RunRequest,
-        steps: Sequence[RanStep],
-        execution: Execution,
-        ticks: int,
-    ) -> RunRecord:
-        """Return a run that is over.
-
-        Args:
-            asked: What was to be done.
-            steps: What was done, in order.
-            execution: How it ended.
-            ticks: Steps of the physics.
-        """
+    def of(cls, asked: RunRequest, steps: Sequence[RanStep], execution: Execution, ticks: int) -> RunRecord:
+        """Return a run that is over. ``ticks`` are steps of the physics."""
         ended = how_it_ended(execution, ticks)
         return cls.model_validate({**asked.given(), "steps": tuple(steps), **ended})
 
@@ -252,9 +239,7 @@ _EVENTS: dict[str, type[RunEvent]] = {
 def read_log(lines: Sequence[tuple[int, str]], file: str) -> tuple[PlanEvent, list[RunEvent]]:
     """Return the first line of a log, and those after it; the last one may be cut off where the run was killed.
 
-    Args:
-        lines: The lines that are not blank, with their numbers.
-        file: The log, for messages.
+    ``lines`` are those that are not blank, with their numbers.
 
     Raises:
         TmdError: A line is not one of a log, or the first is not the plan.

@@ -87,7 +87,8 @@ def _goals_text(plan: RankedPlan, clauses: Sequence[Clause], problem: Problem, *
         return ""
     lines = ["goals"]
     for shown in in_words(plan.goals, problem):
-        lines.append(f"  {shown.goal.clause + 1}. {_of_part(shown, clauses)}{_goal_words(shown)}")
+        already = " (already so)" if shown.asked and shown.goal.already else ""
+        lines.append(f"  {shown.goal.clause + 1}. {_of_part(shown, clauses)}{shown.told}{already}")
         lines += [f"     {line}" for line in _below(shown, verbose=verbose)]
     return "\n".join(lines) + "\n"
 
@@ -97,10 +98,6 @@ def _of_part(shown: ShownGoal, clauses: Sequence[Clause]) -> str:
     clause = clauses[shown.goal.clause] if shown.goal.clause < len(clauses) else None
     whole = "" if clause is None else " ".join(clause.text.split())
     return "" if shown.goal.text == whole else f'"{shown.goal.text}": '
-
-
-def _goal_words(shown: ShownGoal) -> str:
-    return f"{shown.told} (already so)" if shown.asked and shown.goal.already else shown.told
 
 
 def _below(shown: ShownGoal, *, verbose: bool) -> list[str]:
@@ -161,10 +158,8 @@ def brief_text(grounded: Grounded) -> str:
 def grounded_text(grounded: Grounded, *, energies: bool = False, verbose: bool = False) -> str:
     """Return clauses, skipped pieces and goals, then each plan and why it is not first.
 
-    Args:
-        grounded: The answer.
-        energies: Whether to give the energies of the plans, by factor.
-        verbose: Whether to write goals at full length, and those that were not taken.
+    ``energies`` gives those of the plans, by factor; ``verbose`` writes goals at full length, and those that were not
+    taken.
     """
     parts = [parsed_text(grounded.parsed)]
     told: list[str] = []

@@ -29,12 +29,9 @@ def candidates(
 ) -> str:
     """Render ranked plans as a fragment of HTML: a table of energies, then each clause's, then the refusals.
 
-    Args:
-        plans: The plans, least energy first.
-        verdicts: For each plan why it does not work, empty for one that does.
-        refusals: Templates that could not be used.
-        narrow: Whether the fragment must fit into a panel of the studio: a column for each plan instead of each factor.
-        corrected: Whether the first plan is first because somebody corrected a plan so, whatever its energy.
+    ``verdicts`` say why a plan does not work, empty for one that does. A ``narrow`` fragment fits into a panel of the
+    studio: a column for each plan instead of each factor. ``corrected``: the first plan is first because somebody
+    corrected a plan so, whatever its energy.
     """
     names = factors_of(plans)
     return (

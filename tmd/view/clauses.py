@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from html import escape
 from itertools import groupby, pairwise
@@ -21,12 +21,7 @@ _WIDER = 3
 
 @dataclass(frozen=True, slots=True)
 class TextPhrase:
-    """Words of a clause.
-
-    Attributes:
-        kind: :data:`VERB` or :data:`OBJECT`.
-        name: The stem, or the language-object, as the clause has it.
-    """
+    """Words of a clause. ``name`` is the stem, or the language-object, as the clause has it."""
 
     span: Span
     kind: str
@@ -66,15 +61,11 @@ def _verb(tokens: Sequence[Token], verb: str) -> list[int]:
 def _objects(tokens: Sequence[Token], clause: Clause, used: Collection[int]) -> Iterator[tuple[str, str, list[int]]]:
     """Yield each object with its words; lazily, because what one has taken the next cannot have."""
     for name in clause.objects:
-        free = {i: _forms(tokens[i].text) for i in range(len(tokens)) if i not in used}
+        free = {i: {t.text, singular(t.text), positive(t.text)} for i, t in enumerate(tokens) if i not in used}
         yield OBJECT, name, _words_of(free, [word for word in name.split("_") if word])
 
 
-def _forms(word: str) -> frozenset[str]:
-    return frozenset({word, singular(word), positive(word)})
-
-
-def _words_of(free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[int]:
+def _words_of(free: Mapping[int, Set[str]], words: Sequence[str]) -> list[int]:
     """Return the narrowest run of free places with all of ``words``; with their head alone where there is none."""
     starts = [place for place, forms in free.items() if forms & set(words)]
     runs = [run for start in starts if len(run := _run_from(start, free, words)) == len(words)]
@@ -83,7 +74,7 @@ def _words_of(free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[
     return [place for place in starts if words[-1] in free[place]][:1]
 
 
-def _run_from(start: int, free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[int]:
+def _run_from(start: int, free: Mapping[int, Set[str]], words: Sequence[str]) -> list[int]:
     """Return the places from ``start`` on that have ``words``, in any order, with little between them."""
     left, taken = list(words), []
     for place in range(start, start + len(words) + _WIDER):
@@ -126,10 +117,8 @@ def lit_sentence(
 ) -> str:
     """Return the text as a fragment of HTML.
 
-    Args:
-        parsed: The text and its clauses.
-        meant: For every clause the objects that its language-objects were grounded to; without it, they are left out.
-        unseen: The verbs that no demonstration has.
+    ``meant`` has for every clause the objects of its language-objects; without it they are left out. ``unseen`` are the
+    verbs that no demonstration has.
     """
     spans = _clipped([clause.span for clause in parsed.clauses])
     lit = _free([*_clause_words(parsed, meant, unseen), *_skipped(parsed)])

@@ -94,10 +94,7 @@ def _words(formula: Formula | None, wording: Wording) -> str:
 def followed(goals: Sequence[StepGoal], problem: Problem, plan: Iterable[Instruction]) -> list[ShownGoal]:
     """Return the goals in words, each with where in ``plan`` it comes to hold.
 
-    Args:
-        goals: The goals.
-        problem: Where the plan begins.
-        plan: The plan; what follows an instruction that cannot be executed is left out.
+    What follows an instruction that cannot be executed is left out.
     """
     states = validate(problem, plan, trace=True).trace if goals else ()
     return [_placed(shown, states, problem) for shown in in_words(goals, problem)]
@@ -125,10 +122,7 @@ def all_reached(goals: Iterable[ShownGoal]) -> bool:
 def outcome(verdict: Verdict, goals: Sequence[ShownGoal], goal: Formula = TRUE) -> str:
     """Return the outcome of a plan in a few words; an executable plan need not reach its goals.
 
-    Args:
-        verdict: What the validator says of it.
-        goals: The goals of the text, as :func:`followed` returns them.
-        goal: The goal of the problem, for a plan without a text.
+    ``goals`` are those of a text, from :func:`followed`; ``goal`` is that of the problem, for a plan without a text.
     """
     if not verdict.valid:
         return "✗ does not work"
@@ -174,14 +168,9 @@ def left_behind(plan: RankedPlan, world: World) -> list[GroundAtom]:
     for atom in task.names(plan.state & ~task.init):
         name, bit = thing(atom.args), 1 << task.index[atom]
         ends = any(takes_back(operator, bit) for operator, other in alone.items() if other == name)
-        if ends and not any(_requires(formula, atom, end, task.problem) for formula in reached):
+        if ends and all(holds(formula, end - {atom}, objects) for formula in reached):  # none of them requires it
             found.append(atom)
     return sorted(found)
-
-
-def _requires(formula: Formula, atom: GroundAtom, state: State, problem: Problem) -> bool:
-    """Return whether a goal that holds in a state would not without an atom."""
-    return not holds(formula, state - {atom}, universe(problem))
 
 
 def _reached(plan: RankedPlan, world: World) -> list[Formula]:

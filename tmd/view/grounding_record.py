@@ -34,19 +34,12 @@ from tmd.view.goals import ShownGoal, in_words
 
 
 def grounding_record(
-    grounded: Grounded,
-    *,
-    domain: str,
-    environment_file: str | None,
-    made_with: Mapping[str, object],
+    grounded: Grounded, *, domain: str, environment_file: str | None, made_with: Mapping[str, object]
 ) -> GroundingRecord:
     """Return everything that is known of the plans.
 
-    Args:
-        grounded: The plans.
-        domain: The domain's name.
-        environment_file: The environment's file as it was given; ``None`` for a bundled one.
-        made_with: The fields of :class:`~tmd.records.grounding.MadeWith`.
+    ``environment_file`` is as it was given, ``None`` for a bundled one; ``made_with`` are the fields of
+    :class:`~tmd.records.grounding.MadeWith`.
     """
     task = grounded.world.task
     pairs = zip(grounded.plans, grounded.verdicts, strict=True)

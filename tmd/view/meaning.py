@@ -9,7 +9,7 @@ from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import PERSONS, Clause, Parsed, Quantifier
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.world.world import World
+from tmd.world.world import World, run
 
 # For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing. In
 # brackets stands what a noun would mean here most likely, where the plan has nothing to do with it: ``(milk1)``.
@@ -37,7 +37,7 @@ def meanings_in(
     for owner, instructions in parts:
         begun.setdefault(owner, state)
         served.setdefault(owner, []).extend(instructions)
-        state = after(instructions, world, state)
+        state = run(world, state, instructions)
     return [
         meaning(clause, served.get(number, ()), world, begun.get(number, world.task.init))
         for number, clause in enumerate(clauses)
@@ -57,7 +57,7 @@ def meaning(clause: Clause, instructions: Iterable[Instruction], world: World, s
 
 def _touched(instructions: Iterable[Instruction], world: World, state: Bits) -> list[str]:
     """Return the constants, substances say, of the facts that the instructions change."""
-    changed = world.task.names(after(instructions, world, state) ^ state)
+    changed = world.task.names(run(world, state, instructions) ^ state)
     return sorted({argument for atom in changed for argument in atom.args} & world.profiles.constants)
 
 
@@ -86,13 +86,3 @@ def _grounded(
             objects = (substance,)
         found.update(dict.fromkeys(name if name in used else f"({name})" for name in objects))
     return tuple(found)
-
-
-def after(instructions: Iterable[Instruction], world: World, state: Bits) -> Bits:
-    """Return the state after the instructions, up to the first that the world does not know."""
-    for instruction in instructions:
-        operator = world.task.by_instruction.get(instruction)
-        if operator is None:
-            return state
-        state = operator.apply(state)
-    return state

@@ -119,7 +119,6 @@ class ShownStep:
     """A step as it is shown.
 
     Attributes:
-        number: Its place in the plan, from 1.
         added: The facts that hold after it and did not before, sorted.
         removed: The facts that held before it and do not after, sorted.
         broken: Why it cannot be done; empty where it can.

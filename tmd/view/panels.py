@@ -42,13 +42,9 @@ def step_list(
 ) -> str:
     """Render numbered steps in words; the instruction shows on hover, and below the step that was taken last.
 
-    Args:
-        steps: The steps.
-        current: The step that was taken last, from 1; 0 is the beginning.
-        gains: The facts that it changed, as HTML; shown below it.
-        faults: The faults of steps, by number.
-        in_words: Puts an instruction into words.
-        of: The panel whose steps they are; it is sent each click on a step.
+    The step ``current`` was taken last, from 1; 0 is the beginning. ``gains`` are the facts that it changed, as HTML;
+    ``faults`` those of steps, by number. ``in_words`` puts an instruction into words. The panel ``of`` the steps is
+    sent each click on one.
     """
     wrong = faults or {}
     rows = [

@@ -12,6 +12,7 @@ from typing import Any
 from tmd.diagnostics import ExitCode, Location, OptionError, TmdError
 from tmd.files import read_bytes
 from tmd.grounded import why_refused
+from tmd.inference.ranking import RejectedProposal
 from tmd.json_record import json_value
 from tmd.language import parse
 from tmd.pddl.plan_file import parse_plan
@@ -66,11 +67,7 @@ class ViewRequest:
 
 @dataclass(frozen=True, slots=True)
 class FoundSubject:
-    """Subject of a page, and its circumstances.
-
-    Attributes:
-        of_text: Whether there is a text, or a problem, that should have a plan.
-    """
+    """Subject of a page, and its circumstances. ``of_text``: there is a text, or a problem, that should have a plan."""
 
     subject: Subject
     remarks: tuple[str, ...] = ()
@@ -179,7 +176,7 @@ def _record_found(
             world,
             record.parsed(record.text),
             record.ranked(),
-            record.refused_templates(),
+            tuple(RejectedProposal(r.clause, r.source, r.reason) for r in record.refusals),
             unseen=record.unseen_verbs,
             unknown=record.unknown_nouns,
             made=rows,

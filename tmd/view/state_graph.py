@@ -65,10 +65,7 @@ def _always(problem: Problem, atoms: Iterable[GroundAtom]) -> set[GroundAtom]:
 class StateGraph:
     """The layout of some states of a problem.
 
-    Args:
-        problem: The problem.
-        states: The states; what is in none of them is not drawn.
-        first: Objects that are drawn where there are too many, before any others.
+    What is in none of them is not drawn. Where there are too many objects, those ``first`` are drawn before others.
     """
 
     def __init__(self, problem: Problem, states: Sequence[State], first: Iterable[str] = ()) -> None:
@@ -125,11 +122,8 @@ class StateGraph:
     def svg(self, state: State, before: State | None = None, marked: str | None = None, title: str = "") -> str:
         """Draw a state as SVG.
 
-        Args:
-            state: The state.
-            before: The state before the last step; what came and went since is marked.
-            marked: The object that is pointed at.
-            title: What is drawn.
+        What came and went since the state ``before`` the last step is marked; an object that is ``marked`` is pointed
+        at.
         """
         came = state - before if before is not None else frozenset[GroundAtom]()
         went = before - state if before is not None else frozenset[GroundAtom]()
@@ -178,10 +172,7 @@ def _head(begin: Point, end: Point) -> str:
 def placed(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]], layout: Layout | None = None) -> Places:
     """Place nodes: each connected part by itself, the largest first, from left to right in rows.
 
-    Args:
-        sizes: The width and the height of each node.
-        pairs: The nodes that edges join.
-        layout: Places the nodes of one part; Graphviz where it is installed, else networkx.
+    ``layout`` places the nodes of one part: Graphviz where it is installed, else networkx.
     """
     import networkx
 
@@ -270,12 +261,8 @@ def by_networkx(sizes: Mapping[str, Point], pairs: Iterable[tuple[str, str]]) ->
 def object_rows(plan: Sequence[Instruction], problem: Problem, current: int, wording: Wording, link: str = "") -> str:
     """Render the objects of a plan as rows and its steps as columns; empty for an empty plan.
 
-    Args:
-        plan: The plan.
-        problem: Its problem; constants of the domain have no row.
-        current: The number of the step that is looked at, from 1; 0 for none.
-        wording: Puts instructions into words.
-        link: The beginning of the address of a step; without it a step is a mark of the studio's page.
+    ``current`` is the number of the step that is looked at, from 1; 0 for none. ``link`` is the beginning of the
+    address of a step; without it a step is a mark of the studio's page. Constants of the domain have no row.
     """
     constants = {each.name for each in problem.domain.constants}
     rows: dict[str, dict[int, str]] = {}

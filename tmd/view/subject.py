@@ -20,12 +20,7 @@ _TITLE = 90
 
 @dataclass(frozen=True, slots=True)
 class PlannedStep:
-    """An instruction, and what it is for.
-
-    Attributes:
-        origin: ``clause 2``; empty without a text.
-        latent: Whether they left it unsaid.
-    """
+    """An instruction, and what it is for. ``origin`` is ``clause 2``; empty without a text."""
 
     instruction: Instruction
     origin: str = ""
@@ -37,8 +32,7 @@ class PlannedStep:
 class Said:
     """A text, and what was made of it.
 
-    Attributes:
-        meant: For every clause what its nouns mean; ``None`` where that is not known.
+    ``meant`` has for every clause what its nouns mean; ``None`` where that is not known.
     """
 
     parsed: Parsed
@@ -51,11 +45,8 @@ class Said:
 class Ran:
     """Execution of a plan by a robot.
 
-    Attributes:
-        status: How it ended: ``done``, ``recovered``, ``stopped`` …; ``unfinished`` where its log has no end.
-        repairs: How often the executor replanned.
-        seconds: Simulated time.
-        steps: What was done, in order.
+    ``status`` is ``done``, ``recovered``, ``stopped`` …, or ``unfinished`` where its log has no end; ``seconds`` are
+    simulated.
     """
 
     status: str
@@ -74,9 +65,7 @@ class Subject:
     """A plan to show.
 
     Attributes:
-        said: The text; ``None`` for a plan without a text.
         plans: All ranked plans, the one shown first; empty where nothing was ranked.
-        refusals: Templates that could not be used.
         strip: The filmstrip of that, as a ``data:`` address; empty without one.
         refused: The reason why there is no plan; empty where there is one, or where it is not known.
     """
@@ -119,7 +108,7 @@ def title_of(text: str, environment: str) -> str:
     return f"{short} ({environment})"
 
 
-def text_subject(grounded: Grounded, made: Iterable[tuple[str, str]] = ()) -> Subject:
+def text_subject(grounded: Grounded) -> Subject:
     """Return the subject of a grounded text: its best plan beside the others, or why there is none."""
     return grounded_subject(
         title_of(grounded.parsed.text, grounded.world.name),
@@ -129,7 +118,6 @@ def text_subject(grounded: Grounded, made: Iterable[tuple[str, str]] = ()) -> Su
         grounded.rejected,
         unseen=grounded.unseen,
         unknown=grounded.unknown,
-        made=made,
         refused=grounded.refusal,
     )
 

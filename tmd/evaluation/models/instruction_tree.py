@@ -24,12 +24,9 @@ class InstructionTree:
     Which objects there are is known, in which state they are is not: neither states nor preconditions are read.
 
     A clause for which the demonstration has no instructions teaches nothing: most of them come from the alignment,
-    which gives all that was done for a piece of text to one of its clauses.
-
-    Args:
-        rounds: How often the training data are gone through.
-        grounded: Whether the reward also knows which objects the clause's nouns may mean. The paper's baseline has
-            the words alone; with this it is a row of ours.
+    which gives all that was done for a piece of text to one of its clauses. ``rounds`` is the number of passes over the
+    training data. A ``grounded`` reward also knows which objects the nouns of a clause may mean: the paper's baseline
+    has the words alone, with this it is a row of ours.
     """
 
     def __init__(self, *, rounds: int = 8, grounded: bool = False) -> None:

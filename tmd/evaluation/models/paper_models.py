@@ -85,15 +85,10 @@ class _Taught:
 class Crf:
     """The energy and its inference.
 
-    Args:
-        config: The model.
-        learned: Whether the weights are learned; otherwise they are those of the model.
-        proposals: How many plans are looked at for each training example.
-        most_examples: Maximum number of training examples of each world, drawn at random.
-        rounds: How often plans are proposed again.
+    ``journal`` is where ``fit`` writes down how far it is, and goes on from.
 
-    Attributes:
-        journal: Where ``fit`` writes down how far it is, and goes on from; ``None`` until it is set.
+    Its weights are ``learned``, or else those of ``config``: in ``rounds``, with ``proposals`` plans for each of at
+    most ``most_examples`` training examples of each world, drawn at random.
     """
 
     def __init__(

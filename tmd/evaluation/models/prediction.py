@@ -40,9 +40,8 @@ class Served:
 class Prediction:
     """The answer of a model for one example.
 
-    Attributes:
-        served: For each clause what was done for it; empty for a model that does not work by clauses. Together
-            they are ``instructions``, unless the model changes the sequence as a whole afterwards.
+    ``served`` has what was done for each clause; empty for a model that does not work by clauses. Together that is
+    ``instructions``, unless the model changes the sequence as a whole afterwards.
     """
 
     instructions: tuple[Instruction, ...] = ()

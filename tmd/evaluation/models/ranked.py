@@ -70,11 +70,7 @@ class Candidates:
 
 
 class Ranked:
-    """A row of the table.
-
-    Args:
-        weights: What each of :data:`FEATURES` counts for.
-    """
+    """A row of the table. ``weights`` say what each of :data:`FEATURES` counts for."""
 
     def __init__(self, weights: Mapping[str, float] = WEIGHTS) -> None:
         self.weights = np.array([weights.get(name, 0.0) for name in FEATURES])

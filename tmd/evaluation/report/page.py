@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from tmd import __version__
-from tmd.evaluation.report.downloads import csv_table, data_address, latex_table
 from tmd.evaluation.report.predictions import NOTHING, SHOWN, SYMBOLS, Mark, best_and_worst, by_instruction
 from tmd.evaluation.report.rows import (
     ALPHA,
@@ -18,9 +17,12 @@ from tmd.evaluation.report.rows import (
     TASKS,
     best_of,
     by_merit,
+    csv_table,
+    data_address,
     differing,
     headline,
     in_order,
+    latex_table,
     other_order,
     reasons,
     reference,
@@ -88,7 +90,6 @@ class LearnedWeights:
     Attributes:
         losses: The mean loss of the first and of the last epoch; ``None`` if no curve was kept.
         weights: The largest weights, by factor: a cell for each kind of world.
-        smaller: How many are left out.
     """
 
     model: str
@@ -131,12 +132,7 @@ def _losses(worlds: Sequence[WorldFit]) -> tuple[float, float] | None:
 
 
 def render(run: Run, trials: Trials | None = None) -> str:
-    """Return the page.
-
-    Args:
-        run: The run.
-        trials: The robot's trials of its predictions; ``None`` where there are none.
-    """
+    """Return the page."""
     metrics, fits = run.metrics, list(run.fits.values())
     order, chief, tasks = by_merit(metrics), reference(metrics.models), tasks_of(metrics)
     shown = [model for model in order if model != EMPTY]

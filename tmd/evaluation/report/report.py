@@ -63,9 +63,10 @@ def table(metrics: Metrics, *, narrow: bool = False) -> Table:
     for column in ("n", *(metric.replace("_", "-") for metric in scored), "exec." if narrow else "exec. %"):
         found.add_column(column, justify="right", no_wrap=True)
     between = "" if narrow else " "
+    star = {True: "*", False: " " if marked else ""}  # the numbers stay below each other
     for name in by_merit(metrics):
         row = metrics.models[name]
-        cells = [_cell(row, m, between) + _star((name, m) in marked, bool(marked)) for m in scored]
+        cells = [_cell(row, m, between) + star[(name, m) in marked] for m in scored]
         found.add_row(escape(name), str(row.n), *cells, f"{row.executable:.1f}")
     return found
 
@@ -97,11 +98,6 @@ def _cell(row: Means, metric: str, between: str) -> str:
     """Return a mean with its standard error; a dash where there is none."""
     mean, error = row.mean(metric), row.se(metric)
     return "–" if mean is None else f"{mean:.1f}{between}±{error or 0.0:.1f}"
-
-
-def _star(here: bool, anywhere: bool) -> str:
-    """Return a mark, or its place where there are marks at all: the numbers stay below each other."""
-    return ("*" if here else " ") if anywhere else ""
 
 
 def _caption(metrics: Metrics, against: str | None, marked: frozenset[tuple[str, str]]) -> str:

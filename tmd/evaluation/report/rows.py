@@ -1,13 +1,18 @@
 """The rows and columns of the table: their names and order, the paper's numbers, the reference row, the main result.
 
+The table is also made for other programs: as CSV and for LaTeX.
+
 The paper's numbers (Table II, RSS 2014) were measured on VEIL-200, which was not released: they show what kind of
 number each row gave there, and compare with no other data.
 """
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from urllib.parse import quote
 
 from tmd.evaluation.summary import EMPTY
 from tmd.inference.config import DEFAULT
@@ -32,11 +37,7 @@ METRICS = ("IED", "EED")
 
 @dataclass(frozen=True, slots=True)
 class PaperRow:
-    """A row of Table II.
-
-    Attributes:
-        scores: IED and EED for each of :data:`TASKS`.
-    """
+    """A row of Table II. ``scores`` are IED and EED for each of :data:`TASKS`."""
 
     title: str
     scores: tuple[tuple[float, float], ...]
@@ -156,15 +157,12 @@ def headline(metrics: Metrics) -> str:
         return f"{title(first)}: {score}."
     second = others[0]
     ahead = mean - (metrics.models[second].mean(column) or 0.0)
-    told = f"{title(first)}: {score}, {ahead:.1f} more than {title(second)}{_sure(metrics, first, second, column)}."
+    found = difference(metrics, first, second, column)
+    sure = "" if found is None else f" ({_p(found)})"
+    told = f"{title(first)}: {score}, {ahead:.1f} more than {title(second)}{sure}."
     best = best_of(metrics.models, TESTED if column == SUCCESS else TESTED[1:])
     also = [LABELS[metric] for metric in TESTED if metric != column and (first, metric) in best]
     return f"{told} It is also the best in {_listed(also)}." if also else told
-
-
-def _sure(metrics: Metrics, first: str, second: str, column: str) -> str:
-    found = difference(metrics, first, second, column)
-    return "" if found is None else f" ({_p(found)})"
 
 
 def _p(found: Difference) -> str:
@@ -185,9 +183,7 @@ _STRONGER = ("templates", "tree")
 class OtherOrder:
     """Two rows of Table II that stand in another order here.
 
-    Attributes:
-        here: ``better`` minus ``worse`` in this run.
-        there: The same in the paper, below 0.
+    ``here`` is ``better`` minus ``worse`` in this run, ``there`` the same in the paper, below 0.
     """
 
     better: str
@@ -237,3 +233,56 @@ def reasons(metrics: Metrics) -> list[str]:
             f"({_p(by_hand)})."
         )
     return found
+
+
+# The task of the lines that are over all examples.
+_ALL = "all"
+_LATEX = {"\\": r"\textbackslash{}", "~": r"\textasciitilde{}", "^": r"\textasciicircum{}", "±": r"$\pm$"} | {
+    special: f"\\{special}" for special in "&%$#_{}"
+}
+
+
+def csv_table(metrics: Metrics, order: Sequence[str]) -> str:
+    """Return the means with their standard errors: a line for each row, and for each of its tasks if it has several."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["model", "task", "n", *(name for column in metrics.columns for name in (column, f"{column}_se"))])
+    for model in order:
+        row = metrics.models[model]
+        tasks = sorted(row.tasks.items())
+        for task, means in [(_ALL, row), *tasks] if len(tasks) > 1 else tasks:
+            cells = (value for column in metrics.columns for value in (means.mean(column), means.se(column)))
+            writer.writerow([model, task, means.n, *("" if value is None else value for value in cells)])
+    return out.getvalue()
+
+
+def latex_table(metrics: Metrics, order: Sequence[str]) -> str:
+    """Return the table over all examples for LaTeX with the package ``booktabs``; the best of each column is bold."""
+    best = best_of(metrics.models, metrics.columns)
+    lines = [rf"\begin{{tabular}}{{l{'r' * (len(metrics.columns) + 1)}}}", r"\toprule"]
+    lines += [
+        " & ".join(["row", "$n$", *(_escaped(LABELS[column]) for column in metrics.columns)]) + r" \\",
+        r"\midrule",
+    ]
+    for model in order:
+        row = metrics.models[model]
+        cells = [_cell(row, column, bold=(model, column) in best) for column in metrics.columns]
+        lines.append(" & ".join([_escaped(title(model)), str(row.n), *cells]) + r" \\")
+    return "\n".join([*lines, r"\bottomrule", r"\end{tabular}"]) + "\n"
+
+
+def _cell(means: Means, column: str, *, bold: bool) -> str:
+    mean = means.mean(column)
+    if mean is None:
+        return "--"
+    number = rf"\textbf{{{mean:.1f}}}" if bold else f"{mean:.1f}"
+    return rf"{number} $\pm$ {means.se(column) or 0.0:.1f}"
+
+
+def _escaped(text: str) -> str:
+    return "".join(_LATEX.get(letter, letter) for letter in text)
+
+
+def data_address(text: str, kind: str) -> str:
+    """Return an address that holds a text itself, for a link that downloads it."""
+    return f"data:text/{kind};charset=utf-8,{quote(text)}"

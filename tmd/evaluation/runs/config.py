@@ -36,7 +36,6 @@ class ExperimentConfig:
         task: A task of the data, or ``all``.
         out: The run's directory; a text does as well.
         data: ``bundled`` or ``veil500``.
-        veil500: Where VEIL-500 is.
         train_tasks: Tasks to train on; ``None`` leaves it to the protocol of the data.
         train_environments: Environment numbers to train in; ``None`` leaves it to the folds.
         test_environments: Environment numbers to test in; likewise.

@@ -113,15 +113,8 @@ class Worlds(Protocol):
 class Dataset(ABC):
     """Examples, and the worlds they were made in.
 
-    Args:
-        folder: The domain's folder.
-        lexicon: The words of the domain.
-        pool: All examples of all tasks, in the data set's order. They may be trained on.
-        tested: Tasks of which examples are tested.
-        files: Files that the data were read from, for the fingerprint: directory and patterns by kind.
-
-    Attributes:
-        examples: All examples of ``tested``, in the data set's order.
+    Examples of all tasks, the ``pool``, may be trained on, those of ``tested`` tasks are tested; both have the data
+    set's order. ``files`` are what the data were read from, for the fingerprint: directory and patterns by kind.
     """
 
     def __init__(
@@ -170,11 +163,7 @@ class Dataset(ABC):
 class BundledData(Dataset):
     """The demonstrations in ``problems/``.
 
-    Args:
-        task: A task, or ``all``.
-        domain: The domain.
-        domains: The directory of all domains, if not the usual one.
-        problems: The directory of all problems, if not the usual one.
+    ``task`` may be ``all``; ``domains`` and ``problems`` are the directories of all of them, if not the usual ones.
 
     Raises:
         TmdError: There is no such domain or task, or a file of it is wrong.
@@ -233,11 +222,7 @@ class BundledData(Dataset):
 class VeilDataset(Dataset):
     """VEIL-500 from a directory: planning by the sane rules, scoring by the literal ones.
 
-    Ids are places in ``data.xml``, environments go by file number.
-
-    Args:
-        directory: The directory of the data set.
-        task: A task, or ``all``.
+    Ids are places in ``data.xml``, environments go by file number. ``task`` may be ``all``.
 
     Raises:
         DataError: The data set is not there or damaged, or has no such task.

@@ -6,9 +6,9 @@ version: the same bytes (but for log, date and run time), however the work was s
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.models.model import make_model
@@ -17,7 +17,7 @@ from tmd.evaluation.models.template_file import load_templates
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.backends import outcomes
 from tmd.evaluation.runs.config import DEFAULT_MODELS, ExperimentConfig
-from tmd.evaluation.runs.dataset import Dataset, open_dataset
+from tmd.evaluation.runs.dataset import open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.evaluation.runs.jobs import units_of
 from tmd.evaluation.runs.provenance import recorded
@@ -29,25 +29,12 @@ Progress = Callable[[int, int], None]
 """Called with the number of parts done and of all parts."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Plan:
-    """A configuration with its data, folds and directory."""
-
-    config: ExperimentConfig
-    data: Dataset
-    folds: list[Fold]
-    directory: RunDirectory
-
-
 def run_experiment(
     config: ExperimentConfig, *, collect_only: bool = False, progress: Progress | None = None
 ) -> Metrics:
     """Train, predict and score, or what is left of it, and write the report.
 
-    Args:
-        config: The run.
-        collect_only: Train nothing: recompute everything from finished parts.
-        progress: Called with the number of parts done and of all parts.
+    With ``collect_only`` nothing is trained: everything is recomputed from finished parts.
 
     Returns:
         The contents of ``metrics.json``; ``report.html`` is beside it in ``config.out``.
@@ -62,36 +49,26 @@ def run_experiment(
 
 def run(config: ExperimentConfig, progress: Progress | None = None, *, collect_only: bool = False) -> Metrics:
     """Do the run as :func:`run_experiment`, without the report."""
-    plan = _plan(config)
-    with plan.directory.entered():
-        if not collect_only:
-            _work(plan, progress)
-        return _collect(plan)
-
-
-def _plan(config: ExperimentConfig) -> _Plan:
     for model in config.models:
         make_model(model)
     data = open_dataset(config)
-    config = replace(config, models=config.models or _usual_models(data))
+    # *Predefined Templates* only where somebody has written some for the domain
+    written = (data.folder.path / TEMPLATES).is_file()
+    usual = tuple(model for model in DEFAULT_MODELS if written or model != "templates")
+    config = replace(config, models=config.models or usual)
     if "templates" in config.models:
         load_templates(data.folder)  # a fault in them is reported before anything is done
-    directory = RunDirectory(config.out, config.identity(data.fingerprint()))
-    return _Plan(config, data, folds_of(config, data), directory)
+    directory, folds = RunDirectory(config.out, config.identity(data.fingerprint())), folds_of(config, data)
+    with directory.entered():
+        if not collect_only:
+            _work(config, folds, directory, progress)
+        return _collect(config, folds, directory)
 
 
-def _usual_models(data: Dataset) -> tuple[str, ...]:
-    """:data:`DEFAULT_MODELS`, but for *Predefined Templates* where nobody has written any for the domain."""
-    written = (data.folder.path / TEMPLATES).is_file()
-    return tuple(model for model in DEFAULT_MODELS if written or model != "templates")
-
-
-def _work(plan: _Plan, progress: Progress | None) -> None:
+def _work(config: ExperimentConfig, folds: Sequence[Fold], directory: RunDirectory, progress: Progress | None) -> None:
     """Do the units that are not done."""
-    config, directory = plan.config, plan.directory
-    folds = {fold.name: fold for fold in plan.folds}
-    units = units_of(config.models, plan.folds)
-    left = [unit for unit in (directory.left_of(unit, folds) for unit in units) if unit is not None]
+    units, by_name = units_of(config.models, folds), {fold.name: fold for fold in folds}
+    left = [unit for unit in (directory.left_of(unit, by_name) for unit in units) if unit is not None]
     parts = sum(len(unit.folds) for unit in units)
     done = parts - sum(len(unit.folds) for unit in left)
     directory.log.info("parts: %d, to do: %d", parts, parts - done)
@@ -100,7 +77,7 @@ def _work(plan: _Plan, progress: Progress | None) -> None:
     if left:
         with (
             recorded(config),
-            closing(outcomes(config, left, directory.fits, plan.data.fingerprint())) as ended,
+            closing(outcomes(config, left, directory.fits, directory.identity["fingerprint"])) as ended,
         ):
             for outcome in ended:
                 directory.keep(outcome)
@@ -109,9 +86,8 @@ def _work(plan: _Plan, progress: Progress | None) -> None:
                     progress(done, parts)
 
 
-def _collect(plan: _Plan) -> Metrics:
-    config, folds = plan.config, plan.folds
-    found = [plan.directory.part(model, fold) for model in config.models for fold in folds]
+def _collect(config: ExperimentConfig, folds: Sequence[Fold], directory: RunDirectory) -> Metrics:
+    found = [directory.part(model, fold) for model in config.models for fold in folds]
     missing = sum(lines is None for lines in found)
     if missing:
         raise TmdError(
@@ -121,6 +97,6 @@ def _collect(plan: _Plan) -> Metrics:
     predictions = [line for lines in found for line in lines or ()]
     sizes = {f.name: FoldSizes(train=len(f.train), test=len(f.test), training_set=f.training_set) for f in folds}
     means = summarise([dict(prediction) for prediction in predictions], config.models)
-    metrics = Metrics.model_validate({**means, "config": plan.directory.identity, "folds": sizes})
-    plan.directory.finish(predictions, metrics)
+    metrics = Metrics.model_validate({**means, "config": directory.identity, "folds": sizes})
+    directory.finish(predictions, metrics)
     return metrics

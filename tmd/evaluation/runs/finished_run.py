@@ -29,7 +29,6 @@ class Run:
     """A finished run.
 
     Attributes:
-        metrics: ``metrics.json``.
         lines: ``predictions.jsonl``.
         fits: ``fits/``, by file name; empty where nothing was learned or kept.
         provenance: ``provenance.json``; ``None`` where there is none.

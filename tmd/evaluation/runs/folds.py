@@ -5,6 +5,7 @@ from __future__ import annotations
 import zlib
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.runs.config import VEIL500, ExperimentConfig
@@ -21,11 +22,7 @@ _LONGEST = 60
 
 @dataclass(frozen=True, slots=True)
 class Fold:
-    """One split.
-
-    Attributes:
-        training_set: The name of ``train``; folds with the same training examples have the same one.
-    """
+    """One split. Folds with the same training examples have the same ``training_set``, the name of ``train``."""
 
     name: str
     train: tuple[Example, ...]
@@ -142,22 +139,14 @@ def pairs(examples: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
 def _fold(
     name: str, examples: Sequence[Example], pool: Sequence[Example], train: Collection[int], test: Collection[int]
 ) -> Fold:
-    return Fold(
-        name,
-        tuple(e for e in pool if e.number in train),
-        tuple(e for e in examples if e.number in test),
-    )
+    return Fold(name, tuple(e for e in pool if e.number in train), tuple(e for e in examples if e.number in test))
 
 
 def ranges(numbers: Iterable[int]) -> str:
     """Format numbers as people write them: ``1,3-5``."""
-    runs: list[list[int]] = []
-    for number in sorted(set(numbers)):
-        if runs and number == runs[-1][-1] + 1:
-            runs[-1][1:] = [number]
-        else:
-            runs.append([number])
-    return ",".join("-".join(map(str, run)) for run in runs)
+    places = groupby(enumerate(sorted(set(numbers))), key=lambda pair: pair[1] - pair[0])
+    runs = ([number for _, number in run] for _, run in places)
+    return ",".join("-".join(map(str, dict.fromkeys((run[0], run[-1])))) for run in runs)
 
 
 def _label(tasks: Sequence[str], pool: Sequence[Example]) -> str:

@@ -65,13 +65,9 @@ def leave_out(example: Example, probability: float, seed: int) -> Example:
     """Return the example with each sentence of its text left out with some probability, but never all of them.
 
     What is drawn depends on the seed and the example's id only, so all models read the same text; a sentence that is
-    left out at one probability is left out at every higher one. Of the sentences, the one with the largest draw
-    stays. Segments keep their instructions, and point to what is left of their words.
-
-    Args:
-        example: The example.
-        probability: In [0, 1).
-        seed: Of the run.
+    left out at one probability is left out at every higher one. Of the sentences, the one with the largest draw stays.
+    Segments keep their instructions, and point to what is left of their words. ``probability`` is in [0, 1), ``seed``
+    that of the run.
     """
     text = example.demonstration.text
     spans = sentences(text)
@@ -105,11 +101,7 @@ class WorkerLostError(TmdError):
 
 @dataclass(frozen=True, slots=True)
 class EvaluationJob:
-    """One unit of work.
-
-    Attributes:
-        saved: What was learned when the unit was done before, if it was.
-    """
+    """One unit of work. ``saved`` is what was learned when it was done before, if it was."""
 
     model: str
     training_set: str
@@ -127,7 +119,6 @@ class JobOutcome:
     """The outcome of a unit.
 
     Attributes:
-        unit: The unit.
         parts: For each fold the text of its file: a line for each prediction.
         fit: The text of the file on what was learned; ``None`` for a model that learns no weights.
     """
@@ -150,10 +141,7 @@ def units_of(models: Sequence[str], folds: Sequence[Fold]) -> list[EvaluationJob
 def do(config: ExperimentConfig, unit: EvaluationJob, fits: Path | None) -> JobOutcome:
     """Train, predict, score.
 
-    Args:
-        config: The run.
-        unit: What to do.
-        fits: The directory for what is learned, written as soon as it is; ``None`` where there is none at hand.
+    What is learned is written into ``fits`` as soon as it is; ``None`` where there is no such directory at hand.
     """
     data = open_dataset(config)
     folds = {fold.name: fold for fold in folds_of(config, data)}

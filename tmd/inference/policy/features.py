@@ -66,12 +66,6 @@ class KnownObjects:
 
     A type that some action asks for (``item``, ``part``) says what a thing can be used for, not what it is; the other
     types do, nearest first. The thing's name without its numbers is its last kind.
-
-    Attributes:
-        parameters: For each action the types of its parameters.
-        kinds: For each thing its kinds.
-        numbers: The number of each thing.
-        of_kind: For each kind its things.
     """
 
     def __init__(self, world: World) -> None:
@@ -88,10 +82,6 @@ class KnownObjects:
         for name, kinds in self.kinds.items():
             for kind in kinds:
                 self.of_kind.setdefault(kind, []).append(name)
-
-    def primary(self, instruction: Instruction) -> tuple[str, ...]:
-        """Return the nearest kind of each argument."""
-        return tuple(self.kinds[arg][0] for arg in instruction.args)
 
     def well_formed(self, instruction: Instruction) -> bool:
         """Return whether an action has such parameters, and nothing is named twice."""
@@ -184,7 +174,7 @@ def properties(choice: Instruction, things: KnownObjects) -> list[tuple[str, ...
         if not things.is_constant(arg):
             found += [("", kind) for kind in things.kinds[arg]]
     if len(choice.args) > 1:
-        found.append((choice.name, *things.primary(choice)))
+        found.append((choice.name, *(things.kinds[arg][0] for arg in choice.args)))
     return list(dict.fromkeys(found))
 
 
@@ -218,20 +208,13 @@ class WeightBlocks(NamedTuple):
 class Features:
     """The numbering of all features, in sorted order of their names.
 
-    Args:
-        words: The words of the training clauses, with those of :func:`followers`.
-        seen: The :func:`properties` of the training instructions.
-        syntax: The constraints.
-        facts: Facts of a thing: a predicate and the thing's place. Without any the policy knows no states, no words
-            but the clause's and no later clauses, as the paper's baseline.
+    ``words`` are those of the training clauses, with those of :func:`followers`; ``seen`` the :func:`properties` of the
+    training instructions; ``facts`` those of a thing: a predicate and the thing's place. Without any the policy knows
+    no states, no words but the clause's and no later clauses, as the paper's baseline.
 
     Attributes:
-        words: The numbers of the words.
-        properties: The numbers of the properties.
         actions: The numbers of the actions, STOP among them.
-        places: The numbers of the argument places.
         arity: Maximum number of arguments.
-        facts: The numbers of the facts.
         starts: The first number of each block of the paired features.
         shape: Words × properties: the matrix that comes first. A grounded policy has a second one for the whole text.
         size: Number of features: the matrices, the paired ones, places × facts, and :data:`REALS`.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -133,27 +134,17 @@ def learn_policy(
 ) -> Reward:
     """Learn the constraints, the features and their weights.
 
-    A clause for which a demonstration has no instructions teaches nothing: most of them come from the alignment,
-    which gives all that was done for a piece of text to one of its clauses.
-
-    Args:
-        demonstrations: The corpus.
-        world_of: The world of an environment, by the environment's name.
-        random: Generator of the order of the training data.
-        grounded: Whether the reward also knows which objects the clause's nouns may mean.
-        rounds: Number of passes over the training data.
-        tell: Called with the share of the ascent, which takes the longest, that is done.
+    A clause for which a demonstration has no instructions teaches nothing: most of them come from the alignment, which
+    gives all that was done for a piece of text to one of its clauses. A ``grounded`` reward also knows which objects
+    the nouns of a clause may mean. ``rounds`` is the number of passes over the training data, in the order that
+    ``random`` draws; ``tell`` is called with the share of the ascent, which takes the longest, that is done.
     """
     lessons = study(demonstrations, world_of)
     sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]
     syntax = learn_syntax(sequences)
     features = number_features(lessons, syntax, grounded=grounded)
-    menus: dict[KnownObjects, Menu] = {}
-    data = []
-    for lesson in lessons:
-        if lesson.things not in menus:
-            menus[lesson.things] = Menu(features, lesson.things, syntax.menu(lesson.things))
-        data += steps_made(lesson, menus[lesson.things])
+    menu_of = cache(lambda things: Menu(features, things, syntax.menu(things)))
+    data = [made for lesson in lessons for made in steps_made(lesson, menu_of(lesson.things))]
     ridge = _RIDGE * min(1.0, len(lessons) / _MANY) if grounded else _RIDGE
     theta = ascend(features, data, random, rounds=rounds, rate=_RATE, ridge=ridge, tell=tell)
     choices = max(sum(len(made.choices) for made in data), 1)
@@ -163,16 +154,13 @@ def learn_policy(
 
 def study(demonstrations: Iterable[Demonstration], world_of: Callable[[str], World]) -> list[PolicyLesson]:
     """Read the lessons of demonstrations, without instructions that are not well-formed."""
-    known: dict[str, KnownObjects] = {}
+    things_of = cache(lambda place: KnownObjects(world_of(place)))
     found = []
     for demonstration in demonstrations:
-        place = demonstration.environment
-        if place not in known:
-            known[place] = KnownObjects(world_of(place))
-        things = known[place]
+        things = things_of(demonstration.environment)
         pairs: list[tuple[VerbClause | None, tuple[Instruction, ...]]] = [
             (lesson.clause, tuple(i for i in lesson.instructions if things.well_formed(i)))
-            for lesson in lessons(demonstration, world_of(place), world_of(place).mentions.lexicon)
+            for lesson in lessons(demonstration, things.world, things.world.mentions.lexicon)
         ]
         found.append(PolicyLesson(things, pairs))
     return found

@@ -70,12 +70,9 @@ class Menu:
     """The C instructions to choose from in one environment, STOP last, as arrays.
 
     Attributes:
-        choices: The instructions.
-        index: Their numbers.
         things: The objects of the environment; the number after the last one means none.
         properties: C × properties, 1 where an instruction has one.
         having: C × maximum, the numbers of each one's properties, padded with the number after the last property.
-        actions: C, the actions.
         args: C × arity, the things that are named.
         places: C × arity, the places they are named in.
         needs: Rows (choice, action, thing): the choice needs that the action named the thing before.
@@ -175,8 +172,6 @@ class Steps:
     """The features of H choices: the steps of one sequence, or the open nodes of a search.
 
     Attributes:
-        menu: The choices.
-        context: The clause.
         followers: For each node the numbers of the words for its sequence.
         open: The numbers of the O choices that are allowed at one node at least: few are.
         pairs: H × O × Q, the numbers of the paired features.

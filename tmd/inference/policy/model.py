@@ -74,7 +74,6 @@ class Reward:
 
     Attributes:
         features: The features, with the syntactical constraints.
-        theta: Their weights.
         before: The mean log-likelihood of a training choice with all weights zero.
         after: The same with the weights learned.
     """
@@ -86,12 +85,7 @@ class Reward:
 
 
 class Policy:
-    """A learned reward in one environment.
-
-    Args:
-        reward: The learned reward.
-        world: The environment.
-    """
+    """A learned reward in one environment."""
 
     def __init__(self, reward: Reward, world: World) -> None:
         things = KnownObjects(world)
@@ -108,11 +102,7 @@ class Policy:
     ) -> list[tuple[float, tuple[Instruction, ...]]]:
         """Return the ``count`` sequences of the greatest reward for a clause, by beam search, greatest first.
 
-        Args:
-            clauses: The clauses of the text.
-            number: The number of the clause, counted from 0.
-            done: The instructions that were chosen for the clauses before it.
-            count: Maximum number of sequences; at least one is found, perhaps the empty one.
+        ``done`` are the instructions for the clauses before it. At least one sequence is found, perhaps the empty one.
         """
         features = self.reward.features
         menu, context = self._read(clauses, number)

@@ -33,11 +33,7 @@ MOST_WORK = 5_000_000
 
 @dataclass(slots=True)
 class Work:
-    """The work that one instantiation may still do; too large a part is refused before it is done.
-
-    Attributes:
-        left: Values and atoms of conditions that may still be written down.
-    """
+    """The work that one instantiation may still do; too large a part is refused before it is done."""
 
     left: int = MOST_WORK
 
@@ -96,11 +92,8 @@ def _combine(word: str, parts: Iterable[Tree]) -> Tree:
 def normal_form(tree: Tree, outer: str, what: str) -> list[Literals]:
     """Return ``tree`` in normal form.
 
-    Args:
-        tree: The condition.
-        outer: ``"and"`` for clauses, all of which must hold (an empty one is false); ``"or"`` for cubes, one of which
-            must hold (an empty one is true).
-        what: Says whose condition it is.
+    With ``outer`` ``"and"`` it consists of clauses, all of which must hold (an empty one is false); with ``"or"`` of
+    cubes, one of which must hold (an empty one is true). ``what`` says whose condition it is.
 
     Raises:
         TmdError: It has too many of them.
@@ -155,9 +148,7 @@ class Rule:
 class Reachability:
     """A fixpoint that can be extended by more rules while it runs.
 
-    Args:
-        literals: What holds at the start.
-        starts_false: Whether an atom is false in some initial state.
+    ``starts_false`` returns whether an atom is false in some initial state.
     """
 
     def __init__(self, literals: Iterable[int], starts_false: Callable[[int], bool]) -> None:

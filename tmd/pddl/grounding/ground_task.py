@@ -38,14 +38,8 @@ def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Seque
     """Return the ground task of ``problem``.
 
     The task is exact for every state that its operators reach from the problem's initial state, from any of
-    ``initial_states``, and by the ``forced`` instructions, which may be executed although their precondition
-    does not hold.
-
-    Args:
-        problem: What to ground.
-        initial_states: Further states from which the task will be searched.
-        forced: Instructions whose effects count whether or not they are applicable. They are among the
-            operators even where they can never apply.
+    ``initial_states``, and by the ``forced`` instructions, which may be executed although their precondition does not
+    hold. Forced instructions are among the operators even where they can never apply.
 
     Raises:
         TmdError: A forced instruction is not one of the problem, a cost has no value, a predicate is derived from
@@ -117,13 +111,8 @@ def _number(problem: Problem, instances: Instances) -> Task:
 
 
 def _cube(literals: Iterable[int]) -> Cube:
-    positive = negative = 0
-    for literal in literals:
-        if literal & 1:
-            negative |= 1 << (literal >> 1)
-        else:
-            positive |= 1 << (literal >> 1)
-    return Cube(positive, negative)
+    own = set(literals)
+    return Cube(sum(1 << (lit >> 1) for lit in own if not lit & 1), sum(1 << (lit >> 1) for lit in own if lit & 1))
 
 
 def _operator(action: GroundAction, bit: dict[int, int]) -> Operator:
@@ -156,11 +145,8 @@ def _renumber(literals: Literals, bit: dict[int, int]) -> list[int]:
     return [2 * bit[literal >> 1] + (literal & 1) for literal in literals]
 
 
-def _bits(atoms: Iterable[int], bit: dict[int, int]) -> Bits:
-    found = 0
-    for atom in atoms:
-        found |= 1 << bit[atom]
-    return found
+def _bits(atoms: frozenset[int], bit: dict[int, int]) -> Bits:
+    return sum(1 << bit[atom] for atom in atoms)
 
 
 def _prune(instances: Instances) -> tuple[tuple[GroundAction, ...], _Known]:

@@ -385,11 +385,7 @@ class _Instantiation:
         return GroundAction(instruction, tuple(dict.fromkeys(clauses)), effects, cost, forced)
 
     def clauses(self, precondition: Formula, binding: Binding, what: str) -> list[Literals]:
-        """Return ``precondition`` as clauses.
-
-        Raises:
-            TmdError: It has too many; with the place of the part that has.
-        """
+        """Return ``precondition`` as clauses."""
         found: set[Literals] = set()
         for part in conjuncts(precondition):
             try:

@@ -168,11 +168,8 @@ class _Check:
     def declarations(self) -> None:
         """Check types, constants, predicates and functions."""
         domain = self.domain
-        self.unique(domain.types, "type")
-        self.unique(domain.predicates, "predicate")
-        self.unique(domain.functions, "function")
-        self.unique(domain.actions, "action")
-        self.unique(domain.constants, "constant")
+        for what in ("type", "predicate", "function", "action", "constant"):
+            self.unique(getattr(domain, f"{what}s"), what)
         for declared in domain.types:
             self.type_known(declared.parent, declared.location)
             self.no_cycle(declared.name, declared.location)
@@ -435,11 +432,11 @@ class _Check:
             terms[one], terms[other] = terms[other], terms[one]
             message = f'the arguments "{atom.terms[one]}" and "{atom.terms[other]}" of {shown} are swapped'
             hint = f"write ({' '.join((atom.predicate, *terms))})"
-            self.fault(message, self.word(atom, one + 1), hint, "wrong-type")
+            self.fault(message, self.source.word(atom.location, one + 1), hint, "wrong-type")
             return
         for number in wrong:
             term, parameter, given = atom.terms[number], signature.parameters[number], types[number] or ()
-            place = self.word(atom, number + 1)
+            place = self.source.word(atom.location, number + 1)
             misfit = "wrong", term, given, parameter.types, self.action_checked
             needed = f"{parameter.name} of {shown} needs {_either(parameter.types)}"
             if not self.again(misfit, place):
@@ -451,7 +448,7 @@ class _Check:
         if self.with_blank(atom, known, what):
             return
         types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
-        place, slip = self.word(atom, 0), (what, atom.predicate)
+        place, slip = self.source.word(atom.location, 0), (what, atom.predicate)
         if self.again(slip, place):
             return
         if atom.predicate in ("true", "nil"):
@@ -473,7 +470,7 @@ class _Check:
         joined = f"{atom.predicate}-{atom.terms[0]}" if atom.terms else ""
         if joined not in known:
             return False
-        start, end = self.word(atom, 0), self.word(atom, 1)
+        start, end = (self.source.word(atom.location, number) for number in (0, 1))
         edits = [Edit(shifted(start, len(atom.predicate)), end, "-")] if start and end else []
         message = NO_BLANKS.format(joined)
         if message in self.source.once:
@@ -524,10 +521,6 @@ class _Check:
     def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
         """Return whether an argument of the types ``given`` may stand where ``wanted`` is asked for."""
         return self.hierarchy.accepts(wanted, given)
-
-    def word(self, atom: Atom, number: int) -> Location | None:
-        """Return the place of the predicate (0) or of an argument of ``atom``."""
-        return self.source.word(atom.location, number)
 
     def term(
         self,

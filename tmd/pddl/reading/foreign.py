@@ -306,10 +306,6 @@ def _plain(text: str) -> str:
     return unescape(unescape(text)).replace("\xa0", " ").ljust(len(text))
 
 
-def _unquoted(text: str) -> str:
-    return f" {text[1:-1].replace(' ', '-')} "
-
-
 def _blanks(text: str) -> str:
     return re.sub(r"[^\n]", " ", text)
 
@@ -331,6 +327,6 @@ def _end_of_group(text: str, begin: int, end: int) -> int:
 # What stays of marks that are not blanked out.
 _KEPT: Mapping[str, Callable[[str], str]] = {
     "entity": _plain,
-    "quoted": _unquoted,
+    "quoted": lambda text: f" {text[1:-1].replace(' ', '-')} ",
     "dollar": lambda _: "?",
 }

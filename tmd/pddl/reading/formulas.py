@@ -116,17 +116,14 @@ def read_name(node: Node, source: Source, what: str) -> Word:
 
 
 def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], hint: str) -> None:
-    """Warn of a name that PDDL does not have, and planners take.
-
-    Raises:
-        TmdError: It is none.
-    """
+    """Warn of a name that PDDL does not have, and planners take; raise the error where it is none."""
     strange = next((place for place, letter in enumerate(node.text) if not letter.isascii()), None)
     if strange is not None:
         letter = node.text[strange]
         place, shown = shifted(node.location, strange), f"{letter!r} ({unicodedata.name(letter, 'unnamed')})"
         message = f'"{node.text}" has a character that PDDL does not: {shown}'
-        plain = look_alike(letter)
+        plain = _LOOK_ALIKES.get(letter) or unicodedata.normalize("NFKD", letter)[0]
+        plain = plain if plain.isascii() and plain.isprintable() else ""
         edits = [Edit(place, shifted(place, 1), plain)] if plain else []
         raise source.error(message, place, f'write "{plain}"' if plain else hint, "look-alike", edits)
     if not accepted.fullmatch(node.text):
@@ -137,12 +134,6 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
     source.warn(
         f'"{node.text}" is not a name by the letter of PDDL; some tools refuse it', node.location, hint, "odd-name"
     )
-
-
-def look_alike(letter: str) -> str | None:
-    """Return the ASCII character that ``letter`` looks like, if there is one."""
-    plain = _LOOK_ALIKES.get(letter) or unicodedata.normalize("NFKD", letter)[0]
-    return plain if plain.isascii() and plain.isprintable() else None
 
 
 # Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like.
@@ -158,11 +149,7 @@ def read_term(node: Node, source: Source) -> str:
     """Return a variable, constant or object."""
     if isinstance(node, Group):
         raise unsupported(
-            source,
-            "object fluents and nested terms",
-            f"({node.head} ...)",
-            node.location,
-            "write a name or ?variable",
+            source, "object fluents and nested terms", f"({node.head} ...)", node.location, "write a name or ?variable"
         )
     if is_variable(node.text):
         if not _VARIABLE.fullmatch(node.text):
@@ -241,7 +228,10 @@ def _apart(node: Word, rest: list[Node], variables: bool, source: Source) -> Wor
     if len(node.text) > 1 and node.text[-1] == "-" and rest and (isinstance(rest[-1], Group) or rest[-1].text != "-"):
         return _before_dash(node, rest, source)
     if len(node.text) > 1 and node.text[0] == "-":
-        rest.append(_after_dash(node, source))
+        place, kind = shifted(node.location, 1), node.text[1:]
+        message, edits = f'some tools want a space between "-" and "{kind}"', [Edit(place, place, " ")]
+        source.warn(message, node.location, f'write "- {kind}"', "glued-dash", edits)
+        rest.append(Word(kind, place))
         return Word("-", node.location)
     if _LOOK_ALIKES.get(node.text) == "-":
         source.recover(None, read_name, node, source, "a dash")
@@ -301,14 +291,6 @@ def _before_colon(node: Word, rest: list[Node], source: Source) -> Word:
     source.fault_once(message, place, f"write {name} - {kind or 'type'}", "other-notation", edits)
     rest += [Word(kind, shifted(place, 1)), Word("-", place)] if kind else [Word("-", place)]
     return Word(name, node.location)
-
-
-def _after_dash(node: Word, source: Source) -> Word:
-    """Return the type in ``-type``, which wants a space."""
-    message = f'some tools want a space between "-" and "{node.text[1:]}"'
-    place = shifted(node.location, 1)
-    source.warn(message, node.location, f'write "- {node.text[1:]}"', "glued-dash", [Edit(place, place, " ")])
-    return Word(node.text[1:], place)
 
 
 def _before_dash(node: Word, rest: list[Node], source: Source) -> Word:
@@ -485,20 +467,28 @@ def truth_value(node: Group, atom: Group, value: Node, source: Source) -> Group:
 def _quantifier(node: Group, source: Source, what: str) -> Group:
     """Return a quantifier with parameters in parentheses and one part behind them; anything else is reported."""
     head, *parts = node.parts
-    words = [part for part in takewhile(lambda part: isinstance(part, Word), parts)]
+    words = list(takewhile(lambda part: isinstance(part, Word), parts))
     if words:
-        edits = enclosed(words[0], words[-1])
-        source.fault_at("parameters stand in parentheses", words[0].location, "write (?x - type)", "syntax", edits)
-        parameters = Group(tuple(words), words[0].location, after(words[-1]), node.depth + 1)
-        parts = [parameters, *parts[len(words) :]]
+        parts = [parameters_of_words(words, source), *parts[len(words) :]]
     if len(parts) > 2 and all(isinstance(part, Group) for part in parts):
-        edits = enclosed(parts[1], parts[-1], "(and ")
-        message, hint = f'"{node.head}" takes one part behind its parameters', "use (and (...) (...)) for several"
-        source.fault_at(message, parts[1].location, hint, "syntax", edits)
-        parts = [parts[0], _group(node, Word("and", parts[1].location), *parts[1:])]
+        parts = [parts[0], conjoined(f'"{node.head}" takes one part behind its parameters', parts[1:], source)]
     node = _group(node, head, *parts)
     _expect(node, 2, f"({node.head} (parameters) {what})", source)
     return node
+
+
+def parameters_of_words(words: Sequence[Node], source: Source) -> Group:
+    """Return parameters without parentheses, which are reported, as a group."""
+    start, edits = words[0].location, enclosed(words[0], words[-1])
+    source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
+    return Group(tuple(words), start, after(words[-1]), 2)
+
+
+def conjoined(message: str, parts: Sequence[Node], source: Source) -> Group:
+    """Return the conjunction of several conditions or effects where one should be, which is reported."""
+    place, edits = parts[0].location, enclosed(parts[0], parts[-1], "(and ")
+    source.fault_at(message, place, "use (and (...) (...)) for several", "syntax", edits)
+    return Group((Word("and", place), *parts), place, shifted(after(parts[-1]), -1), 2)
 
 
 def _equation(node: Group, sign: str, terms: Sequence[Node], source: Source) -> Group:

@@ -168,8 +168,7 @@ def _in_atoms(nodes: Sequence[Node], source: Source) -> Iterator[Node]:
             del rest[:2]
             continue
         if isinstance(node, Word):
-            line = node.location.line
-            words = [node, *_words_of_line(line, rest)]
+            words = [node, *_words_of_line(node.location.line, rest)]
             atom = atom_of_words(words, source)
             del rest[: len(words) - 1 if atom else 0]
             node = atom or node

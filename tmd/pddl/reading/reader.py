@@ -34,6 +34,8 @@ from tmd.pddl.reading.checking import check_domain, check_problem, undeclared_re
 from tmd.pddl.reading.formulas import (
     UNSUPPORTED,
     Effects,
+    conjoined,
+    parameters_of_words,
     read_condition,
     read_effects,
     read_name,
@@ -74,17 +76,10 @@ def only_part(group: Group, source: Source) -> Node:
         return parts[0]
     message = f'"{group.head}" takes one part, found {len(parts)}'
     if group.head == ":goal" and parts and all(isinstance(part, Group) for part in parts):
-        source.fault(_joined(message, parts, source))
-        return Group((Word("and", group.location), *parts), group.location, group.end, group.depth)
+        return conjoined(message, parts, source)
     if group.head == ":goal" and (whole := joined(parts, source) or atom_of_words(parts, source) if parts else None):
         return whole
     raise source.error(message, group.location, "write one")
-
-
-def _joined(message: str, parts: Sequence[Node], source: Source) -> TmdError:
-    """Return the error for several conditions or effects where one should be."""
-    edits = enclosed(parts[0], parts[-1], "(and ")
-    return source.error(message, parts[0].location, "use (and (...) (...)) for several", "syntax", edits)
 
 
 def read_title(nodes: Sequence[Node], place: Location, source: Source, what: str) -> Word:
@@ -229,7 +224,6 @@ def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> Non
 def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
     """Read ``(:predicates ...)``, each with the comment that stands beside it."""
     declared: Sequence[Node] = group.parts[1:]
-    words = [node for node in declared if isinstance(node, Word)]
     declared = list(_with_parentheses(declared, document.source))
     words = [node for node in declared if isinstance(node, Word)]
     if len(words) > 1:
@@ -366,12 +360,9 @@ def _after_parameters(nodes: list[Node], source: Source) -> list[Node]:
 
 def _comment_above(group: Group, source: Source) -> str:
     """Return the comment in the lines right above a group."""
-    number = group.location.line - 1
-    found: list[str] = []
-    while 0 < number <= len(source.lines) and (line := source.lines[number - 1].strip()).startswith(";"):
-        found.insert(0, line.lstrip(";").strip())
-        number -= 1
-    return " ".join(found)
+    above = reversed(source.lines[: group.location.line - 1])
+    found = list(takewhile(lambda line: line.startswith(";"), map(str.strip, above)))
+    return " ".join(line.lstrip(";").strip() for line in reversed(found))
 
 
 def read_axiom(group: Group, source: Source) -> Axiom:
@@ -421,10 +412,10 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
         value = _whole_value(keyword, value, nodes, source)
         source.recover(None, _known_part, keyword, action, parts, source)
         parts.setdefault(_part_meant(keyword.text), nodes.pop(0))
-        if keyword.text not in PARTS:  # what else belongs to it is not reported as well
-            del nodes[: len(_words_before_keyword(nodes))]
         if keyword.text in PARTS:
             found.append((PARTS.index(keyword.text), keyword.text, keyword.location, after(value)))
+        else:  # what else belongs to it is not reported as well
+            del nodes[: len(_words_before_keyword(nodes))]
     warn_of_order(found, source)
     return parts
 
@@ -434,8 +425,9 @@ def _whole_value(keyword: Word, value: Node, nodes: list[Node], source: Source) 
     until = list(takewhile(lambda node: isinstance(node, Group) or not node.text.startswith(":"), nodes))
     whole: Node | None = None
     if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):
-        return _in_parentheses(nodes, source)
-    if keyword.text in PARTS[1:] and len(until) > 1:
+        until = _words_before_keyword(nodes)
+        whole = parameters_of_words(until, source)
+    elif keyword.text in PARTS[1:] and len(until) > 1:
         whole = joined(until, source) or atom_of_words(until, source)
     if whole is None:
         return value
@@ -466,15 +458,6 @@ def _words_before_keyword(nodes: Sequence[Node]) -> list[Node]:
     return words[:-1] if group and isinstance(last, Word) and f":{last.text}" in PARTS else words
 
 
-def _in_parentheses(nodes: list[Node], source: Source) -> Node:
-    """Return the parameters that ``nodes`` begin with, which lack their parentheses, and keep one of them."""
-    words = _words_before_keyword(nodes)
-    start, edits = words[0].location, enclosed(words[0], words[-1])
-    source.fault_at("parameters stand in parentheses", start, "write (?x - type)", "syntax", edits)
-    nodes[: len(words)] = [Group(tuple(words), start, after(words[-1]), 2)]
-    return nodes[0]
-
-
 def _without_keyword(group: Group, nodes: list[Node], parts: dict[str, Node], source: Source) -> None:
     """Report a group without a keyword before it, and those that follow: several conditions or effects."""
     more = list(takewhile(lambda node: isinstance(node, Group), nodes))
@@ -485,10 +468,8 @@ def _without_keyword(group: Group, nodes: list[Node], parts: dict[str, Node], so
         hint = "use (and (...) (...)) for several conditions or effects"
         source.fault_at(message, group.location, hint)
         return
-    joined = [parts[last], group, *more]
-    source.fault(_joined(f'"{last}" takes one part, found {len(joined)}', joined, source))
-    place = joined[0].location
-    parts[last] = Group((Word("and", place), *joined), place, group.end, group.depth)
+    several = [parts[last], group, *more]
+    parts[last] = conjoined(f'"{last}" takes one part, found {len(several)}', several, source)
 
 
 _Part: TypeAlias = tuple[int, str, Location, Location]
@@ -572,14 +553,9 @@ def read_problem(path: str | Path, domain: Domain) -> Problem:
     return parse_problem(read_text(path), domain, str(path))
 
 
+@lru_cache(maxsize=8)  # compiling, checking and grounding read the same domain in one run
 def parse_domain(text: str, file: str = "<text>") -> Domain:
     """Return the domain that ``text`` describes; ``file`` names it in errors."""
-    return _faultless_domain(text, file)
-
-
-@lru_cache(maxsize=8)
-def _faultless_domain(text: str, file: str) -> Domain:
-    """Return the same, kept: compiling, checking and grounding read the same domain in one run."""
     domain, source = parse_domain_unchecked(text, file)
     _raise_first(check_domain(domain, source))
     return domain
@@ -728,14 +704,14 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
 
 
 def _titled(parts: Sequence[Node], kind: str, hint: str, source: Source) -> tuple[Group, list[Node]]:
-    """Return the title of a definition, with its kind and a name, and the sections behind it.
-
-    Raises:
-        TmdError: There is no such title.
-    """
+    """Return the title of a definition, with its kind and a name, and the sections behind it."""
     title, *sections = parts
     if isinstance(title, Word) and title.text == kind and sections and isinstance(sections[0], Word):
-        title = _title_in_parentheses(title, sections.pop(0), source)
+        name = sections.pop(0)
+        start, end, edits = title.location, after(name), enclosed(title, name)
+        message, hint_here = f"the name of the {kind} stands in parentheses", f"write ({source.text(start, end)})"
+        source.fault_at(message, start, hint_here, "syntax", edits)
+        title = Group((title, name), start, end, 1)
     if isinstance(title, Group) and title.head == f":{kind}":
         message, edit = f"expected ({kind} name), found (:{kind} ...)", replaced(title.parts[0], kind)
         source.fault_at(message, title.location, f'write "{kind}" without a colon', edits=[edit])
@@ -788,11 +764,7 @@ def _outside(words: Sequence[Word], source: Source) -> None:
 
 
 def _of_kind(kind: str, named: Node, name: str, sections: Sequence[Group], source: Source) -> None:
-    """Make sure that a definition has not the sections of the other kind only.
-
-    Raises:
-        TmdError: It has.
-    """
+    """Make sure that a definition has not the sections of the other kind only."""
     heads = {section.head for section in sections} - {":requirements"}
     own, other = _RANKS_OF_DOMAIN, _RANKS_OF_PROBLEM
     needed, meant = {":init", ":goal"}, "problem"
@@ -801,14 +773,6 @@ def _of_kind(kind: str, named: Node, name: str, sections: Sequence[Group], sourc
     if needed <= heads and heads <= other.keys() and not heads & own.keys():
         hint, edits = f"write (define ({meant} {name}) ...)", [replaced(named, meant)]
         raise source.error(f"this is a {meant}, and is called a {kind}", named.location, hint, "syntax", edits)
-
-
-def _title_in_parentheses(kind: Word, name: Node, source: Source) -> Group:
-    """Return the title of a definition that lacks its parentheses, which is reported."""
-    start, end = kind.location, after(name)
-    message, hint = f"the name of the {kind.text} stands in parentheses", f"write ({source.text(start, end)})"
-    source.fault_at(message, start, hint, "syntax", enclosed(kind, name))
-    return Group((kind, name), start, end, 1)
 
 
 def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source: Source) -> str:

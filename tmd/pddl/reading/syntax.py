@@ -467,11 +467,8 @@ def _keyword_before(around: _Open) -> bool:
 def parse(text: str, file: str, report: Report | None = None, *, definition: bool = False) -> Document:
     """Split ``text`` into groups.
 
-    Args:
-        text: The text.
-        file: Names it in errors.
-        report: Takes every fault; without it the first one is raised.
-        definition: Whether the text should be a domain or problem, not a condition.
+    ``report`` takes every fault; without it the first one is raised. A ``definition`` is a domain or problem, not a
+    condition.
 
     Raises:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.

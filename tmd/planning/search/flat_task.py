@@ -32,10 +32,7 @@ class Tables(NamedTuple):
     """A task in flat form. ``*_start`` lists are offsets into the list of the same name.
 
     Attributes:
-        words: Words of a state.
-        atoms: Fluent atoms.
         operators: Operators; index ``operators`` means the free operators of the relaxation.
-        facts: Literals and clause facts.
         step: What a step counts for beside its cost; a unit of cost counts for as much as ``step`` steps.
         cost: Cost of each operator in search units, then 0 for the free ones, then all costs again for the
             operators where they have effects under conditions.

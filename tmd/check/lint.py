@@ -1,4 +1,4 @@
-"""Warnings on problems: goals that hold already, or that nothing reaches."""
+"""Warnings on domains and problems that are legal PDDL and hardly ever meant, such as goals that nothing reaches."""
 
 from __future__ import annotations
 
@@ -7,23 +7,28 @@ from functools import cache
 from math import prod
 from pathlib import Path
 
-from tmd.check.lint.domain import said_twice
 from tmd.diagnostics import Edit, TmdError
 from tmd.pddl.derived import as_actions
 from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, Reachability, Rule
 from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import (
+    TRUE,
     ActionSchema,
     And,
     Atom,
     Domain,
     Effect,
+    Equals,
+    Formula,
     GroundAtom,
     Not,
+    Or,
     Problem,
     TypedName,
     conjuncts,
+    free_variables,
     universe,
+    walk,
 )
 from tmd.pddl.reading.syntax import Node, Source, Word, after, read_text, split_lines
 from tmd.pddl.semantics import instantiate, size, solutions
@@ -35,22 +40,115 @@ Scope = Mapping[str, tuple[str, ...]]
 """The types of variables."""
 
 
+def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
+    """Return the warnings for a domain that has no faults."""
+    found = list(_unused_predicates(domain, source))
+    for action in domain.actions:
+        found += _contradictory_effects(action, source)
+        found += _never_applies(action, source)
+        needed = conjuncts(action.precondition)
+        found += _said_twice(needed, f'in the precondition of action "{action.name}"', source)
+        found += _said_twice(action.effects, f'among the effects of action "{action.name}"', source)
+        found += _unused_parameters(action, source)
+        if not action.effects and action.cost is None:
+            hint = "write its :effect, or remove it"
+            found.append(source.error(f'action "{action.name}" changes nothing', action.location, hint, "no-effect"))
+    return found
+
+
+def _unused_predicates(domain: Domain, source: Source) -> Iterator[TmdError]:
+    used = {part.predicate for part in walk((domain.actions, domain.derived)) if isinstance(part, Atom)}
+    for predicate in domain.predicates:
+        if predicate.name not in used and domain.actions and predicate.name != "=":
+            yield source.error(
+                f'no action speaks of the predicate "{predicate.name}"',
+                source.word(predicate.location, 0),
+                "use it, or remove it",
+                "unused-predicate",
+            )
+
+
+def _contradictory_effects(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    """Yield the same atom added and deleted under the same condition: adding wins."""
+    added = {(e.atom, e.condition, e.parameters) for e in action.effects if e.positive}
+    for effect in action.effects:
+        if not effect.positive and (effect.atom, effect.condition, effect.parameters) in added:
+            atom = " ".join((effect.atom.predicate, *effect.atom.terms))
+            yield source.error(
+                f'action "{action.name}" adds and deletes ({atom}); adding wins',
+                effect.location,
+                "remove one of the two",
+                "contradictory-effects",
+            )
+
+
+def _said_twice(parts: Iterable[Formula | Effect], where: str, source: Source) -> Iterator[TmdError]:
+    """Yield the conditions or effects that stand twice among some."""
+    seen: set[Formula | Effect] = set()
+    for part in parts:
+        if part in seen:
+            plain = part if not isinstance(part, Effect) else part.atom if part.positive else Not(part.atom)
+            message = f"{format_formula(plain)} stands twice {where}"
+            yield source.error(message, part.location, "remove one of the two", "said-twice")
+        seen.add(part)
+
+
+def _never_applies(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    """Yield a precondition that no state satisfies, as far as one can tell by looking at it."""
+    parts = conjuncts(action.precondition)
+    stated = set(parts)
+    for part in parts:
+        if _is_false(part) or (isinstance(part, Not) and part.part in stated):
+            yield source.error(
+                f'action "{action.name}" can never apply: its precondition contradicts itself here',
+                part.location or action.location,
+                "remove one of the conditions",
+                "never-applies",
+            )
+
+
+def _is_false(formula: Formula) -> bool:
+    if isinstance(formula, Or):
+        return not formula.parts
+    if isinstance(formula, Not):
+        inner = formula.part
+        return inner == TRUE or (isinstance(inner, Equals) and inner.left == inner.right)
+    return (
+        isinstance(formula, Equals) and formula.left != formula.right and "?" not in formula.left[0] + formula.right[0]
+    )
+
+
+def _unused_parameters(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    used = set(free_variables(action.precondition))
+    for effect in action.effects:
+        used.update(effect.atom.terms)
+        used |= free_variables(effect.condition)
+    if isinstance(action.cost, Atom):
+        used.update(action.cost.terms)
+    for parameter in action.parameters:
+        if parameter.name not in used:
+            yield source.error(
+                f'action "{action.name}" does not speak of its parameter "{parameter.name}"',
+                parameter.location,
+                "use it, or remove it",
+                "unused-parameter",
+            )
+
+
 class Possible:
     """Atoms that may hold and actions that may apply in a problem, found without grounding it.
 
     An over-approximation in time linear in the problem: relaxed reachability over the effects of the lifted actions,
     and over the objects that the initial state has at each place of each predicate. What is impossible here is
-    impossible.
-
-    Attributes:
-        blocked: For each action that can never apply what it lacks: a type without objects, or an atom of its
-            precondition.
+    impossible. ``blocked`` has for each action that can never apply what it lacks: a type without objects, or an atom
+    of its precondition.
     """
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.objects = universe(problem)
-        self._fits = cache(self._starts_with)
+        # whether the initial state has an object of some types at a place of a predicate
+        self._fits = cache(lambda name, at, types: any(self.objects.is_a(o, types) for o in self._columns[name][at]))
         self._columns: dict[str, list[dict[str, None]]] = {}
         for atom in problem.init:
             columns = self._columns.setdefault(atom.predicate, [{} for _ in atom.args])
@@ -105,10 +203,6 @@ class Possible:
             for place, term in enumerate(atom.terms)
         )
 
-    def _starts_with(self, predicate: str, place: int, types: tuple[str, ...]) -> bool:
-        """Return whether the initial state has an object of ``types`` at that place of the predicate."""
-        return any(self.objects.is_a(name, types) for name in self._columns[predicate][place])
-
     def _makers(self, atom: Atom, scope: Scope) -> frozenset[int]:
         """Return the effects that may add an atom of this form."""
         return frozenset(
@@ -147,7 +241,7 @@ def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
     return [
         *_constants_again(problem, source),
         *_costs_missing(problem, source),
-        *said_twice(problem.goal, "the goal", source),
+        *_said_twice(conjuncts(problem.goal), "in the goal", source),
         *lint_cases(problem),
         *(_contradictory_goal(problem, source) or _goal_holds(problem, source) or _unreachable(problem, source)),
     ]
