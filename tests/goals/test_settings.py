@@ -85,6 +85,8 @@ def test_what_no_place_of_a_noun_takes_is_told(folder: Path, text: str, reason: 
             {"(contains bowl1 popped_corn)"},
         ),
         ("kitchen/kitchen1", "I don't like coffee. Put the mug on the table.", {"(at mug1 table1 on)"}),
+        ("kitchen/kitchen3", "Put a mug on the counter. Actually, make that a bowl.", {"(at bowl1 counter1 on)"}),
+        ("living_room/room2", "Clear the mug away to the sideboard.", {"(at mug1 sideboard1 on)"}),
     ],
 )
 def test_said_behind_a_request_or_beside_it(environment: str, text: str, held: set[str]) -> None:
@@ -92,3 +94,21 @@ def test_said_behind_a_request_or_beside_it(environment: str, text: str, held: s
     grounded = said(domain, name, text)
     assert goals(grounded)
     assert not held.isdisjoint(end(grounded))
+
+
+def test_what_is_poured_out_of_where_it_is_said_to_be() -> None:
+    grounded = said("kitchen", "kitchen4", "Tip out the water that's in the pot on the stove.")
+    assert "(contains pot1 water)" not in end(grounded)
+
+
+def test_a_scoop_of_each_in_its_own_bowl() -> None:
+    text = "Put a scoop of vanilla in one bowl and a scoop of chocolate in the other."
+    facts = end(said("kitchen", "kitchen3", text))
+    kinds = ("vanilla", "chocolate")
+    held = [[f"(contains bowl{number} {kind}_ice_cream)" in facts for kind in kinds] for number in (1, 2)]
+    assert sorted(held) == [[False, True], [True, False]]
+
+
+def test_all_that_lies_somewhere_goes_together() -> None:
+    facts = end(said("living_room", "room1", "Pick up whatever's lying on the floor and put it on the armchair."))
+    assert {"(at magazine1 armchair1 on)", "(at pillow1 armchair1 on)"} <= facts

@@ -407,6 +407,6 @@ def _landmark(landmark: Phrase, clause: Clause) -> list[_Mention]:
 
 
 def _meant(phrase: Phrase, clause: Clause) -> list[str]:
-    if not phrase.pronoun:
+    if not phrase.pronoun or phrase.name in section("whole_words"):
         return [phrase.name]
     return list(clause.antecedents.get(phrase.name, ())[: clause.together.get(phrase.name, 1)])

@@ -312,7 +312,7 @@ class Attachment:
         self.draft.direct += also
         self.host = [*self.host, *also] if self.host else []
         if name in section("with_words"):  # "with a splash of milk"
-            targets = [p.of[0] if p.of and singular(p.name) in section("measures") else p for p in targets]
+            targets = [p.of[0] if p.of and singular(p.name) in section("drops") else p for p in targets]
         if name in section("with_words") and targets and targets[0].said().quantifier is Quantifier.NONE:
             name = first_of("without_words")  # "with neither milk nor sugar"
             targets = [target.without_denial() for target in targets]

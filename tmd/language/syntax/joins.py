@@ -316,7 +316,11 @@ class _Particles(Words):
 
     def _stands(self, at: int) -> bool:
         """Return whether a place follows a verb: "the cart can wait in the yard", "the ropes are going on the cart"."""
-        waits = self.stem_among(at, "waiting", "belonging") and self.among(at + 1, "static") and self.follows(at + 2, "IDLE* NP")
+        waits = (
+            self.stem_among(at, "waiting", "belonging")
+            and self.among(at + 1, "static")
+            and self.follows(at + 2, "IDLE* NP")
+        )
         return waits or (self.kind(at) is K.ING and self.stem_among(at, "belonging"))
 
     def _next_particle(self, at: int) -> None:
