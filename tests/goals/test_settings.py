@@ -87,6 +87,7 @@ def test_what_no_place_of_a_noun_takes_is_told(folder: Path, text: str, reason: 
         ("kitchen/kitchen1", "I don't like coffee. Put the mug on the table.", {"(at mug1 table1 on)"}),
         ("kitchen/kitchen3", "Put a mug on the counter. Actually, make that a bowl.", {"(at bowl1 counter1 on)"}),
         ("living_room/room2", "Clear the mug away to the sideboard.", {"(at mug1 sideboard1 on)"}),
+        ("kitchen/kitchen1", "Put the mug on the table and leave it there.", {"(at mug1 table1 on)"}),
     ],
 )
 def test_said_behind_a_request_or_beside_it(environment: str, text: str, held: set[str]) -> None:
@@ -112,3 +113,38 @@ def test_a_scoop_of_each_in_its_own_bowl() -> None:
 def test_all_that_lies_somewhere_goes_together() -> None:
     facts = end(said("living_room", "room1", "Pick up whatever's lying on the floor and put it on the armchair."))
     assert {"(at magazine1 armchair1 on)", "(at pillow1 armchair1 on)"} <= facts
+
+
+CLUB = """
+(define (domain club)
+  (:requirements :typing)
+  (:types guest game table drink slope - object)
+  (:predicates (seated ?g - guest ?t - table) (waiting ?g - guest) (knows ?g - guest ?b - game)
+               (served ?g - guest ?d - drink) (tilted ?t - table ?s - slope))
+  (:action seat :parameters (?g - guest ?t - table) :precondition (waiting ?g)
+    :effect (and (seated ?g ?t) (not (waiting ?g))))
+  (:action explain-rules :parameters (?b - game ?g - guest ?t - table) :precondition (seated ?g ?t)
+    :effect (knows ?g ?b))
+  (:action serve :parameters (?d - drink ?g - guest ?t - table) :precondition (seated ?g ?t) :effect (served ?g ?d))
+  (:action tilt :parameters (?t - table ?old ?new - slope) :precondition (tilted ?t ?old)
+    :effect (and (tilted ?t ?new) (not (tilted ?t ?old)))))
+"""
+CLUB_PROBLEM = """
+(define (problem evening) (:domain club)
+ (:objects lena omar - guest ludo halma - game hall-table den-table - table cocoa cider - drink level steep - slope)
+ (:init (seated lena hall-table) (waiting omar) (tilted hall-table level) (tilted den-table level))
+ (:goal (and)))
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "held"),
+    [
+        ("Seat Omar at the den table.", "(seated omar den-table)"),
+        ("Explain ludo to Lena.", "(knows lena ludo)"),
+        ("Bring Lena a cocoa.", "(served lena cocoa)"),
+        ("Tilt the den table steep.", "(tilted den-table steep)"),
+    ],
+)
+def test_guests_are_served(tmp_path: Path, text: str, held: str) -> None:
+    assert_ends(plain_world(tmp_path, CLUB, CLUB_PROBLEM), text, {held}, set())

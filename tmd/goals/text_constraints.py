@@ -68,7 +68,7 @@ class ConstraintReader:
             parts = tuple(self._parts_as_they_are(clause, excepted, state))
             untouched = frozenset(self._done_without(clause, state) | (set() if parts else excepted))
             found |= TextConstraints(kept=parts or tuple(self._places(excepted, state)), untouched=untouched)
-            left = self._left(clause, state, memory)
+            left = TextConstraints() if _was_put(clause, parsed) else self._left(clause, state, memory)
             if isinstance(left, Refusal):
                 return left
             found |= left
@@ -269,6 +269,17 @@ class ConstraintReader:
     def _literals(self, cube: Cube) -> list[Formula]:
         positive = [_literal(atom) for atom in self.task.names(cube.positive)]
         return positive + [_literal(atom, holds=False) for atom in self.task.names(cube.negative)]
+
+
+def _was_put(clause: Clause, parsed: Parsed) -> bool:
+    """Return whether a pronoun means what an earlier clause does something to: "put it on the shelf and leave it there".
+
+    It is left where it is then, not where it was.
+    """
+    before = (other for other in parsed.clauses if other.span < clause.span and other.mood is Mood.DO)
+    handled = {noun for other in before for noun in other.direct}
+    meant = [clause.antecedents.get(noun, ("",))[0] for noun in clause.direct if is_pronoun(noun)]
+    return not (clause.result or clause.relations) and bool(meant) and handled.issuperset(meant)
 
 
 def is_of_the_end(clause: Clause) -> bool:

@@ -281,6 +281,10 @@ class GoalReader:
         modifier, _, noun = "".join(clause.direct[:1]).rpartition("_")
         if len(clause.direct) != 1 or not modifier or self._names_thing(clause.direct[0]):
             return None
+        things, places = (self.nouns.things(word, self.world.task.init) for word in (modifier, noun))
+        if len(things) == len(places) == 1 and not clause.relations:  # "tilt the roof panel flat"
+            plain = clause.renamed(clause.direct[0], modifier)
+            return replace(plain, objects=(modifier, noun), relations=(Relation(SETTING, modifier, noun),))
         rows = (row for table in self.tables for verb in self._own_verbs(clause) for row in table.of(verb))
         if not (self.knows_of(modifier) and any(row.noun == noun for row in rows)):
             return None

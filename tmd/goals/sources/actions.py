@@ -103,7 +103,7 @@ class _Words:
         self.made = {effect.atom.predicate for a in domain.actions for effect in a.effects if effect.positive}
         self._fixed: dict[tuple[str, ...], list[str]] = {}  # the constants of each type, asked for thousands of times
         self.passing = passing_predicates(domain)
-        actors, people = words_of("names", "actors"), section("people")
+        actors, people = words_of("names", "actors"), section("people") - section("served")
         # people act where most actions have one; elsewhere things are done for them
         peopled = [a for a in domain.actions if any(self._kinds(p) & people for p in a.parameters)]
         self.actors = actors | people if 2 * len(peopled) > len(domain.actions) else actors
@@ -566,6 +566,11 @@ class _Words:
                 particle = words[-1:] if words[-1] in words_of("names", "particles") else ()
                 verb = "_".join((words[0], *particle))  # "switch the light off" for ``switch_light_off``
                 yield from self._about_noun(action, verb, noun, _naming(noun, action) or wanted)
+                if firsts.count(words[:1]) == 1 and words[0] not in chain.from_iterable(_ROWS.values()):
+                    plain = self._with_slots(
+                        action, words[:1], wanted
+                    )  # "explain chess to Ann", with ``explain_rules``
+                    yield from (row for row in plain if len(row.slots) > 1)
                 verbs = tuple(verb for verb in verbs if verb != words[0])
             if wanted:
                 yield from self._with_slots(action, verbs, wanted)
