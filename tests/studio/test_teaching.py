@@ -61,14 +61,14 @@ def test_a_verb_that_nobody_showed_is_known_in_other_kitchens_once_it_is_shown(t
     corpus = Corpus(DomainFolder(ROOT / "domains" / "kitchen"), tmp_path / "kitchen")
     teacher = Teacher(corpus, learned)
     assert recall(corpus, place(corpus, learned)) is not None
-    assert answer(teacher, "Chill the mug.", "kitchen2") == []
-    found = show(corpus, "kitchen1", "Chill the mug.", CHILL)
+    assert answer(teacher, "Frost the mug.", "kitchen2") == []
+    found = show(corpus, "kitchen1", "Frost the mug.", CHILL)
     reward = teacher.knowledge.reward
     teacher.learn_one(found)
     assert teacher.knowledge.reward is reward
     for environment in ("kitchen2", "kitchen3", "kitchen5"):
-        assert answer(teacher, "Chill the mug.", environment) == CHILL
-    assert answer(teacher, "Please chill the cup.", "kitchen5") == [step.replace("mug1", "cup1") for step in CHILL]
+        assert answer(teacher, "Frost the mug.", environment) == CHILL
+    assert answer(teacher, "Please frost the cup.", "kitchen5") == [step.replace("mug1", "cup1") for step in CHILL]
     assert library_to_json(teacher.knowledge.library) == library_to_json(
         learn(Corpus(corpus.folder, corpus.directory).demonstrations(), corpus.world, corpus.lexicon)
     )

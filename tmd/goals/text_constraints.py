@@ -13,6 +13,7 @@ from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.referents import ANY_TYPE, is_none
 from tmd.goals.words import BE, is_one, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, Clause, Mood, Parsed
+from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import atoms_of
 from tmd.pddl.model import Atom, Formula, GroundAtom, Not
@@ -272,14 +273,20 @@ class ConstraintReader:
 
 
 def _was_put(clause: Clause, parsed: Parsed) -> bool:
-    """Return whether a pronoun means what an earlier clause does something to: "put it on the shelf and leave it there".
+    """Return whether a pronoun means what an earlier clause handles: "put it on the shelf and leave it there".
 
     It is left where it is then, not where it was.
     """
     before = (other for other in parsed.clauses if other.span < clause.span and other.mood is Mood.DO)
     handled = {noun for other in before for noun in other.direct}
-    meant = [clause.antecedents.get(noun, ("",))[0] for noun in clause.direct if is_pronoun(noun)]
-    return not (clause.result or clause.relations) and bool(meant) and handled.issuperset(meant)
+    meant = [clause.antecedents.get(noun, ("",))[0] for noun in clause.direct]
+    behind = clause.text.lower().rpartition(f" {''.join(clause.direct[-1:])}")[2].split()
+    plain = (
+        not (clause.result or clause.relations)
+        and all(map(is_pronoun, clause.direct))
+        and section("there_words").issuperset(behind)
+    )
+    return plain and bool(meant) and handled.issuperset(meant)
 
 
 def is_of_the_end(clause: Clause) -> bool:

@@ -296,7 +296,7 @@ class GoalPass(ForwardPass):
         *Pick up the boxes and the cans and put them in the bag*: nobody has so many hands.
         """
         formula = target.goal.formula
-        if not isinstance(formula, And) or not target.step.continued:
+        if not isinstance(formula, And) or not target.step.continued or _is_for_places(target.step.clause):
             return False
         return all(isinstance(self.planner.fill(state, goal_cubes(self.task, p)), Filled) for p in formula.parts)
 
@@ -658,6 +658,12 @@ def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) 
     handled = {arg for taken in choice.steps for arg in taken.instruction.args}
     handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}
     return names <= handled if every else bool(names & handled)
+
+
+def _is_for_places(clause: VerbClause) -> bool:
+    """Return whether a clause wants one thing in several places: it never gets there bit by bit."""
+    sources = [source for _, source, _ in clause.resolved_relations() if source]
+    return len(sources) > len(set(sources))
 
 
 def _impossible(target: Target, reason: str) -> Refusal:
