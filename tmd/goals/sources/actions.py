@@ -563,19 +563,23 @@ class _Words:
             verbs = words[:1] if shortened else tuple(dict.fromkeys(_verbs_of("_".join(words))))
             noun = "" if shortened or not wanted else self._noun_in(action, words)
             if noun:
-                particle = words[-1:] if words[-1] in words_of("names", "particles") else ()
-                verb = "_".join((words[0], *particle))  # "switch the light off" for ``switch_light_off``
-                yield from self._about_noun(action, verb, noun, _naming(noun, action) or wanted)
-                if firsts.count(words[:1]) == 1 and words[0] not in chain.from_iterable(_ROWS.values()):
-                    plain = self._with_slots(
-                        action, words[:1], wanted
-                    )  # "explain chess to Ann", with ``explain_rules``
-                    yield from (row for row in plain if len(row.slots) > 1)
+                yield from self._with_noun(action, words, noun, wanted, alone=firsts.count(words[:1]) == 1)
                 verbs = tuple(verb for verb in verbs if verb != words[0])
             if wanted:
                 yield from self._with_slots(action, verbs, wanted)
             else:
                 yield from self._of_oneself(action, words)
+
+    def _with_noun(
+        self, action: ActionSchema, words: tuple[str, ...], noun: str, wanted: Sequence[Effect], *, alone: bool
+    ) -> Iterator[GoalRow]:
+        """Yield rows for a name with a noun, and those without it for a verb that stands ``alone`` and says enough."""
+        particle = words[-1:] if words[-1] in words_of("names", "particles") else ()
+        verb = "_".join((words[0], *particle))  # "switch the light off" for ``switch_light_off``
+        yield from self._about_noun(action, verb, noun, _naming(noun, action) or wanted)
+        if alone and words[0] not in chain.from_iterable(_ROWS.values()):
+            plain = self._with_slots(action, words[:1], wanted)  # "explain chess to Ann" for ``explain_rules``
+            yield from (row for row in plain if len(row.slots) > 1)
 
     def _noun_in(self, action: ActionSchema, words: Sequence[str]) -> str:
         """Return the noun behind the verb of an action's name that none of its parameters is: ``set_chocks``."""
