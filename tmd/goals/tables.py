@@ -16,7 +16,6 @@ does not apply. Where a condition is there for some prepositions of a row only, 
 from __future__ import annotations
 
 import re
-from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -133,7 +132,9 @@ def goal_tables(
     declared = declared_goals(lexicon, domain)
     rows = declared.rows if DECLARED in sources else ()
     read_off = (_actions(domain),) if ACTIONS in sources else ()
-    attributes = ChainMap(*(dict(table.attributes) for table in (declared, *read_off)))
+    attributes: dict[str, Formula] = {}
+    for table in (*read_off, declared):  # what is declared is surer
+        attributes.update(table.attributes)
     tables = [GoalTable(rows, attributes, declared.groups)]
     if LEARNED in sources and learned is not None:
         tables.append(learned)

@@ -168,10 +168,11 @@ class GoalReader:
 
     @cached_property
     def _place_states(self) -> Mapping[tuple[str, str], str]:
-        """The predicates of one thing that name a place, and states: ``on-table`` for *on* and *table*."""
-        names = {p.name: "_".join(split_name(p.name)) for p in self.domain.predicates if len(p.parameters) == 1}
-        states = {"_".join(plain_words(p, hierarchy(self.domain))) for p in self.domain.predicates if p.parameters}
-        states |= self.tables[0].attributes.keys()  # "set the signal to red"
+        """The states that a preposition and a noun name: ``on-table`` for *on* and *table*, *red* for *to red*."""
+        unary = [p for p in self.domain.predicates if len(p.parameters) == 1]
+        names = {p.name: "_".join(split_name(p.name)) for p in unary}
+        # "set the signal to red"
+        states = {"_".join(plain_words(p, hierarchy(self.domain))) for p in unary} | self.tables[0].attributes.keys()
         return {(SETTING, state): state for state in states} | {
             (preposition, name.removeprefix(preposition).lstrip("_")): predicate
             for predicate, name in names.items()

@@ -750,12 +750,9 @@ def participle(name: str) -> str | None:
 
 def _lasting(name: str) -> str | None:
     """Return the verb of which a name says that it goes on, *point* of ``pointing``; ``None`` for what is held."""
-    verb = builtin().verb(name)
+    stem, form, _ = builtin().verb(name) or ("", "", 0)
     held = words_of("verbs", "carrying") | words_of("verbs", "holding")
-    going_on = (
-        verb is not None and verb[1] in words_of("outcomes", "lasting") and held.isdisjoint((verb[0], *family(verb[0])))
-    )
-    return verb[0] if verb is not None and going_on else None
+    return stem if form in words_of("outcomes", "lasting") and held.isdisjoint((stem, *family(stem))) else None
 
 
 def _is_preposition(word: str) -> bool:

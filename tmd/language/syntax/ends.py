@@ -161,9 +161,8 @@ class ClauseEnds(Words):
             return True  # "I don't care if it is old"
         helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
         idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
-        spared = self.among(deed - 1, "unneeded") and self.follows(
-            deed, "NP+ (P NP+)* BREAK"
-        )  # "they don't need light"
+        # "they don't need any light in summer"
+        spared = self.among(deed - 1, "unneeded") and self.follows(deed, "NP+ (P NP+)* BREAK")
         return self.among(at, "needless") or helped or idle or spared
 
     def _causes(self, at: int) -> bool:

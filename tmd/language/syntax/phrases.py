@@ -25,7 +25,7 @@ from functools import cache
 import yaml
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon, PhraseRow, data_text, section
+from tmd.language.lexicon.lexicon import Lexicon, PhraseRow, data_text, first_of, section
 from tmd.language.syntax.rows import Entry, read_file, read_rows, section_names
 from tmd.language.syntax.tagger import decide, tag
 from tmd.language.syntax.tokens import Kind, Token, noted, tokenise
@@ -230,7 +230,7 @@ def _end_of_scale(element: str, name: str, slots: Mapping[str, list[Token]]) -> 
     if not element.endswith(".end}"):
         return element, name
     low = any(token.text in section("least_words") for token in slots[name])
-    return f"{'minimum' if low else 'maximum'}/N", ""
+    return f"{first_of('least_words' if low else 'most_words')}/N", ""
 
 
 def _fresh(element: str, stem: str, needed: bool, span: Span) -> Token:

@@ -395,12 +395,8 @@ class TextReading:
             return None
         thing, place, other = (name.rpartition("_")[2] for name in (last.source, last.target, named[0].name))
         if other in section("one_words"):  # "in a bowl, not the one with the chips"
-            indefinite = section("indefinite")
-            return (
-                last
-                if any(p.name == last.target and indefinite.intersection(p.lead) for p in draft.landmarks)
-                else None
-            )
+            leads = [set(p.lead) for p in draft.landmarks if p.name == last.target]
+            return last if any(lead & section("indefinite") for lead in leads) else None
         return last if similarity(other, place) > max(similarity(other, thing), _LIKE) else None
 
     # requests other than imperatives
@@ -454,7 +450,7 @@ class TextReading:
                 self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
 
     def _suits(self, said: ClauseDraft) -> bool:
-        """Add to a request where a statement allows it: "bring me some water. The blue glass is fine."."""
+        """Return whether a statement allows a vessel, "bring me some water. The blue glass is fine", and add that."""
         last = self.drafts[-1] if self.drafts else None
         fine = said.verb.stem == BE and said.result in section("suiting") and len(said.direct) == 1
         if last is None or not (fine and last.direct) or not all(p.name in PERSONS for p in last.landmarks):
