@@ -18,6 +18,7 @@ from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.lexicon.names import split_name
 from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground_task import ground
+from tmd.pddl.inferred_types import with_inferred_types
 from tmd.pddl.model import OBJECT, TRUE, Domain, GroundAtom, Instruction, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
 from tmd.short_repr import short_repr
@@ -56,7 +57,7 @@ def make_world(
         kinds: For objects whose PDDL type says less than that, what kind of thing each is.
         costs: The costs of actions, where some differ.
     """
-    problem = replace(problem, goal=TRUE, minimize_cost=False, metric_location=None)
+    problem = with_inferred_types(replace(problem, goal=TRUE, minimize_cost=False, metric_location=None))
     problem = with_costs(problem, costs or {})
     task = ground(problem)
     profiles = Profiles(task)

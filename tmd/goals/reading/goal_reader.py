@@ -36,7 +36,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import BRING, PERSONS, PUT, TO, Clause, NounPhrase, Quantifier, Relation
+from tmd.language.clause import AGENT, BRING, PERSONS, PUT, TO, Clause, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE
@@ -112,7 +112,8 @@ class GoalReader:
         """Return what ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         decisions = decisions or Decisions()
         reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited, decisions=decisions)
-        clause = reading.clause = self._with_states(self._of_oneself(self.referents.reattached(reading)))
+        told = self._by_anyone(self.referents.reattached(reading))
+        clause = reading.clause = self._with_states(self._of_oneself(told))
         lost = None if self.guess else lost_amount(clause)
         if lost is not None:
             message = f"nothing here can tell '{lost}' of something"
@@ -235,6 +236,15 @@ class GoalReader:
         phrase = clause.phrase(relation.source or "")
         described = replace(phrase, attributes=(*phrase.attributes, state))
         return replace(clause, phrases={**clause.phrases, phrase.name: described})
+
+    def _by_anyone(self, clause: Clause) -> Clause:
+        """Return a clause without the thing that does it, where no row tells who does it."""
+        rows = (row for table in self.tables for verb in self._own_verbs(clause) for row in table.of(verb))
+        if clause.verb == BE or any(row.tells_agent for row in rows):
+            return clause
+        relations = tuple(r for r in clause.relations if r.relation != AGENT)
+        doing = {r.target for r in clause.relations} - {r.target for r in relations} - {*clause.direct}
+        return replace(clause, relations=relations, objects=tuple(n for n in clause.objects if n not in doing))
 
     def _of_oneself(self, clause: Clause) -> Clause:
         """Return a clause with nothing left out, if its verb moves who acts: "take the car and sail to the isle"."""

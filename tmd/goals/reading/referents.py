@@ -532,7 +532,18 @@ class Referents:
         if place and not objects:
             return Referent(noun, self._within(likely, types, reading))
         referent = self._counted(objects, context, certain=things == likely)
+        reading.notes += self._stand_ins(noun, referent.names)
         return self._told_apart(referent, context)
+
+    def _stand_ins(self, noun: str, names: Collection[str]) -> list[str]:
+        """Return a warning where a noun is a class of the domain and only things of other classes are here."""
+        mentions = self.world.mentions
+        kinds = dict.fromkeys(mentions.kinds[name] for name in names if name in mentions.kinds)
+        if not kinds or noun not in mentions.classes or any(noun in (n, *mentions.types.get(n, ())) for n in names):
+            return []
+        called = noun in self.world.profiles.objects or any(noun in kind for kind in kinds)  # a ``dispenser_fridge``
+        said = f"there is no {words(noun)} here, so '{words(noun)}' is taken to mean {' or '.join(map(words, kinds))}"
+        return [] if called else [said]
 
     def _within(self, regions: Collection[str], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
         """Return the things that always are in what a noun names: "to Paris" is to some place there."""

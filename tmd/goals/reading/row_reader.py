@@ -700,7 +700,8 @@ class RowReader:
             if excepted:
                 rest, live = own(binding, excepted)
                 formula = self._but_for(rest, formula, reading)
-            settled = formula == TRUE and row.source == ACTIONS  # no action moves a curtain from where it hangs
+            # no action moves a curtain from where it hangs
+            settled = formula == TRUE and row.source == ACTIONS and not row.tells_agent
             if formula == FALSE or ((settled or not live) and not row.traceless):
                 # what can never be so is not "not so already", but for one of many: all filters shall be clean
                 return FALSE if formula == FALSE else _NEVER_OTHERWISE

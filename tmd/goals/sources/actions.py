@@ -60,6 +60,7 @@ def rows_of_actions(domain: Domain) -> GoalTable:
         *words.parts(),
         *words.participles(),
         *words.named_actions(shortened=True),
+        *words.doings(),
         *words.receipts(),
     ]
     return GoalTable(tuple(rows), words.settings())
@@ -501,6 +502,18 @@ class _Words:
             undone = Not(self._atom(predicate, {things[0].name: "?x"}))
             yield self._row(undoing, (Slot("?x"),), undone, f"{undoing[0]} X", why)
 
+    def doings(self) -> Iterator[GoalRow]:
+        """Yield ``Y is known by X`` for ``(knows ?x ?y)``, and ``X waits`` for ``(waiting ?x)``: what a thing does."""
+        for predicate in self.domain.predicates:
+            words, things = plain_words(predicate, self.types), self.things(predicate)
+            verb = _done(words[0]) if len(words) == 1 else None
+            if verb is None or len(things) != len(predicate.parameters) or not 0 < len(things) < 3:
+                continue
+            slots = (Slot("?y"), Slot("?x", _ROWS["by"])) if len(things) == 2 else (Slot("?x"),)
+            names = {thing.name: variable for thing, variable in zip(things, ("?x", "?y"), strict=False)}
+            pattern = " ".join(["X", verb, *(["Y"] if len(things) == 2 else [])])
+            yield self._row((verb,), slots, self._atom(predicate, names), pattern, f"the predicate {predicate.name}")
+
     def receipts(self) -> Iterator[GoalRow]:
         """Yield ``give X to Y`` and ``be Y with X`` for the only predicate that joins two such things.
 
@@ -753,6 +766,12 @@ def _lasting(name: str) -> str | None:
     stem, form, _ = builtin().verb(name) or ("", "", 0)
     held = words_of("verbs", "carrying") | words_of("verbs", "holding")
     return stem if form in words_of("outcomes", "lasting") and held.isdisjoint((stem, *family(stem))) else None
+
+
+def _done(name: str) -> str | None:
+    """Return the verb of which a name says that it is done: *know* of ``knows``, *wait* of ``waiting``."""
+    stem, form, _ = builtin().verb(name) or ("", "", 0)
+    return stem if form in words_of("outcomes", "done") else None
 
 
 def _is_preposition(word: str) -> bool:

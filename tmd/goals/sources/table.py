@@ -21,7 +21,8 @@ from typing import Final, TypeAlias
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.words import PREPOSITIONS as PREPOSITIONS
 from tmd.goals.words import family as family
-from tmd.goals.words import is_relation
+from tmd.goals.words import is_relation, relations_said
+from tmd.language.clause import AGENT
 from tmd.language.lexicon.lexicon import Declared
 from tmd.pddl.model import (
     OBJECT,
@@ -121,6 +122,11 @@ class GoalRow:
     def traceless(self) -> bool:
         """Return whether the row brings about nothing that a state shows."""
         return self.condition == And()
+
+    @property
+    def tells_agent(self) -> bool:
+        """Return whether the row says of a thing what it does: *Ann knows chess*."""
+        return any(relations_said(AGENT, slot.prepositions) for slot in self.slots)
 
     @property
     def looks_back(self) -> bool:

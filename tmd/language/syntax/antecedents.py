@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from tmd.language.clause import BE, OF, PERSONS, TO, Clause, Condition, Mood, Relation
+from tmd.language.clause import AGENT, BE, OF, PERSONS, TO, Clause, Condition, Mood, Relation
 from tmd.language.lexicon.lexicon import pairs, section, sections_of
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
@@ -378,7 +378,10 @@ def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
     mentions = [_Mention(name, False, 0) for name in elided]
     mentions += [m for phrase in direct for m in _acted_on(phrase, clause, spread)]
     mentions += [m for landmark in draft.landmarks for m in _landmark(landmark, clause)]
-    together = [*(name for phrase in direct for name in _meant(phrase, clause)), *elided]
+    agents = {r.target for r in clause.relations if r.relation == AGENT}
+    acting = [p for p in draft.landmarks if p.name in agents]
+    several = acting if len(acting) > 1 else direct  # "the fern and the ivy need water; give them some"
+    together = [*(name for phrase in several for name in _meant(phrase, clause)), *elided]
     named = tuple(m for m in mentions if _is_name(m.name))
     return _Scene(named, tuple(dict.fromkeys(filter(_is_name, together))), draft.verb.span.start)
 

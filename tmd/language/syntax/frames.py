@@ -34,7 +34,8 @@ class Frames(Words):
         at = 0
         while at < len(self.tokens):
             at = self._parenthesis(at)
-            end = self._end(at) if not at or self.follows(at - 1, "STOP|COMMA|CC") else at
+            begins = not at or self.follows(at - 1, "STOP|COMMA|CC") or self.among(at - 1, "reasoning")
+            end = self._end(at) if begins else at
             end = self._courtesy(at) if end == at else end
             if end == at:
                 kept += self.tokens[at : at + 1]

@@ -10,7 +10,7 @@ from itertools import zip_longest
 
 from lark import Tree
 
-from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WHERE, WITH, Mood, Quantifier, Relation, Span
+from tmd.language.clause import AGENT, BE, BRING, HAVE, OF, PUT, SET, WHERE, WITH, Mood, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
@@ -214,12 +214,19 @@ class Saying:
         return draft
 
     def _event(self, verb: Token, attach: Attach) -> ClauseDraft:
-        """*The water boils* is what *boil the water* brings about; of *when you take it* only the verb counts."""
+        """*The water boils* is what *boil the water* brings about; *Ann knows chess* is that chess is known by Ann.
+
+        Of *when you take it* only the verb counts.
+        """
         draft = empty_draft(verb.stem, [self.part])
         draft.spans += verb.parts
         named = about_things(self.subject)
         about = self.subject if named else [n for n in self.subject if not is_a(n, "group")]
-        attach(draft, [] if named and trees(self.rest, "group") else about, self.rest)
+        owned = named and bool(trees(self.rest, "group"))
+        acting = named_in(self.subject) if owned and verb.stem not in section("wishing") else []
+        attach(draft, [] if owned else about, self.rest)
+        draft.landmarks += acting
+        draft.relations += [Relation(AGENT, draft.direct[-1].name if draft.direct else None, p.name) for p in acting]
         return draft
 
     def _owned(self, attach: Attach) -> ClauseDraft:
