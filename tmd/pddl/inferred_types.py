@@ -35,7 +35,7 @@ def with_inferred_types(problem: Problem) -> Problem:
         return problem
     extents = _extents(problem)
     required = {kind for action in domain.actions for kind in _required(action, extents).values()}
-    types = _declared({kind: extents[kind] for kind in sorted(required)})
+    types = _declared({kind: extents[kind] for kind in required | _dividing(required, extents)})
     kinds = {name: kind for kind in types for name in extents[kind]}  # the narrowest comes last
     typed = _Typed(types, extents, kinds)
     actions = tuple(typed.action(action) for action in domain.actions)
@@ -64,6 +64,18 @@ def _required(action: ActionSchema, extents: Extents) -> dict[str, str]:
             known = found.get(part.terms[0])
             if known is None or len(extents[known]) < len(extents[part.predicate]):
                 found[part.terms[0]] = part.predicate
+    return found
+
+
+def _dividing(required: set[str], extents: Extents) -> set[str]:
+    """Return the other predicates that divide a type among themselves: suitcases and crates are all the baggage."""
+    found: set[str] = set()
+    for whole in sorted(required):
+        parts = [kind for kind in extents if extents[kind] < extents[whole]]
+        widest = [kind for kind in parts if not any(extents[kind] < extents[other] for other in parts)]
+        members = [name for kind in widest for name in extents[kind]]
+        if len(members) == len(extents[whole]) and set(members) == extents[whole]:
+            found.update(widest)
     return found
 
 

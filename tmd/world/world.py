@@ -10,7 +10,7 @@ robot's own.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -93,11 +93,11 @@ class Mentions:
         self.lexicon = lexicon
         problem = profiles.task.problem
         types = hierarchy(problem.domain)
-        told = _told_types(profiles.task)
+        told = _told_types(profiles.task, lexicon)
         # the classes that the domain knows, with objects here or without
         self.classes = frozenset(t.name for t in problem.domain.types).union(*told.values())
         self.types: Mapping[str, tuple[str, ...]] = {
-            o.name: (*(told.get(o.name, ()) if o.types == (OBJECT,) else ()), *types.ancestors(o.types[0]))
+            o.name: _named_types(types.ancestors(o.types[0]), told.get(o.name, ()))
             for o in problem.all_objects()
         }
         self._said_of = _names_in_predicates(problem.domain, lexicon)
@@ -157,9 +157,25 @@ class Mentions:
         return sum(len(links.get((name, u), ())) + len(links.get((u, name), ())) for u in used)
 
 
-def _told_types(task: Task) -> dict[str, list[str]]:
-    """Return for objects the predicates that always hold of them, the rarest first: types, where a domain has none."""
-    always = sorted(atom for atom in task.static if len(atom.args) == 1)
+def _named_types(types: Sequence[str], told: Sequence[str]) -> tuple[str, ...]:
+    """Return an object's types, and where they say no more than predicates do, those too."""
+    if types[0] not in (OBJECT, *told):
+        return tuple(types)
+    return tuple(dict.fromkeys((*types[:-1], *told, *types[-1:])))
+
+
+def _told_types(task: Task, lexicon: Lexicon) -> dict[str, list[str]]:
+    """Return for objects the predicates that always hold of them, the rarest first: types, where a domain has none.
+
+    Those that actions bring about, as ``(fuelled ?p)``, and those that begin with a verb, ``(has-lamp ?d)``, tell none.
+    """
+    made = {effect.atom.predicate for action in task.problem.domain.actions for effect in action.effects}
+
+    def names(predicate: str) -> bool:
+        verb = lexicon.verb(split_name(predicate)[0])
+        return predicate not in made and (verb is None or verb[1] == "base")
+
+    always = sorted(atom for atom in task.static if len(atom.args) == 1 and names(atom.predicate))
     count = Counter(atom.predicate for atom in always)
     found: dict[str, list[str]] = {}
     for atom in sorted(always, key=lambda atom: count[atom.predicate]):

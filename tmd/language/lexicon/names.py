@@ -13,6 +13,7 @@ _CAMEL = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 # A shorter name is a word or an abbreviation; a word in it has two letters or more ("robotat").
 _JOINED_LENGTH = 6
 _SHORTEST_WORD = 2
+_MOST_WORDS = 5
 # A word of this strength (:meth:`Lexicon.verb`) is an instruction rather than the first word of a name.
 _SURE = 3
 
@@ -29,7 +30,7 @@ def split_name(name: str) -> tuple[str, ...]:
 
 @lru_cache(maxsize=4096)
 def _joined_words(name: str) -> tuple[str, ...]:
-    """Return the two or three words that a name without separators is made of, or the name itself.
+    """Return the words that a name without separators is made of, or the name itself.
 
     Of several ways, the fewest words win, and among those one that ends in a preposition ("planeat"), and then the one
     whose shortest word is the longest.
@@ -37,16 +38,21 @@ def _joined_words(name: str) -> tuple[str, ...]:
     words = builtin()
     if (len(name) < _JOINED_LENGTH and not _is_short_sentence(name, words)) or not name.isalpha() or words.knows(name):
         return (name,)
-    cuts = range(_SHORTEST_WORD, len(name) - _SHORTEST_WORD + 1)
-    begun = [(name[:cut], name[cut:]) for cut in cuts if words.is_part(name[:cut])]
-    whole = [pair for pair in begun if words.is_part(pair[1])]
-    longer = [(first, *rest) for first, last in begun if len(rest := _joined_words(last)) == 2]
     ends = section("short_places")
-    return max(
-        whole or longer,
-        key=lambda found: (found[-1] in ends, min(map(len, found)), len(found[0])),
-        default=(name,),
-    )
+    for count in range(2, _MOST_WORDS + 1):
+        found = _ways(name, count, words)
+        if found:
+            return max(found, key=lambda way: (way[-1] in ends, min(map(len, way)), tuple(map(len, way))))
+    return (name,)
+
+
+def _ways(name: str, count: int, words: Lexicon) -> list[tuple[str, ...]]:
+    """Return the ways to read a name as so many known words."""
+    if count == 1:
+        return [(name,)] if words.is_part(name) else []
+    cuts = range(_SHORTEST_WORD, len(name) - _SHORTEST_WORD + 1)
+    firsts = [cut for cut in cuts if words.is_part(name[:cut])]
+    return [(name[:cut], *rest) for cut in firsts for rest in _ways(name[cut:], count - 1, words)]
 
 
 def _is_short_sentence(name: str, words: Lexicon) -> bool:
