@@ -278,7 +278,7 @@ def _was_put(clause: Clause, parsed: Parsed) -> bool:
     It is left where it is then, not where it was.
     """
     before = (other for other in parsed.clauses if other.span < clause.span and other.mood is Mood.DO)
-    handled = {noun for other in before for noun in other.direct}
+    handled = {other.antecedents.get(noun, (noun,))[0] for other in before for noun in other.direct}
     meant = [clause.antecedents.get(noun, ("",))[0] for noun in clause.direct]
     behind = clause.text.lower().rpartition(f" {''.join(clause.direct[-1:])}")[2].split()
     plain = (

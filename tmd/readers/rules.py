@@ -150,8 +150,9 @@ class RuleDialogue(Dialogue):
         if isinstance(constraints, Refusal):
             return constraints
         self.steps = steps_of(parsed, use=not self._constraints.leaves_a_trace(USE))
-        kept = (noun for clause in parsed.clauses if clause.mood is Mood.KEEP for noun in clause.objects)
-        spoken = tuple(dict.fromkeys(n for noun in kept for n in self._goals.nouns.things(noun, state)[:1]))
+        told = (c for c in (*parsed.clauses, *parsed.stated) if c.mood is Mood.KEEP or c in parsed.stated)
+        named = (noun for clause in told for noun in clause.objects if not is_pronoun(noun))
+        spoken = tuple(dict.fromkeys(n for noun in named for n in self._goals.nouns.things(noun, state)[:1]))
         self.memory = _Progress(replace(memory, left=constraints.left, recent=spoken))
         self.constraints = PlanConstraints(constraints.never, constraints.kept, constraints.untouched)
         self.notes = constraints.notes

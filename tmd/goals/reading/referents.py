@@ -763,7 +763,11 @@ class Referents:
             now = self.nouns.related_now(parts, relation, self.targets(said[1], reading), reading.moments) or now
         # what stands on nothing has no burner under it
         tells = stated or relation in table("inverse") or is_relation(relation, "locating") or referent.mode is Mode.ALL
-        return referent.only(now) if now or tells or self._described(whole, said, reading) else referent
+        if now or tells or self._described(whole, said, reading):
+            return referent.only(now)
+        if whole.noun not in reading.clause.direct:  # "in the cup with the spoon", where no cup has one
+            reading.notes.append(f"'{words(relation)} {words(said[1])}' says nothing here")
+        return referent
 
     def _any_one(self, noun: str, reading: ClauseReading) -> bool:
         """Return whether any one will do: nothing was said that tells which."""

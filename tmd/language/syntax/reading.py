@@ -544,10 +544,13 @@ class TextReading:
         """Read "then the mug" and "the mug too" with the verb, and the place, of the clause before."""
         if not self.drafts or not about_things(nodes) or trees(nodes, *_ASIDES, *_DENIALS):
             return False
-        if self.drafts[-1].verb.form == "ed":
+        before = self.drafts[-1]
+        if before.verb.form == "ed":
             return False  # "eggs boiled in the pot, then milk in the cup"
-        draft = self._contrasted(self.drafts[-1], nodes)
-        draft.verb.sentence, draft.verb.form = self.drafts[-1].verb.sentence, self.drafts[-1].verb.form
+        if before.verb.form == IMPLIED and before.result is None and trees(nodes, "state"):
+            return False  # "eggs in the fridge, then fridge shut"
+        draft = self._contrasted(before, nodes)
+        draft.verb.sentence, draft.verb.form = before.verb.sentence, before.verb.form
         self.drafts.append(draft)
         return True
 
