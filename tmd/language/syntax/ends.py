@@ -43,7 +43,7 @@ class ClauseEnds(Words):
         begin = self.past(at + 1, "CC* IDLE*")
         there = self.among(begin, "there_words") and self.kind(begin + 1) is K.AUX
         there = there or (self.among(begin - 1, "there_words") and self.kind(begin) is K.AUX)
-        subject = "(NP|OF|IDLE|CC|EXC)* (HEAD|NUM) (NP|OF|IDLE|CC|EXC)*"
+        subject = "(NP|OF|IDLE|CC|EXC)* (HEAD|NUM) (NP|OF|IDLE|CC|EXC)* (P NP+)?"  # "the mug on the shelf is dirty"
         return there or self.follows(at + 1, f"{subject} (AUX|FINITE|NEG AUX)")
 
     def _clause_end(self, at: int) -> int:

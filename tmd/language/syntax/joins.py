@@ -363,9 +363,9 @@ class _Particles(Words):
     def _particle(self, at: int) -> bool:
         verb, behind = self.tokens[at], False
         keeps = self.stem_among(at, "leaving", "keeping")
-        for place in range(
-            at + 1, min(at + _AHEAD, self.first(at + 1, "V|FINITE|LET|NEG|ENSURE|STOP|SUB|REL|EXC|CC AUX"))
-        ):
+        said = "(COMMA|CC) (NP|OF|P|IDLE)* AUX"  # "shut the window, the lamp should be off"
+        end = self.first(at + 1, f"V|FINITE|LET|NEG|ENSURE|STOP|SUB|REL|EXC|{said}")
+        for place in range(at + 1, min(at + _AHEAD, end)):
             token = self.tokens[place]
             if token.kind not in (K.P, K.ADV):
                 continue

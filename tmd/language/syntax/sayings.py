@@ -164,7 +164,8 @@ class Saying:
         if last in section("noticed") and trees(self.rest, "group"):
             self.subject = []  # what you see is there
             return True
-        return last in section("becoming") | section("staying") and bool(trees(self.rest, "state"))
+        settled = section("becoming") | section("staying") | section("postures")  # "that is lying open"
+        return last in settled and bool(trees(self.rest, "state"))
 
     def _helped(self, name: str) -> bool:
         """Return whether its last auxiliary is in a section of ``words.txt``."""
