@@ -41,7 +41,7 @@ from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE
 from tmd.pddl.model import hierarchy
-from tmd.pddl.task import Bits
+from tmd.pddl.task import Bits, Cube, Operator
 from tmd.world.world import World
 
 
@@ -147,7 +147,29 @@ class GoalReader:
         if placed is None and clause.setting in words_of("extremes"):
             plain, memory = replace(clause, setting=None), reading.memory
             return self.read(plain, reading.state, memory, awaited=reading.awaited, decisions=reading.decisions)
-        return placed or refusal
+        return placed or self._by_means(reading) or refusal
+
+    def _by_means(self, reading: ClauseReading) -> ClauseGoal | None:
+        """Return the goal without a place or tool that every action needs which brings it about.
+
+        *Warm the pie in the oven*, where only the oven warms it.
+        """
+        clause, world = reading.clause, self.world
+        for relation in clause.relations if clause.verb != BE else ():
+            means = frozenset(self.nouns.things(relation.target, reading.state))
+            if not means or relation.source not in (None, *clause.direct):
+                continue
+            others = tuple(r for r in clause.relations if r != relation)
+            objects = tuple(noun for noun in clause.objects if noun != relation.target)
+            plain = replace(clause, relations=others, objects=objects)
+            found = self.read(plain, reading.state, reading.memory, decisions=reading.decisions)
+            if isinstance(found, Refusal):
+                continue
+            literals = [part for cube in found.cubes for part in cube.literals() if not part.holds(reading.state)]
+            ways = [op for part in literals for op in world.task.operators if _brings_about(op, part)]
+            if ways and all(not means.isdisjoint(operator.instruction.args) for operator in ways):
+                return found
+        return None
 
     def _placed(self, reading: ClauseReading) -> ClauseGoal | None:
         """Return the goal of "put on the table", or "put the plate in", with what was spoken of; ``None`` for none."""
@@ -554,6 +576,12 @@ class GoalReader:
         near = ", ".join(map(words, nearest_verbs(clause.verb, known)))
         hint = f"the nearest known verbs are {near}" if near else "say what shall be different afterwards"
         return Refusal(RefusalKind.UNKNOWN_VERB, f"unknown verb '{words(clause.verb)}'", hint)
+
+
+def _brings_about(operator: Operator, part: Cube) -> bool:
+    """Return whether an action may make a literal true."""
+    effects = (operator.add, operator.delete), *((add, delete) for _, add, delete in operator.conditional)
+    return any(part.positive & add or part.negative & delete for add, delete in effects)
 
 
 def _of_gerund(noun: str) -> str:
