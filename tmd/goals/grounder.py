@@ -24,7 +24,6 @@ from tmd.pddl.model import (
     Not,
     Or,
     TypedName,
-    universe,
 )  # fmt: skip
 from tmd.pddl.semantics import bindings
 from tmd.pddl.task import Bits
@@ -65,7 +64,7 @@ class Grounder:
         self.world = world
         self.task = world.task
         self.exact = exact
-        self.objects = universe(world.task.problem)
+        self.objects = world.objects
         self._relatives: dict[str, tuple[tuple[str, ...], ...]] = {}
         self.known: dict[tuple[str, tuple[str, ...], tuple[int, ...]], tuple[int, Formula]] = {}
 

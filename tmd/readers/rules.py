@@ -83,7 +83,7 @@ class RuleReader:
         parsed = parse(request, _with_names(self._lexicon, world.profiles.objects, actions))
         if self._sources is None:
             return Dialogue(parsed)
-        tables = goal_tables(self._lexicon, world.task.problem.domain, self._learned, self._sources)
+        tables = goal_tables(self._lexicon, world.domain, self._learned, self._sources)
         return RuleDialogue(parsed, GoalReader(world, tables, self._lexicon, guess=self._guess), state)
 
     def objection(self, dialogue: Dialogue, plan: Sequence[Instruction], world: World) -> str | None:

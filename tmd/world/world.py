@@ -30,10 +30,16 @@ from tmd.world.verb_clause import VerbClause
 @short_repr(lambda world: world.name)
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
 class World:
-    """An environment, ready for grounding."""
+    """An environment, ready for grounding.
+
+    Attributes:
+        domain: Its domain, with the types that preconditions imply where it declares none.
+        objects: Its objects, by these types.
+    """
 
     name: str
     task: Task
+    domain: Domain
     objects: Universe
     profiles: Profiles
     mentions: Mentions
@@ -57,11 +63,12 @@ def make_world(
         kinds: For objects whose PDDL type says less than that, what kind of thing each is.
         costs: The costs of actions, where some differ.
     """
-    problem = with_inferred_types(replace(problem, goal=TRUE, minimize_cost=False, metric_location=None))
+    problem = replace(problem, goal=TRUE, minimize_cost=False, metric_location=None)
     problem = with_costs(problem, costs or {})
     task = ground(problem)
     profiles = Profiles(task)
-    return World(name, task, universe(problem), profiles, Mentions(profiles, lexicon, kinds))
+    typed = with_inferred_types(problem)
+    return World(name, task, typed.domain, universe(typed), profiles, Mentions(profiles, typed, lexicon, kinds))
 
 
 def run(world: World, state: Bits, instructions: Iterable[Instruction]) -> Bits:
@@ -84,21 +91,22 @@ class Mentions:
 
     Args:
         profiles: The environment's objects and their states.
+        problem: The environment, with types.
         lexicon: The domain's words.
         kinds: For objects whose PDDL type says less than that, what kind of thing each is.
     """
 
-    def __init__(self, profiles: Profiles, lexicon: Lexicon, kinds: Mapping[str, str] | None = None) -> None:
+    def __init__(
+        self, profiles: Profiles, problem: Problem, lexicon: Lexicon, kinds: Mapping[str, str] | None = None
+    ) -> None:
         self.profiles = profiles
         self.lexicon = lexicon
-        problem = profiles.task.problem
         types = hierarchy(problem.domain)
         told = _told_types(profiles.task, lexicon)
         # the classes that the domain knows, with objects here or without
         self.classes = frozenset(t.name for t in problem.domain.types).union(*told.values())
         self.types: Mapping[str, tuple[str, ...]] = {
-            o.name: _named_types(types.ancestors(o.types[0]), told.get(o.name, ()))
-            for o in problem.all_objects()
+            o.name: _named_types(types.ancestors(o.types[0]), told.get(o.name, ())) for o in problem.all_objects()
         }
         self._said_of = _names_in_predicates(problem.domain, lexicon)
         own = {name: types[0] for name, types in self.types.items()}

@@ -119,7 +119,7 @@ class Facts:
     def _is_never(self, word: str, name: str) -> bool:
         """Return whether a predicate is for such things, is named so, and holds of this one in no state."""
         kinds = {OBJECT, *self.world.mentions.types.get(name, ())}
-        domain = self.world.task.problem.domain
+        domain = self.world.domain
         unary = (p for p in domain.predicates if len(p.parameters) == 1 and not kinds.isdisjoint(p.parameters[0].types))
         return any(plain_words(p, hierarchy(domain)) == (word,) for p in unary)
 

@@ -60,7 +60,7 @@ class GoalReader:
         self.tables = tuple(tables)
         self.lexicon = lexicon
         self.guess = guess
-        self.domain = world.task.problem.domain
+        self.domain = world.domain
         self.grounder = Grounder(world)
         self.rows = self._row_reader(self.grounder)
         self.referents = self.rows.referents

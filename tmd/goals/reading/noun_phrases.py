@@ -174,7 +174,7 @@ class Nouns(Facts):
 
     @cached_property
     def _told(self) -> Mapping[str, frozenset[str]]:
-        return told_nouns(self.world.task.problem.domain)
+        return told_nouns(self.world.domain)
 
     def speaks_of(self, predicate: str, noun: str) -> bool:
         """Return whether a predicate, or an action that changes it, has a noun in its name."""
@@ -321,7 +321,7 @@ class Nouns(Facts):
 
     def _siblings(self, noun: str) -> tuple[str, ...]:
         """Return, for a guess, things of the same parent: where there is no kettle, other vessels."""
-        declared = {t.name: t.parent for t in self.world.task.problem.domain.types}
+        declared = {t.name: t.parent for t in self.world.domain.types}
         parents = [declared[name] for name in (noun, *self.lexicon.nouns.get(noun, ())) if name in declared]
         broad = set(declared.values()) - set(declared) | {declared.get(parent, "") for parent in parents}
         return tuple(n for n in self.world.profiles.objects if self._kinds(n).intersection(parents) - broad)

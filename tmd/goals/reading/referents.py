@@ -56,7 +56,7 @@ class Referents:
     ) -> None:
         self.world = world
         self.lexicon = lexicon
-        self.domain = world.task.problem.domain
+        self.domain = world.domain
         self.grounder = grounder
         self.nouns = Nouns(world, table, grounder, guess=guess)
 

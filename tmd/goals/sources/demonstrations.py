@@ -157,7 +157,7 @@ class _Learner:
     ) -> None:
         self.world_of = world_of
         self.lexicon = lexicon
-        self.domain = world_of(demonstrations[0].environment).task.problem.domain
+        self.domain = world_of(demonstrations[0].environment).domain
         self.shapes: dict[tuple[str, tuple[str, ...], bool], _Shape] = defaultdict(_Shape)
         self.dishes: dict[str, Counter[tuple[str, ...]]] = defaultdict(Counter)
         self.made: Counter[str] = Counter()
