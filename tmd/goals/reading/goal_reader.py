@@ -17,7 +17,7 @@ from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
 from tmd.goals.sources.actions import actor_types, participle, plain_words
-from tmd.goals.sources.table import ACTIONS, GoalTable
+from tmd.goals.sources.table import ACTIONS, GoalTable, atoms_in
 from tmd.goals.words import (
     BE,
     IT,
@@ -39,8 +39,8 @@ from tmd.goals.words import (
 from tmd.language.clause import AGENT, BRING, PERSONS, PUT, TO, Clause, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
-from tmd.pddl.ground_formula import TRUE
-from tmd.pddl.model import hierarchy
+from tmd.pddl.ground_formula import TRUE, disjunction
+from tmd.pddl.model import Or, hierarchy
 from tmd.pddl.task import Bits, Cube, Operator
 from tmd.world.world import World
 
@@ -112,7 +112,11 @@ class GoalReader:
         """Return what ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         decisions = decisions or Decisions()
         reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited, decisions=decisions)
-        told = self._by_anyone(self.referents.reattached(reading))
+        told = self.referents.reattached(reading)
+        plain = self._by_anyone(told)
+        if plain != told:
+            found = self.read(plain, state, memory, awaited=awaited, decisions=decisions)
+            return found if isinstance(found, Refusal) else self._by_whom(found, told, state)
         clause = reading.clause = self._with_states(self._of_oneself(told))
         lost = None if self.guess else lost_amount(clause)
         if lost is not None:
@@ -267,6 +271,20 @@ class GoalReader:
         relations = tuple(r for r in clause.relations if r.relation != AGENT)
         doing = {r.target for r in clause.relations} - {r.target for r in relations} - {*clause.direct}
         return replace(clause, relations=relations, objects=tuple(n for n in clause.objects if n not in doing))
+
+    def _by_whom(self, found: ClauseGoal, clause: Clause, state: Bits) -> ClauseGoal:
+        """Return a goal as far as it is about the thing that acts: "Nadia should start work at the pool"."""
+        agents = [r.target for r in clause.relations if r.relation == AGENT]
+        names = {name for noun in agents for name in self.nouns.things(noun, state)}
+        if not names:
+            return found
+        task = self.world.task
+        cubes = tuple(c for c in found.cubes if any(names & {*a.args} for a in task.names(c.positive | c.negative)))
+        if not cubes:
+            return replace(found, notes=(*found.notes, f"'{words(agents[0])}' says nothing here"))
+        parts = found.formula.parts if isinstance(found.formula, Or) else (found.formula,)
+        kept = [part for part in parts if any(names & {*atom.terms} for atom in atoms_in(part))]
+        return replace(found, formula=disjunction(kept), cubes=cubes)
 
     def _of_oneself(self, clause: Clause) -> Clause:
         """Return a clause with nothing left out, if its verb moves who acts: "take the car and sail to the isle"."""

@@ -111,7 +111,7 @@ class _Words:
         self.actors |= self._movers()
 
     def _movers(self) -> frozenset[str]:
-        """Return the type of the first parameter of most actions, if one of them moves such a thing.
+        """Return the type of the first parameter of most actions, if one of them moves such a thing or has it carry.
 
         What most actions have no other parameter beside is acted on: animals that are weighed, bandaged and woken.
         """
@@ -126,7 +126,13 @@ class _Words:
             for a in self.domain.actions
             for made, _ in _journeys(a)
         )
-        return frozenset({kind}) if moves else frozenset()
+        carries = any(
+            e.atom.terms[:1] == (a.parameters[0].name,) and kind in a.parameters[0].types and _is_held(e.atom.predicate)
+            for a in self.domain.actions
+            for e in a.effects
+            if a.parameters
+        )
+        return frozenset({kind}) if moves or carries else frozenset()
 
     def _kinds(self, parameter: TypedName) -> set[str]:
         return {kind for given in parameter.types for kind in self.types.ancestors(given)}
@@ -764,8 +770,14 @@ def participle(name: str) -> str | None:
 def _lasting(name: str) -> str | None:
     """Return the verb of which a name says that it goes on, *point* of ``pointing``; ``None`` for what is held."""
     stem, form, _ = builtin().verb(name) or ("", "", 0)
+    return stem if form in words_of("outcomes", "lasting") and not _is_held(name) else None
+
+
+def _is_held(predicate: str) -> bool:
+    """Return whether the name of a predicate begins with a verb of holding: *carry* of ``carries``."""
+    stem, _, _ = builtin().verb(split_name(predicate)[0]) or ("", "", 0)
     held = words_of("verbs", "carrying") | words_of("verbs", "holding")
-    return stem if form in words_of("outcomes", "lasting") and held.isdisjoint((stem, *family(stem))) else None
+    return not held.isdisjoint((stem, *family(stem)))
 
 
 def _done(name: str) -> str | None:

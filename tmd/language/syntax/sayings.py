@@ -12,6 +12,7 @@ from lark import Tree
 
 from tmd.language.clause import AGENT, BE, BRING, HAVE, OF, PUT, SET, WHERE, WITH, Mood, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import first_of, pairs, section
+from tmd.language.syntax.brackets import ALSO
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in
@@ -176,7 +177,14 @@ class Saying:
         return self._helped("be") or (not self._helped("having") and about_things(self.subject))
 
     def _states(self, attach: Attach) -> list[ClauseDraft]:
-        """Return a clause for each state: "should be shut, locked and dry"; but one for "open or shut"."""
+        """Return a clause for each state: "should be shut, locked and dry"; but one for "open or shut".
+
+        A place of its own is one more: "empty and in the shed".
+        """
+        apart = [n for n in trees(self.rest, "place") if next(leaves(n)).form == ALSO]
+        if apart and trees(self.rest, "state") and about_things(self.subject):
+            both: list[list[Node]] = [[n for n in self.rest if n not in apart], [*apart]]
+            return [draft for self.rest in both for draft in self._states(attach)]
         rest, listed = self.rest, trees(self.rest, "state")[:1]
         words = [leaf for node in listed for leaf in node.children if isinstance(leaf, Leaf)]
         states = [leaf for leaf in words if leaf.source.kind is Kind.STATE]
