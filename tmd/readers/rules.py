@@ -21,7 +21,7 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
 from tmd.goals.words import BE, is_condition, is_noun, is_pronoun, is_relation, is_verb, words_of
-from tmd.language.clause import PERSONS, PUT, Clause, Condition, Mood, Parsed, Quantifier, Skipped
+from tmd.language.clause import AGENT, PERSONS, PUT, Clause, Condition, Mood, Parsed, Quantifier, Skipped
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
 from tmd.language.lexicon.names import with_names
 from tmd.language.parser import NO_VERB, parse
@@ -150,8 +150,11 @@ class RuleDialogue(Dialogue):
         if isinstance(constraints, Refusal):
             return constraints
         self.steps = steps_of(parsed, use=not self._constraints.leaves_a_trace(USE))
-        told = (c for c in (*parsed.clauses, *parsed.stated) if c.mood is Mood.KEEP or c in parsed.stated)
-        named = (noun for clause in told for noun in clause.objects if not is_pronoun(noun))
+        kept = (noun for clause in parsed.clauses if clause.mood is Mood.KEEP for noun in clause.objects)
+        # "the shirt has lost a button": the shirt; but not where it is
+        agents = (r.target for said in parsed.stated for r in said.relations if r.relation == AGENT)
+        told = (*agents, *(noun for said in parsed.stated for noun in said.direct))
+        named = (noun for noun in (*kept, *told) if not is_pronoun(noun))
         spoken = tuple(dict.fromkeys(n for noun in named for n in self._goals.nouns.things(noun, state)[:1]))
         self.memory = _Progress(replace(memory, left=constraints.left, recent=spoken))
         self.constraints = PlanConstraints(constraints.never, constraints.kept, constraints.untouched)

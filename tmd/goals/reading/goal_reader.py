@@ -159,7 +159,7 @@ class GoalReader:
         *Warm the pie in the oven*, where only the oven warms it.
         """
         clause, world = reading.clause, self.world
-        for relation in clause.relations if clause.verb != BE else ():
+        for relation in () if clause.verb == BE or clause.implied else clause.relations:
             means = frozenset(self.nouns.things(relation.target, reading.state))
             if not means or relation.source not in (None, *clause.direct):
                 continue

@@ -114,6 +114,7 @@ class Nouns(Facts):
         self.mentions = world.mentions
         self.lexicon = world.mentions.lexicon
         self.guess = guess
+        self._having: dict[str, tuple[str, ...]] = {}
 
     @cached_property
     def places(self) -> frozenset[str]:
@@ -161,6 +162,12 @@ class Nouns(Facts):
 
     def _with_part(self, noun: str) -> tuple[str, ...]:
         """Return the things that a part is only told of: rooms, for *doors*, where ``door_open`` is said of rooms."""
+        known = self._having.get(noun)
+        if known is None:
+            known = self._having[noun] = self._told_with_part(noun)
+        return known
+
+    def _told_with_part(self, noun: str) -> tuple[str, ...]:
         facts = {
             name: [f for f in self.facts_about(name) if self.tells_of(noun, f, name)]
             for name in self.world.profiles.objects

@@ -232,7 +232,8 @@ class Saying:
         named = about_things(self.subject)
         about = self.subject if named else [n for n in self.subject if not is_a(n, "group")]
         owned = named and bool(trees(self.rest, "group"))
-        acting = named_in(self.subject) if owned and verb.stem not in section("wishing") else []
+        subject = named_in(self.subject) if owned and verb.stem not in section("wishing") else []
+        acting = [phrase for phrase in subject if not phrase.pronoun]
         attach(draft, [] if owned else about, self.rest)
         draft.landmarks += acting
         draft.relations += [Relation(AGENT, draft.direct[-1].name if draft.direct else None, p.name) for p in acting]
