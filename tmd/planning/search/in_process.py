@@ -81,7 +81,10 @@ class OptimalSearch:
         return 0 if any(cube.holds(state) for cube in goal) else self._run(state, tuple(goal), 0)[1]
 
     def _run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, int, tuple[int, ...]]:
-        """Ask the kernel, and change to the compiled one when it is time."""
+        """Ask the kernel, and change to the compiled one when it is time, or another search has loaded that."""
+        if self._patience > 0 and loaded():
+            self._patience = 0
+            self._kernel = self._made(self.backend)
         if self._patience > 0:
             small = min(cap, self._patience)
             result = self._kernel.run(state, cubes, small)
