@@ -120,7 +120,8 @@ class _Typed:
             for part in walk((action.precondition, action.effects)):
                 if isinstance(part, Atom):
                     for place, term in enumerate(part.terms):
-                        used.setdefault((part.predicate, place), set()).add(self._kind(term, kinds))
+                        if kinds.get(term) != OBJECT:  # a parameter of which no type is required tells none
+                            used.setdefault((part.predicate, place), set()).add(self._kind(term, kinds))
         for atom in problem.init:
             for place, name in enumerate(atom.args):
                 used.setdefault((atom.predicate, place), set()).add(self._kind(name, {}))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import chain
@@ -126,19 +126,43 @@ class GoalReader:
             found = self.read(self._settled(clause), state, memory, decisions=decisions)
             if not isinstance(found, Refusal) or any(is_relation(r.relation, "place") for r in clause.relations):
                 return found  # "mug on the table" says where it shall be
-        treated = (
+        treated = self._as_known(clause)
+        if treated is not None:
+            return self.read(treated, state, memory, decisions=decisions)
+        if self._is_state(clause):
+            return self._state(reading)
+        found = self._by_tables(self._own_verbs(clause), reading)
+        return self._read_again(reading, found) if isinstance(found, Refusal) else self._with_tools(found, reading)
+
+    def _as_known(self, clause: Clause) -> Clause | None:
+        """Return a clause in another form of words that the domain knows; ``None`` where there is none."""
+        return (
             self._undone(clause)
             or self._modified(clause)
             or self._treated(clause)
             or self._dative(clause)
             or self._phrasal(clause)
         )
-        if treated is not None:
-            return self.read(treated, state, memory, decisions=decisions)
-        if self._is_state(clause):
-            return self._state(reading)
-        found = self._by_tables(self._own_verbs(clause), reading)
-        return self._read_again(reading, found) if isinstance(found, Refusal) else found
+
+    def _with_tools(self, found: ClauseGoal, reading: ClauseReading) -> ClauseGoal:
+        """Return a goal with a warning for each thing that is to be used, and that no action for the goal uses."""
+        notes = []
+        for relation in reading.clause.relations:
+            tools = self.nouns.things(relation.target, reading.state) if is_relation(relation.relation, "tool") else ()
+            used = chain(self._in_goal(found), self._ways(found, reading.state))
+            if tools and not any(set(tools) & names for names in used):
+                notes.append(f"'{words(relation.relation)} {words(relation.target)}' says nothing here")
+        return replace(found, notes=tuple(dict.fromkeys((*found.notes, *notes)))) if notes else found
+
+    def _in_goal(self, found: ClauseGoal) -> Iterator[set[str]]:
+        """Yield the things of each cube of a goal."""
+        task = self.world.task
+        yield from ({n for a in task.names(c.positive | c.negative) for n in a.args} for c in found.cubes)
+
+    def _ways(self, found: ClauseGoal, state: Bits) -> Iterator[set[str]]:
+        """Yield the things of each action that brings about a part of a goal."""
+        for part in (part for cube in found.cubes for part in cube.literals() if not part.holds(state)):
+            yield from ({*op.instruction.args} for op in self.world.task.operators if _brings_about(op, part))
 
     def _read_again(self, reading: ClauseReading, refusal: Refusal) -> ClauseGoal | Refusal:
         """Return what a clause asks for that no row understands as it was said."""
@@ -158,7 +182,7 @@ class GoalReader:
 
         *Warm the pie in the oven*, where only the oven warms it.
         """
-        clause, world = reading.clause, self.world
+        clause = reading.clause
         for relation in () if clause.verb == BE or clause.implied else clause.relations:
             means = frozenset(self.nouns.things(relation.target, reading.state))
             if not means or relation.source not in (None, *clause.direct):
@@ -169,9 +193,8 @@ class GoalReader:
             found = self.read(plain, reading.state, reading.memory, decisions=reading.decisions)
             if isinstance(found, Refusal):
                 continue
-            literals = [part for cube in found.cubes for part in cube.literals() if not part.holds(reading.state)]
-            ways = [op for part in literals for op in world.task.operators if _brings_about(op, part)]
-            if ways and all(not means.isdisjoint(operator.instruction.args) for operator in ways):
+            ways = list(self._ways(found, reading.state))
+            if ways and all(not means.isdisjoint(names) for names in ways):
                 return found
         return None
 
@@ -278,8 +301,7 @@ class GoalReader:
         names = {name for noun in agents for name in self.nouns.things(noun, state)}
         if not names:
             return found
-        task = self.world.task
-        cubes = tuple(c for c in found.cubes if any(names & {*a.args} for a in task.names(c.positive | c.negative)))
+        cubes = tuple(c for c, said in zip(found.cubes, self._in_goal(found), strict=True) if names & said)
         if not cubes:
             return replace(found, notes=(*found.notes, f"'{words(agents[0])}' says nothing here"))
         parts = found.formula.parts if isinstance(found.formula, Or) else (found.formula,)

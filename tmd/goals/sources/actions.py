@@ -121,18 +121,25 @@ class _Words:
         alone = sum(len(a.parameters) == 1 for a in self.domain.actions)
         if twice or 4 * count < 3 * len(self.domain.actions) or 2 * alone >= len(self.domain.actions):
             return frozenset()
-        moves = any(
+        return frozenset({kind}) if self._goes(kind) or self._carries(kind) else frozenset()
+
+    def _goes(self, kind: str) -> bool:
+        """Return whether an action moves a thing of a type that comes first, and does not say that it is carried."""
+        return any(
             a.parameters[0].name in made.terms and kind in a.parameters[0].types
             for a in self.domain.actions
+            if split_name(a.name)[0] not in words_of("verbs", "transporting")
             for made, _ in _journeys(a)
         )
-        carries = any(
+
+    def _carries(self, kind: str) -> bool:
+        """Return whether a thing of a type that comes first carries something."""
+        return any(
             e.atom.terms[:1] == (a.parameters[0].name,) and kind in a.parameters[0].types and _is_held(e.atom.predicate)
             for a in self.domain.actions
             for e in a.effects
             if a.parameters
         )
-        return frozenset({kind}) if moves or carries else frozenset()
 
     def _kinds(self, parameter: TypedName) -> set[str]:
         return {kind for given in parameter.types for kind in self.types.ancestors(given)}

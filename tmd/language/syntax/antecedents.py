@@ -378,12 +378,17 @@ def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
     mentions = [_Mention(name, False, 0) for name in elided]
     mentions += [m for phrase in direct for m in _acted_on(phrase, clause, spread)]
     mentions += [m for landmark in draft.landmarks for m in _landmark(landmark, clause)]
-    agents = {r.target for r in clause.relations if r.relation == AGENT}
-    acting = [p for p in draft.landmarks if p.name in agents]
-    several = acting if len(acting) > 1 else direct  # "the fern and the ivy need water; give them some"
+    several = _acting(draft, clause) or direct
     together = [*(name for phrase in several for name in _meant(phrase, clause)), *elided]
     named = tuple(m for m in mentions if _is_name(m.name))
     return _Scene(named, tuple(dict.fromkeys(filter(_is_name, together))), draft.verb.span.start)
+
+
+def _acting(draft: ClauseDraft, clause: Clause) -> list[Phrase]:
+    """Return several things that do something together: "the fern and the ivy need water; give them some"."""
+    agents = {r.target for r in clause.relations if r.relation == AGENT}
+    acting = [p for p in draft.landmarks if p.name in agents]
+    return acting if len(acting) > 1 else []
 
 
 def _is_name(name: str) -> bool:

@@ -177,14 +177,15 @@ class Saying:
         return self._helped("be") or (not self._helped("having") and about_things(self.subject))
 
     def _states(self, attach: Attach) -> list[ClauseDraft]:
-        """Return a clause for each state: "should be shut, locked and dry"; but one for "open or shut".
-
-        A place of its own is one more: "empty and in the shed".
-        """
+        """Return a clause for each state, and one for a place of its own: "empty and in the shed"."""
         apart = [n for n in trees(self.rest, "place") if next(leaves(n)).form == ALSO]
-        if apart and trees(self.rest, "state") and about_things(self.subject):
-            both: list[list[Node]] = [[n for n in self.rest if n not in apart], [*apart]]
-            return [draft for self.rest in both for draft in self._states(attach)]
+        if not (apart and trees(self.rest, "state") and about_things(self.subject)):
+            return self._each_state(attach)
+        both: list[list[Node]] = [[n for n in self.rest if n not in apart], [*apart]]
+        return [draft for self.rest in both for draft in self._each_state(attach)]
+
+    def _each_state(self, attach: Attach) -> list[ClauseDraft]:
+        """Return a clause for each state: "should be shut, locked and dry"; but one for "open or shut"."""
         rest, listed = self.rest, trees(self.rest, "state")[:1]
         words = [leaf for node in listed for leaf in node.children if isinstance(leaf, Leaf)]
         states = [leaf for leaf in words if leaf.source.kind is Kind.STATE]
