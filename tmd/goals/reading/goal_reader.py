@@ -154,6 +154,14 @@ class GoalReader:
                 notes.append(f"'{words(relation.relation)} {words(relation.target)}' says nothing here")
         return replace(found, notes=tuple(dict.fromkeys((*found.notes, *notes)))) if notes else found
 
+    def _means(self, relation: Relation, reading: ClauseReading) -> frozenset[str]:
+        """Return the things that a relation may name as a place or tool of what is done; none for what is acted on."""
+        direct = reading.clause.direct
+        if relation.source not in (None, *direct):
+            return frozenset()
+        acted_on = {name for noun in direct for name in self.nouns.things(noun, reading.state)}
+        return frozenset(self.nouns.things(relation.target, reading.state)) - acted_on
+
     def _in_goal(self, found: ClauseGoal) -> Iterator[set[str]]:
         """Yield the things of each cube of a goal."""
         task = self.world.task
@@ -183,18 +191,15 @@ class GoalReader:
         *Warm the pie in the oven*, where only the oven warms it.
         """
         clause = reading.clause
-        for relation in () if clause.verb == BE or clause.implied else clause.relations:
-            means = frozenset(self.nouns.things(relation.target, reading.state))
-            if not means or relation.source not in (None, *clause.direct):
-                continue
+        placed = clause.verb == BE or clause.implied or clause.verb in section("placing")
+        for relation in () if placed else clause.relations:
+            means = self._means(relation, reading)
             others = tuple(r for r in clause.relations if r != relation)
             objects = tuple(noun for noun in clause.objects if noun != relation.target)
             plain = replace(clause, relations=others, objects=objects)
-            found = self.read(plain, reading.state, reading.memory, decisions=reading.decisions)
-            if isinstance(found, Refusal):
-                continue
-            ways = list(self._ways(found, reading.state))
-            if ways and all(not means.isdisjoint(names) for names in ways):
+            found = self.read(plain, reading.state, reading.memory, decisions=reading.decisions) if means else None
+            ways = list(self._ways(found, reading.state)) if isinstance(found, ClauseGoal) else []
+            if isinstance(found, ClauseGoal) and ways and all(not means.isdisjoint(names) for names in ways):
                 return found
         return None
 

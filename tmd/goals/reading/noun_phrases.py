@@ -135,7 +135,7 @@ class Nouns(Facts):
         As a ``place`` a noun is not a group: rubbish goes in the trash, and is not what the trash is. With ``types`` it
         is the likeliest of the readings that fit them.
         """
-        if is_noun(noun, "everything") and noun not in self.mentions.classes:
+        if is_noun(noun, "everything") and noun not in self.mentions.kinds.values():
             return self.world.profiles.objects
         head, _, vague = noun.rpartition("_")
         if head and vague in section("vague_heads") and (of_head := self.things(head, state, place=place, types=types)):
