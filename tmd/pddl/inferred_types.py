@@ -29,12 +29,14 @@ _UNTYPED = (OBJECT,)
 
 
 def with_inferred_types(problem: Problem) -> Problem:
-    """Return an untyped problem with types; a problem with types as it is."""
+    """Return an untyped problem with types; a problem with types, or without such predicates, as it is."""
     domain = problem.domain
     if domain.types or any(p.types != _UNTYPED for a in domain.actions for p in a.parameters):
         return problem
     extents = _extents(problem)
     required = {kind for action in domain.actions for kind in _required(action, extents).values()}
+    if not required:
+        return problem
     types = _declared({kind: extents[kind] for kind in required | _dividing(required, extents)})
     kinds = {name: kind for kind in types for name in extents[kind]}  # the narrowest comes last
     typed = _Typed(types, extents, kinds)
@@ -116,15 +118,15 @@ class _Typed:
         """Return the predicates with the narrowest types that all their uses have."""
         used: dict[tuple[str, int], set[str]] = {}
         for action in actions:
-            kinds = {p.name: p.types[0] for p in action.parameters}
-            for part in walk((action.precondition, action.effects)):
-                if isinstance(part, Atom):
-                    for place, term in enumerate(part.terms):
-                        if kinds.get(term) != OBJECT:  # a parameter of which no type is required tells none
-                            used.setdefault((part.predicate, place), set()).add(self._kind(term, kinds))
-        for atom in problem.init:
-            for place, name in enumerate(atom.args):
-                used.setdefault((atom.predicate, place), set()).add(self._kind(name, {}))
+            kinds = {**self.kinds, **{p.name: p.types[0] for p in action.parameters}}
+            for atom in (part for part in walk((action.precondition, action.effects)) if isinstance(part, Atom)):
+                for place, term in enumerate(atom.terms):
+                    kind = kinds.get(term, OBJECT)
+                    if kind != OBJECT or not term.startswith("?"):  # a variable without a type tells none
+                        used.setdefault((atom.predicate, place), set()).add(kind)
+        for fact in problem.init:
+            for place, name in enumerate(fact.args):
+                used.setdefault((fact.predicate, place), set()).add(self.kinds.get(name, OBJECT))
         types = hierarchy(replace(domain, types=tuple(TypeDeclaration(k, p) for k, p in self.types.items())))
 
         def common(kinds: Iterable[str]) -> str:
@@ -141,7 +143,3 @@ class _Typed:
             )
             for p in domain.predicates
         )
-
-    def _kind(self, term: str, parameters: Mapping[str, str]) -> str:
-        """Return the type of a parameter, a constant or an object; that of a quantified variable is not known."""
-        return parameters.get(term) or self.kinds.get(term, OBJECT)

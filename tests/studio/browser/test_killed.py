@@ -30,7 +30,7 @@ def corpus(served: Served, task: str) -> list[dict[str, object]]:
 
 
 def test_killed_in_the_middle(table_studio: Served, browser: Browser) -> None:
-    with visiting(browser, table_studio) as page:
+    with visiting(browser, table_studio, 360, 420) as page:
         begin(page, "Put the cup on the shelf.")
         do(page, *STEPS[0], 1)
         press(page, "Save (K)")

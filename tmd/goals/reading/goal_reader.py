@@ -145,7 +145,7 @@ class GoalReader:
         )
 
     def _with_tools(self, found: ClauseGoal, reading: ClauseReading) -> ClauseGoal:
-        """Return a goal with a warning for each thing that is to be used, and that no action for the goal uses."""
+        """Return a goal with a warning for each tool that no action for the goal uses."""
         notes = []
         for relation in reading.clause.relations:
             tools = self.nouns.things(relation.target, reading.state) if is_relation(relation.relation, "tool") else ()
@@ -186,7 +186,7 @@ class GoalReader:
         return placed or self._by_means(reading) or refusal
 
     def _by_means(self, reading: ClauseReading) -> ClauseGoal | None:
-        """Return the goal without a place or tool that every action needs which brings it about.
+        """Return the goal of a clause with a place or tool that every action for it needs; ``None`` for others.
 
         *Warm the pie in the oven*, where only the oven warms it.
         """

@@ -111,7 +111,7 @@ class _Words:
         self.actors |= self._movers()
 
     def _movers(self) -> frozenset[str]:
-        """Return the type of the first parameter of most actions, if one of them moves such a thing or has it carry.
+        """Return the type of the first parameter of most actions, if such things move or carry something.
 
         What most actions have no other parameter beside is acted on: animals that are weighed, bandaged and woken.
         """
@@ -124,7 +124,7 @@ class _Words:
         return frozenset({kind}) if self._goes(kind) or self._carries(kind) else frozenset()
 
     def _goes(self, kind: str) -> bool:
-        """Return whether an action moves a thing of a type that comes first, and does not say that it is carried."""
+        """Return whether the first parameter of an action, if it is of a type, goes to another place by itself."""
         return any(
             a.parameters[0].name in made.terms and kind in a.parameters[0].types
             for a in self.domain.actions
@@ -133,7 +133,7 @@ class _Words:
         )
 
     def _carries(self, kind: str) -> bool:
-        """Return whether a thing of a type that comes first carries something."""
+        """Return whether the first parameter of an action, if it is of a type, carries something."""
         return any(
             e.atom.terms[:1] == (a.parameters[0].name,) and kind in a.parameters[0].types and _is_held(e.atom.predicate)
             for a in self.domain.actions

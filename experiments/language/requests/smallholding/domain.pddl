@@ -1,4 +1,4 @@
-(define (domain farm)
+(define (domain smallholding)
 (:requirements :strips :typing)
 (:types loc tractor tool crop - object field - loc)
 (:predicates

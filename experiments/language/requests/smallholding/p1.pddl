@@ -1,5 +1,5 @@
-(define (problem farm-2-3-5)
-(:domain farm)
+(define (problem smallholding-2-3-5)
+(:domain smallholding)
 (:objects
  tractor1 tractor2 - tractor
  plough1 drill1 reaper1 - tool
