@@ -554,8 +554,10 @@ class _Improvement:
         return plan
 
     def _with_windows(self, plan: Plan) -> Plan:
-        """Return the plan with short parts replaced by shorter ones that lead to what the rest relies on."""
+        """Return the plan with its parts, and short pieces of them, replaced by shorter ones for what the rest relies on."""
         for place in range(len(plan)):
+            if self.setup.orderly and not plan[place].need.fixed:
+                plan = self._with_window(plan, place, 0, len(plan[place].instructions), _END_CAP)
             at = 0
             while not plan[place].need.fixed and at < len(plan[place].instructions):
                 plan = self._with_window(plan, place, at)

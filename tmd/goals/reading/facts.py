@@ -20,7 +20,7 @@ from tmd.goals.words import (
     words_of,
 )
 from tmd.language.lexicon.lexicon import section
-from tmd.language.lexicon.names import split_name, words_in_name
+from tmd.language.lexicon.names import split_name, states_in_name, words_in_name
 from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
 from tmd.pddl.model import OBJECT, Atom, Formula, GroundAtom, hierarchy
 from tmd.pddl.task import Bits
@@ -138,7 +138,7 @@ class Facts:
         others = [a for a in atom.args if a != name]
         if others == [word] and (self.is_constant(word) or self._is_value(word, name)):
             return True
-        return word in words_in_name(atom.predicate) and all(map(self.is_constant, others))
+        return word in states_in_name(atom.predicate) and all(map(self.is_constant, others))
 
     def _is_value(self, word: str, name: str) -> bool:
         """Return whether an object says how another one is: "blue" of (painted table blue), but no block of another."""

@@ -19,7 +19,7 @@ from itertools import chain, permutations, product
 from tmd.goals.sources.table import ACTIONS, FIRST, MARK, WAS, GoalRow, GoalTable, Slot
 from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, words_of
 from tmd.language.lexicon.lexicon import builtin, section, singular
-from tmd.language.lexicon.names import split_name, words_in_name
+from tmd.language.lexicon.names import split_name, states_in_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import conjunction, disjunction
 from tmd.pddl.model import (
@@ -168,8 +168,8 @@ class _Words:
     @cached_property
     def _sites(self) -> frozenset[str]:
         """The types of the places where things are: of the last of two parameters of ``at`` or ``located-in``."""
-        words = {*chain.from_iterable(PREPOSITIONS.values()), *words_of("located")}
-        located = (p for p in self.domain.predicates if len(p.parameters) == 2 and words_in_name(p.name) <= words)
+        words = {*chain.from_iterable(PREPOSITIONS.values()), *words_of("located"), *section("be")}
+        located = (p for p in self.domain.predicates if len(p.parameters) == 2 and words.issuperset(split_name(p.name)))
         return frozenset(chain.from_iterable(p.parameters[-1].types for p in located))
 
     def told(self) -> Mapping[str, frozenset[str]]:
@@ -271,7 +271,7 @@ class _Words:
         if not 0 < len(things) <= 1 + any_value:
             return None
         values = [p for p in predicate.parameters if self.valued(p)]
-        named = word in words_in_name(predicate.name)
+        named = word in states_in_name(predicate.name)
         chosen = {p.name: word for p in values if word in self.fixed(p)}
         if not chosen and (not named or (values and not any_value)):
             return None
@@ -590,7 +590,8 @@ class _Words:
             noun = "" if shortened or not wanted else self._noun_in(action, words)
             if noun:
                 yield from self._with_noun(action, words, noun, wanted, alone=firsts.count(words[:1]) == 1)
-                verbs = tuple(verb for verb in verbs if verb != words[0])
+                if noun not in words_of("parts"):  # "lock the hall" is to lock its door
+                    verbs = tuple(verb for verb in verbs if verb != words[0])
             if wanted:
                 yield from self._with_slots(action, verbs, wanted)
             else:

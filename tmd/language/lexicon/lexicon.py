@@ -50,6 +50,13 @@ def _english() -> frozenset[str]:
     return frozenset(data_text("wordnet_words.txt.gz").split())
 
 
+@cache
+def compound_nouns() -> frozenset[str]:
+    """Return the things that WordNet knows by several words: ``sports_car``."""
+    words = (word.rpartition(".")[0] for word in data_text("wordnet_nouns.txt.gz").split())
+    return frozenset(word for word in words if "_" in word)
+
+
 @short_repr(lambda declared: f"{declared.pattern}: {declared.condition}")
 @dataclass(frozen=True, slots=True)
 class Declared:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from tmd.language.lexicon.lexicon import Lexicon, builtin, section
+from tmd.language.lexicon.lexicon import Lexicon, builtin, compound_nouns, section
 
 _CAMEL = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 # A shorter name is a word or an abbreviation; a word in it has two letters or more ("robotat").
@@ -32,8 +32,8 @@ def split_name(name: str) -> tuple[str, ...]:
 def _joined_words(name: str) -> tuple[str, ...]:
     """Return the words that a name without separators is made of, or the name itself.
 
-    Of several ways, the fewest words win, and among those one that ends in a preposition ("planeat"), and then the one
-    whose shortest word is the longest.
+    Of several ways, the fewest words win, and among those a compound noun of WordNet ("sportscar"), then one that ends
+    in a preposition ("planeat"), and then the one whose shortest word is the longest.
     """
     words = builtin()
     if (len(name) < _JOINED_LENGTH and not _is_short_sentence(name, words)) or not name.isalpha() or words.knows(name):
@@ -42,7 +42,11 @@ def _joined_words(name: str) -> tuple[str, ...]:
     for count in range(2, _MOST_WORDS + 1):
         found = _ways(name, count, words)
         if found:
-            return max(found, key=lambda way: (way[-1] in ends, min(map(len, way)), tuple(map(len, way))))
+            compounds = compound_nouns() if len(found) > 1 else ()
+            return max(
+                found,
+                key=lambda way: ("_".join(way) in compounds, way[-1] in ends, min(map(len, way)), tuple(map(len, way))),
+            )
     return (name,)
 
 
@@ -67,6 +71,12 @@ def words_in_name(name: str) -> frozenset[str]:
     parts = split_name(name)
     ends = range(1, len(parts) + 1)
     return frozenset({name, *("_".join(parts[begin:end]) for end in ends for begin in range(end))})
+
+
+def states_in_name(name: str) -> frozenset[str]:
+    """Return the words of a name that may say how something is: ``lights_on`` has *on*, and ``on_shelf`` has not."""
+    places = section("particles").intersection(split_name(name)[:-1])
+    return words_in_name(name) - places
 
 
 def with_names(lexicon: Lexicon, objects: Sequence[str], actions: Sequence[str]) -> Lexicon:
