@@ -164,13 +164,19 @@ class Requirements:
         # "water in the glass on the table" is not the cup of water that is somewhere else
         poured = thing and is_relation(said.relation, "inside") and self.nouns.substances(said.referent.noun)
         never = never or (bool(poured) and set(said.names).isdisjoint(said.referent.names))
+        if not (inside or said.relation in words_of("relations", "origin")) and thing and self._never(said):
+            said.reading.notes.append(self._says_nothing(said))  # "the lamp at the sofa", of the ceiling lamp
         return [lambda _: FALSE] if never else []  # no kettle is heated in the microwave
 
     def _beside_place(self, said: _Said) -> list[Requirement] | None:
         if said.relation not in PREPOSITIONS["next_to"] or not self._never(said):
             return None
-        said.reading.notes.append(f"'{words(said.relation)} {words(said.target)}' says nothing here")
+        said.reading.notes.append(self._says_nothing(said))
         return []
+
+    @staticmethod
+    def _says_nothing(said: _Said) -> str:
+        return f"'{words(said.relation)} {words(said.target)}' says nothing here"
 
     # ------------------------------------------------------------------ conditions
 

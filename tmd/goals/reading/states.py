@@ -12,7 +12,7 @@ from tmd.goals.reading.referents import ANY_TYPE, Referents
 from tmd.goals.sources.table import GoalRow, Slot
 from tmd.goals.words import BE, IT, NEGATED, is_noun, is_pronoun, is_relation, is_verb, the_word
 from tmd.language.clause import PERSONS, Relation
-from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction
+from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction, negation
 from tmd.pddl.model import Atom, Formula
 from tmd.world.world import CONTAINED
 
@@ -131,7 +131,7 @@ class States:
                 continue
             ends = self._ends(name, relation, target, reading)
             if ends or not is_relation(relation, "benefit"):  # "for my mother"
-                yield self._related(name, relation, ends, reading)
+                yield self._stands(name, relation, ends, reading)
 
     def _called_by(
         self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading
@@ -176,6 +176,11 @@ class States:
         things = [formula for formula in related if formula != TRUE]
         return disjunction((*things, *(contents if is_relation(relation, "inside") else ())))
 
+    def _stands(self, thing: str, relation: str, places: Sequence[str], reading: ClauseReading) -> Formula:
+        """Return that a thing is at one of some places; that it is at none of those it is out of."""
+        there = self._related(thing, relation, places, reading)
+        return negation(there) if is_relation(relation, "origin") else there
+
     def _related(self, thing: str, relation: str, places: Sequence[str], reading: ClauseReading) -> Formula:
         return disjunction(self.nouns.related(relation, thing, p, reading.moments) for p in places if p != thing)
 
@@ -192,7 +197,7 @@ class States:
         contained = self._contained(constants, fixed=bool(targets) or not adjectives)
         ways = []
         for thing, held in contained:
-            placed = [TRUE if thing in names else self._related(thing, r, names, reading) for r, names in targets]
+            placed = [TRUE if thing in names else self._stands(thing, r, names, reading) for r, names in targets]
             said = [self.nouns.attribute(word, thing, reading.moments) for word in adjectives]
             told = [f for f in said if f is not None]
             if thing in (known or (thing,)) and FALSE not in placed and len(told) == len(said):

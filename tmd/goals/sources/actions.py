@@ -637,8 +637,9 @@ class _Words:
         wanted = [p.name for p in action.parameters if not self.actor(p)]
         settled = (e for e in action.effects if not e.parameters and e.condition == And())
         own = [e for e in settled if set(e.atom.terms) & set(wanted) and e.atom.predicate not in self.passing]
-        if not own:
-            return []
+        named = _outcome(action, own)
+        if named or not own:
+            return named
         chosen = self._main_effects(action, own, wanted[0])
         # what only this action brings about says what it is for: to harvest is to pick, not to hold
         fewest = min((self._makers(e) for e in chosen), default=0)
@@ -723,6 +724,17 @@ def _naming(noun: str, action: ActionSchema) -> list[Effect]:
     """Return the effects of an action with a noun in the name of their predicate: ``bed_made``, of ``make_bed``."""
     settled = (e for e in action.effects if not e.parameters and e.condition == And())
     return [e for e in settled if noun in map(singular, words_in_name(e.atom.predicate))]
+
+
+def _outcome(action: ActionSchema, effects: Sequence[Effect]) -> list[Effect]:
+    """Return the effects that the verb of an action's name speaks of: who washes a car wants it clean, and not wet."""
+    verb = split_name(action.name)[0]
+    said = {word for word in results(verb) if participle(word.removeprefix("-")) != verb}
+    return [
+        effect
+        for effect in effects
+        if any(w.startswith("-") != effect.positive and w.removeprefix("-") in words_in_name(effect.atom.predicate) for w in said)
+    ]
 
 
 def _by_sign(effects: Sequence[Effect]) -> tuple[list[Effect], list[Effect]]:

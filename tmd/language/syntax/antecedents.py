@@ -80,7 +80,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
     for index, draft in enumerate(reading.drafts):
         tell(index)
         clause = draft.clause(reading.text)
-        conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
+        conditions = tuple(_condition(c, draft, clause, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
         scenes += [_alone(c) for condition in conditions if condition.word != TO for c in condition.clauses]
         hosts = [draft.host] if draft.host is not None else []
@@ -88,12 +88,34 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         # of "boil it (wash the pot first)" the pot is done first, and mentioned later
         known = [scene for scene in scenes if scene.at <= draft.verb.span.start] or scenes
         clause = _resolved(clause, draft, [*known, *(_scene(host, host.clause(reading.text)) for host in hosts)])
+        for fact in tuple(facts.values()):
+            clause = _spelled_out(clause, fact)
         clause = replace(clause, stated=(*clause.stated, *_stated(clause, facts)))
         clauses.append(_missing_state(clause))
         scenes.append(_scene(draft, clause))
     tell(len(reading.drafts))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]
     return tuple(clauses), tuple(forbidden), tuple(stated)
+
+
+def _spelled_out(clause: Clause, known: Clause) -> Clause:
+    """Return a clause with a pronoun replaced by what another clause calls its antecedent: "the gate of pen 3"."""
+    for pronoun in clause.objects:
+        noun = clause.antecedents.get(pronoun, ("",))[0]
+        phrase = known.phrase(noun)
+        wholes = tuple(r for r in known.relations if r.source == noun and r.relation == OF)
+        single = pronoun in section("singular_pronouns") and not phrase.plural
+        renamed = clause.renamed(pronoun, noun)
+        if single and noun in known.direct and (wholes or phrase.attributes) and renamed is not clause:
+            further = (r.target for r in wholes if r.target not in renamed.objects)
+            clause = replace(
+                renamed,
+                objects=(*renamed.objects, *further),
+                relations=(*renamed.relations, *wholes),
+                antecedents={name: meant for name, meant in renamed.antecedents.items() if name != noun},
+                phrases={**renamed.phrases, noun: phrase},
+            )
+    return clause
 
 
 def _missing_state(clause: Clause) -> Clause:
@@ -275,7 +297,7 @@ def _named(clause: Clause) -> list[str]:
     return [name for name in dict.fromkeys(names) if name and not is_pronoun(name) and name not in section("pronouns")]
 
 
-def _condition(condition: Condition, draft: ClauseDraft, scenes: list[_Scene]) -> Condition:
+def _condition(condition: Condition, draft: ClauseDraft, owner: Clause, scenes: list[_Scene]) -> Condition:
     """Return a condition with the antecedents of its pronouns: from the clauses before, or from its own."""
     ahead = () if draft.fronted else tuple(p.name for p in draft.direct if not p.pronoun)
     recent = [name for name, _ in _scored(scenes[-_REACH:][::-1], set(), draft)]
@@ -289,9 +311,10 @@ def _condition(condition: Condition, draft: ClauseDraft, scenes: list[_Scene]) -
     def filled(clause: Clause) -> Clause:
         own = [n for n in clause.objects if is_pronoun(n)]
         found = {n: _agreeing(n, same.get(n, names), many) for n in own if names}
-        return replace(
+        clause = replace(
             clause, antecedents={**clause.antecedents, **found}, together={**clause.together, **dict.fromkeys(own, 1)}
         )
+        return clause if draft.fronted else _spelled_out(clause, owner)
 
     return replace(condition, clauses=tuple(filled(clause) for clause in condition.clauses))
 

@@ -291,6 +291,8 @@ class TextReading:
             if purpose and not draft.direct and draft.verb.stem in section("happening"):
                 draft.direct.append(Phrase(first_of("singular_pronouns"), draft.verb.span.start, False, True))
         clauses = tuple(replace(draft.clause(self.text), text=text) for draft in drafts)
+        if not purpose and all(Saying(part).outstanding for part in trees(node.children, "part")):
+            negated = not negated  # "if it needs washing" is if it is not washed
         aimed = purpose and opener.text not in section("reasons")  # "so that it dries" only says what for
         return Condition(TO if aimed else opener.text, clauses, negated, text)
 

@@ -54,6 +54,13 @@ class Saying:
         return bool(self.helpers) and not (self.verbs or self.complement)
 
     @property
+    def outstanding(self) -> bool:
+        """Return whether it says what its subject still lacks: "has to be swept", "needs washing", "needs water"."""
+        before = [t.text for t in self.helpers]
+        due = not section("having").isdisjoint(before[:-1]) and before[-1] in section("infinitive_be")
+        return (due or not section("needing").isdisjoint(before)) and about_things(self.subject)
+
+    @property
     def denied(self) -> bool:
         """Return whether it says that something is not so, whatever the other parts say."""
         return any(helper.negated for helper in self.helpers)

@@ -1,0 +1,20 @@
+(define (problem saturday-shift)
+  (:domain dog-kennel)
+  (:objects rex bella daisy bruno biscuit
+            tom nina
+            pen-1 pen-2 pen-3 meadow yard)
+  (:init
+    (dog rex) (dog bella) (dog daisy) (dog bruno) (dog biscuit)
+    (handler tom) (handler nina)
+    (place pen-1) (place pen-2) (place pen-3) (place meadow) (place yard) (place wash-house)
+    (black rex) (black bella)
+    (small bella) (small daisy) (small biscuit)
+    (is-at rex pen-1) (is-at bella pen-2) (is-at daisy pen-2) (is-at bruno pen-3)
+    (loose rex) (loose bella) (loose daisy) (loose bruno)
+    (is-at biscuit yard) (on-lead biscuit nina)
+    (is-at tom yard) (is-at nina yard)
+    (free-hands tom)
+    (gate-open yard) (gate-open wash-house) (gate-open pen-3)
+    (muddy rex) (muddy bruno) (muddy biscuit)
+    (fed bruno))
+  (:goal (and (is-at rex meadow) (fed rex))))
