@@ -597,7 +597,10 @@ class GoalPass(ForwardPass):
             PlanPart(tuple(s.instruction for s in choice.steps), need)
             for choice, need in zip(way.choices, way.needs, strict=True)
         )
-        kept = combined((Cube(),), [k for k in way.kept if any(c.holds(way.state) for c in k.ways)])
+        # the last goal may be reached in another of its ways; later clauses speak of how the others were
+        last = None if way.needs[-1].fixed else way.goals[-1].clause
+        lasting = [k for k in way.kept if k.hard or k.clause != last]
+        kept = combined((Cube(),), [k for k in lasting if any(c.holds(way.state) for c in k.ways)])
         better = self._tidying.improved(first, plan, kept)
         if better == plan:
             return way

@@ -113,8 +113,13 @@ class _Improvement:
         self.kept = kept
         states = self._states(plan)
         end = states[-1][-1] if states else start
-        self.moved = self._moved(end)
-        self.absent = ~end & setup.contents  # what was poured away was in the way
+        # another way to the same goals may fill another mug
+        wanted = atoms_in(Cube(cube.positive) for part in plan for cube in part.need.end)
+        vessels = {atom.args[0] for atom in self.task.names(wanted) if atom.args}
+        self.moved = self._moved(end) | vessels
+        # what was poured away out of a vessel was in the way there
+        gone = ~end & setup.contents & ~wanted
+        self.absent = sum(1 << self.task.index[a] for a in self.task.names(gone) if a.args[0] in vessels)
         self.asked_true, self.asked_false = _asked(kept, end, plan, states)
         self.asked = self.asked_true | self.asked_false
         self.settled = self._names(self.asked_true & end)

@@ -18,7 +18,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Relation, Skipped
+from tmd.language.clause import PERSONS, TO, Clause, Condition, Mood, Parsed, Quantifier, Relation, Skipped
 from tmd.language.lexicon.lexicon import builtin, section, singular
 from tmd.language.lexicon.names import split_name
 from tmd.readers.interface import Step
@@ -66,7 +66,11 @@ def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
         if is_noun(noun, "vague") and one and not any(r.source == noun for r in clause.stated):
             clause = clause.renamed(noun, IT)  # but "the thing that is in the sink" is what is there
     acted_on = clause.direct or tuple(r.target for r in clause.relations if r.source is None)  # "operate on him"
-    places = tuple(r.target for r in clause.relations if is_relation(r.relation, "resting"))  # "put a rug on her"
+    # "put a rug on her", "give her a bath"
+    treated = clause.direct and not (is_pronoun(clause.direct[0]) or known(clause.direct[0]))
+    places = tuple(
+        r.target for r in clause.relations if is_relation(r.relation, "resting") or (treated and r.relation == TO)
+    )
     for noun in (*acted_on, *places):
         if noun in PERSONS and any(map(known, clause.antecedents.get(noun, ())[:1])):
             clause = clause.renamed(noun, IT)

@@ -379,7 +379,8 @@ class GoalReader:
         if clause.verb == BE and is_relation(given[0].relation, "accompanying"):  # "the van needs an oil change"
             return self._needed(clause, given[0].target)
         meant = clause.antecedents.get(noun, ())[:1] if is_one(noun) else (noun, _of_gerund(noun))
-        meant += (self._compound_deed(noun),)
+        giving = is_verb(clause.verb, "giving") and not self._names_thing(noun)
+        meant += (self._compound_deed(noun), *(family(noun) if giving else ()))  # "a bath" is to be washed
         deed = next(filter(self.knows_verb, meant), "")
         gives = self._gives(clause, given[0])
         mark = self._laid_mark(noun, clause)
@@ -391,8 +392,9 @@ class GoalReader:
     def _needed(self, clause: Clause, noun: str) -> Clause | None:
         """Return "both cars get a wash", "the van needs an oil change" as what is to be done to them."""
         head = noun if self.knows_verb(noun) else noun.rpartition("_")[2]  # "a thorough wash"
-        deed = self._compound_deed(noun) or (head if self._is_single(clause.phrase(noun)) else "")
-        return replace(clause, verb=deed, objects=clause.direct, relations=()) if self.knows_verb(deed) else None
+        named = (head, *family(head)) if self._is_single(clause.phrase(noun)) else ()
+        deed = self._compound_deed(noun) or next(filter(self.knows_verb, named), "")
+        return replace(clause, verb=deed, objects=clause.direct, relations=()) if deed else None
 
     def _gives(self, clause: Clause, relation: Relation) -> bool:
         """Return whether a verb only gives something, or puts it there, and is none of this domain's own."""
@@ -447,7 +449,8 @@ class GoalReader:
         """
         for relation in clause.relations:
             verb = f"{clause.verb}_{relation.relation.partition('_')[0]}"
-            if not self.knows_verb(verb):
+            further = family(verb) if relation.source in clause.direct else ()  # "let her off the lead"
+            if not any(map(self.knows_verb, (verb, *further))):
                 continue
             if relation.source is None and not clause.direct:
                 others = tuple(r for r in clause.relations if r != relation)

@@ -18,6 +18,7 @@ from tmd.goals.reading.noun_phrases import Mode, Referent, so_many_of
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Pairs, Requirements
 from tmd.goals.reasons import forms, placed, why_impossible
+from tmd.goals.sources.actions import is_journey
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, is_verb, relations_said, table, the_word, words_of
 from tmd.language.clause import PERSONS, NounPhrase, Quantifier
@@ -507,7 +508,8 @@ class RowReader:
     def _is_anywhere(self, row: GoalRow, found: Formula, reading: ClauseReading) -> bool:
         """Return whether a clause puts a thing without saying where, and it is somewhere by now."""
         verb, _, particle = reading.clause.verb.partition("_")
-        moved = verb in section("moving") and isinstance(row.condition, Exists)  # "move the lion" to any place at all
+        # "move the lion", "walk the dog": to any place at all
+        moved = isinstance(row.condition, Exists) and (verb in section("moving") or is_journey(row, self.world.domain))
         put = moved or (is_verb(verb, "placing") and (not particle or particle in table("particles")))
         # "fit the battery", read by the row of "put"
         put = put or (isinstance(row.condition, Exists) and any(is_verb(each, "placing") for each in row.verbs))

@@ -49,7 +49,7 @@ class States:
         if is_noun(noun, "some") and relations and not reading.clause.result:
             return conjunction(self._something_at(relation, target, reading) for relation, target in relations)
         constants = self._substance(noun, reading) if noun and not is_pronoun(noun) else ()
-        if constants:
+        if constants and any(self._contained(constants, fixed=True)):
             return self._substance_state(noun, constants, relations, reading)
         # where "every book on the desk" is tells which books; it is not what is asked for
         relations = [(r, t) for r, t in relations if Relation(r, noun, t) not in reading.clause.stated]

@@ -71,6 +71,13 @@ def actor_types(domain: Domain) -> frozenset[str]:
     return _Words(domain).actors
 
 
+def is_journey(row: GoalRow, domain: Domain) -> bool:
+    """Return whether a row says that something is anywhere, of an action that takes it from place to place."""
+    actions = (action for action in domain.actions if row.evidence == f"{OF_ACTION}{action.name}")
+    moving = {made.predicate for action in actions for made, _ in _journeys(action)}
+    return moving.issuperset(predicates_of(row.condition)) and bool(moving)
+
+
 def plain_words(predicate: Predicate, types: TypeHierarchy) -> tuple[str, ...]:
     """Return the words of a predicate's name that say something of its arguments: *fed*, of ``horse_has_been_fed``.
 

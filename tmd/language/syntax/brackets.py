@@ -803,7 +803,8 @@ class Bracketer(Corrections):
         top = self.among(at + 1, "top_words") and self.follows(at + 2, "IDLE* BREAK")
         there = self.among(at + 1, "there_words") and self.kind(at + 2) is not K.AUX and self._last() is not K.V
         if top or there:
-            after.kind, after.text = K.PRON, first_of("singular_pronouns")
+            beside = any(t.kind is K.PRON for t in self.out[-2:])  # "put it in there"
+            after.kind, after.text = K.PRON, first_of("there_pronouns" if beside else "singular_pronouns")
         elif after.kind is K.NEG:
             after.kind, after.text = K.DET, first_of("none_words")
             for word in self.tokens[at + 2 : at + 6]:
@@ -856,11 +857,13 @@ class Bracketer(Corrections):
         """Note a negation in the opener: "not", "isn't", and "no" in a condition; keep all but the first."""
         kind, opener = self.kind(at), self._open[-1]
         none = kind is K.DET and opener.kind is K.SUB and self.among(at, "none_words")
+        if kind is K.NEG and self._last() is K.CC:  # "on and not broken"
+            self.tokens[at].kind, self.tokens[at].text = K.AUX, first_of("be")
         if kind is K.NEG or none or (kind is K.AUX and self.among(at, "not_forms")):
             opener.negated = True
             verb = self.tokens[at] if kind is not K.NEG or self._last() is not K.AUX else self.out[-1]
             verb.negated = True
-        return at + 1 if kind is K.NEG else self._keep(at)
+        return at + 1 if self.kind(at) is K.NEG else self._keep(at)
 
     def _inner_joint(self, at: int) -> int:
         return self._also(at) or self._keep(at)

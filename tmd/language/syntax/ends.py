@@ -52,7 +52,9 @@ class ClauseEnds(Words):
         while not (self.follows(end, "STOP|COMMA|ENSURE|LET") or self.among(end, "then_words")):
             deed = self.kind(end) is K.V and end > at + 1
             free = self.kind(end - 1) not in (K.AUX, K.TO, K.NEG) and (finite or self.kind(end - 1) is not K.SUBJECT)
-            if (deed and free) or self.follows(end, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)"):
+            # "if the lamp is on and she is in the hall", "on and not broken"
+            goes_on = self.follows(end, "CC IDLE* SUBJECT IDLE* AUX | CC NEG (ADJ|PARTICIPLE) BREAK") and finite
+            if (deed and free) or (self.follows(end, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)") and not goes_on):
                 break
             if finite and self._begins_main(end):
                 break
@@ -65,7 +67,7 @@ class ClauseEnds(Words):
     def _begins_main(self, at: int) -> bool:
         """Return whether the main clause begins behind a whole subordinate one: "once it boils | it should …"."""
         said = self.kind(at - 1) in (K.N, K.ADJ, K.FINITE, K.PARTICIPLE) and self.follows(at, "PRON IDLE* AUX")
-        return said or self.follows(at, "SUB|PURP|SUBJECT IDLE* AUX")
+        return said or self.follows(at, "SUB|PURP|SUBJECT IDLE* AUX" if self.kind(at - 1) is not K.CC else "SUB|PURP")
 
     def _relative_end(self, at: int) -> int:
         """End a relative clause where the main clause goes on: "the chair that stands there to the desk"."""

@@ -185,7 +185,9 @@ class Saying:
 
     def _states(self, attach: Attach) -> list[ClauseDraft]:
         """Return a clause for each state, and one for a place of its own: "empty and in the shed"."""
-        apart = [n for n in trees(self.rest, "place") if next(leaves(n)).form == ALSO]
+        places = trees(self.rest, "place")
+        apart = [n for n in places if next(leaves(n)).form == ALSO]
+        apart = apart if len(apart) == len(places) else []  # but "on in the hall and in the shed"
         if not (apart and trees(self.rest, "state") and about_things(self.subject)):
             return self._each_state(attach)
         both: list[list[Node]] = [[n for n in self.rest if n not in apart], [*apart]]
@@ -208,8 +210,7 @@ class Saying:
         draft = empty_draft(BE, [self.part])
         named = about_things(self.subject)
         if not named and not about_things(self.rest) and trees([*self.subject, *self.rest], "state", "place"):
-            start = min(t.span.start for t in leaves(self.part))
-            draft.direct += [] if self._plural() else [Phrase(first_of("singular_pronouns"), start, False, True)]
+            self._take_it(draft)
         elif not named and about_things(self.rest):
             draft.verb.form = EXISTS
             self.subject = [n for n in self.subject if not is_a(n, "group")]
@@ -218,6 +219,13 @@ class Saying:
             draft.result = draft.settings()[-1]  # "until it is two thirds full"
         return draft
 
+    def _take_it(self, draft: ClauseDraft) -> None:
+        """Let a clause be about *it* where its subject is no thing: "once she is in there" may be about a dog."""
+        if not self._plural():
+            start = min(t.span.start for t in leaves(self.part))
+            self.subject = [n for n in self.subject if not is_a(n, "group")]
+            draft.direct.append(Phrase(first_of("singular_pronouns"), start, False, True))
+
     def _plural(self) -> bool:
         """Return whether its subject is a pronoun that may mean several things: "they"."""
         return any(t.text in section("plural_pronouns") for node in self.subject for t in leaves(node))
@@ -225,6 +233,8 @@ class Saying:
     def _done(self, verb: Token, after: Token | None, attach: Attach) -> ClauseDraft:
         """*The kettle is filled with water*: a state that a participle names; what follows belongs to the last one."""
         draft = empty_draft(BE, [self.part])
+        if self.subject and not about_things(self.subject):
+            self._take_it(draft)
         rest = [n for n in self.rest if after is None or next(leaves(n)).span.start < after.span.start]
         attach(draft, self.subject, rest)
         draft.result, draft.verb.participle = verb.text, verb.stem
