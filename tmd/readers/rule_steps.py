@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -18,7 +19,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import PERSONS, TO, Clause, Condition, Mood, Parsed, Quantifier, Relation, Skipped
+from tmd.language.clause import AGENT, PERSONS, TO, Clause, Condition, Mood, Parsed, Quantifier, Relation, Skipped
 from tmd.language.lexicon.lexicon import builtin, section, singular
 from tmd.language.lexicon.names import split_name
 from tmd.readers.interface import Step
@@ -129,6 +130,30 @@ def without_doers(parsed: Parsed, is_actor: Callable[[str], bool]) -> Parsed:
             continue
         skipped.append(Skipped(doer, clause.span, DOER))
     return replace(parsed, clauses=tuple(clauses), skipped=tuple(skipped))
+
+
+def with_addressees(parsed: Parsed, is_actor: Callable[[str], bool]) -> Parsed:
+    """Return a request with those who are addressed as those who act: "Anna, go to the hall".
+
+    Args:
+        parsed: The request.
+        is_actor: Whether a noun names those who act.
+    """
+    for piece in parsed.skipped:
+        noun = "_".join(re.findall(r"\w+", piece.text.lower()))
+        if not (parsed.text[piece.span.end :].lstrip().startswith(",") and is_actor(noun)):
+            continue
+        clauses = [
+            replace(clause, objects=(*clause.objects, noun), relations=(*clause.relations, by))
+            if piece.span < clause.span and _ENDS.isdisjoint(parsed.text[piece.span.end : clause.span.start])
+            else clause
+            for clause in parsed.clauses
+            for by in (Relation(AGENT, clause.direct[0] if clause.direct else None, noun),)
+        ]
+        told = clauses != list(parsed.clauses)
+        rest = tuple(other for other in parsed.skipped if other is not piece or not told)
+        parsed = replace(parsed, clauses=tuple(clauses), skipped=rest)
+    return parsed
 
 
 def _stands_before(noun: str, clause: Clause) -> bool:

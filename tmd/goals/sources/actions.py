@@ -73,9 +73,17 @@ def actor_types(domain: Domain) -> frozenset[str]:
 
 def is_journey(row: GoalRow, domain: Domain) -> bool:
     """Return whether a row says that something is anywhere, of an action that takes it from place to place."""
-    actions = (action for action in domain.actions if row.evidence == f"{OF_ACTION}{action.name}")
-    moving = {made.predicate for action in actions for made, _ in _journeys(action)}
-    return moving.issuperset(predicates_of(row.condition)) and bool(moving)
+    found = row.condition
+    if not (isinstance(found, Exists) and isinstance(found.part, Atom)):
+        return False
+    atom, left = found.part, {parameter.name for parameter in found.parameters}
+    journeys = (
+        (made, place)
+        for action in domain.actions
+        if row.evidence == f"{OF_ACTION}{action.name}"
+        for made, (place,) in _journeys(action)
+    )
+    return any(made.predicate == atom.predicate and atom.terms[made.terms.index(p)] in left for made, p in journeys)
 
 
 def plain_words(predicate: Predicate, types: TypeHierarchy) -> tuple[str, ...]:
