@@ -87,6 +87,8 @@ class Requirements:
             acted_on = noun == use.direct
             relations = use.leftover if acted_on else self.referents.relations_of(referent.noun, reading.clause)
             for relation, target in relations:
+                if target == noun:
+                    continue  # the gate of what was spoken of
                 names = self.referents.targets(target, reading)
                 yield _Said(row, variable, referent, relation, target, names, acted_on, reading)
 

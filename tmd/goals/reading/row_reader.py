@@ -715,7 +715,19 @@ class RowReader:
         formula = self._quantified([*each, *one, *many], {}, whole, reading)
         if formula in _DEAD and one and many:
             formula = self._quantified([*each, *many, *one], {}, whole, reading)
-        return FALSE if formula in _DEAD else formula
+        return self._done_for_ever(row, pairs) if formula in _DEAD else formula
+
+    def _done_for_ever(self, row: GoalRow, pairs: Pairs) -> Formula:
+        """Return the state that a thing is in for ever, and is to be brought into; FALSE for any other goal.
+
+        *Feed the cat*, which is fed, and no action makes it hungry.
+        """
+        done = row.condition
+        names = pairs[0][1].names if len(pairs) == 1 and pairs[0][1].mode is Mode.ANY else ()
+        plain = row.source == ACTIONS and isinstance(done, Atom) and done.terms == tuple(v for v, _ in pairs)
+        if not (plain and isinstance(done, Atom) and len(names) == 1):
+            return FALSE
+        return Atom(done.predicate, names) if GroundAtom(done.predicate, names) in self.world.task.static else FALSE
 
     def _but_for(self, rest: Formula, everything: Formula, reading: ClauseReading) -> Formula:
         """Return a condition for all things but some, which stay as they are: *clear the table except the cup*."""
