@@ -120,7 +120,9 @@ def _part_of_recent(names: Names, c: Context) -> Names:
     """Return the part of what was spoken of last, or the latest thing that facts speak of by that part."""
     if c.referents.nouns.is_only_told_of(c.noun):
         alone = c.phrase.quantifier is Quantifier.PLAIN and all(t == c.noun for _, t in c.relations)
-        return next(((n,) for n in c.reading.memory.recent if n in names), ()) if alone else ()
+        latest = next((n for n in c.reading.memory.recent if n in names), "") if alone else ""
+        together = (b.names for b in c.reading.memory.bound.values() if c.phrase.plural and latest in b.names)
+        return next(together, (latest,)) if latest else ()
     single = c.phrase.definite and not c.phrase.plural and not c.relations
     return part_of(c.reading.memory.recent, c.noun, c) if single else ()
 

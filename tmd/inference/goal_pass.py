@@ -598,8 +598,9 @@ class GoalPass(ForwardPass):
             for choice, need in zip(way.choices, way.needs, strict=True)
         )
         # the last goal may be reached in another of its ways; later clauses speak of how the others were
-        last = None if way.needs[-1].fixed else way.goals[-1].clause
-        lasting = [k for k in way.kept if k.hard or k.clause != last]
+        last = way.goals[-1].clause
+        alone = not way.needs[-1].fixed and sum(goal.clause == last for goal in way.goals) == 1
+        lasting = [k for k in way.kept if k.hard or not alone or k.clause != last]
         kept = combined((Cube(),), [k for k in lasting if any(c.holds(way.state) for c in k.ways)])
         better = self._tidying.improved(first, plan, kept)
         if better == plan:

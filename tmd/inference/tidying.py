@@ -117,9 +117,10 @@ class _Improvement:
         wanted = atoms_in(Cube(cube.positive) for part in plan for cube in part.need.end)
         vessels = {atom.args[0] for atom in self.task.names(wanted) if atom.args}
         self.moved = self._moved(end) | vessels
-        # what was poured away out of a vessel was in the way there
+        # what was poured away, or is not in a vessel of a goal, was in the way there
         gone = ~end & setup.contents & ~wanted
-        self.absent = sum(1 << self.task.index[a] for a in self.task.names(gone) if a.args[0] in vessels)
+        own = sum(1 << self.task.index[a] for a in self.task.names(gone) if a.args[0] in vessels)
+        self.absent = (gone & start) | own
         self.asked_true, self.asked_false = _asked(kept, end, plan, states)
         self.asked = self.asked_true | self.asked_false
         self.settled = self._names(self.asked_true & end)

@@ -487,6 +487,8 @@ class GoalReader:
         going = tuple(words_of("relations", "going"))
         moved = clause.direct or (None,)  # "go back to the hall": who acts
         goes = any(r.source in moved and relations_said(r.relation, going) for r in clause.relations)
+        if goes and is_verb(verb, "waiting"):  # "wait in the hall"
+            own += table("rows")["go"]
         phrasal = verb.count("_") == 1  # to take out is to take; to get rid of is not to get
         if phrasal and (goes or particle not in words_of("particle_ends")):
             own += [plain, *self._synonyms(plain)]

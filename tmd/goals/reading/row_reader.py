@@ -18,7 +18,7 @@ from tmd.goals.reading.noun_phrases import Mode, Referent, so_many_of
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Pairs, Requirements
 from tmd.goals.reasons import forms, placed, why_impossible
-from tmd.goals.sources.actions import is_journey
+from tmd.goals.sources.actions import OF_ACTION, is_journey
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, is_verb, relations_said, table, the_word, words_of
 from tmd.language.clause import PERSONS, NounPhrase, Quantifier
@@ -724,7 +724,7 @@ class RowReader:
         """
         done = row.condition
         names = pairs[0][1].names if len(pairs) == 1 and pairs[0][1].mode is Mode.ANY else ()
-        plain = row.source == ACTIONS and isinstance(done, Atom) and done.terms == tuple(v for v, _ in pairs)
+        plain = row.evidence.startswith(OF_ACTION) and isinstance(done, Atom) and done.terms == tuple(v for v, _ in pairs)
         if not (plain and isinstance(done, Atom) and len(names) == 1):
             return FALSE
         return Atom(done.predicate, names) if GroundAtom(done.predicate, names) in self.world.task.static else FALSE

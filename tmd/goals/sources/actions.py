@@ -286,7 +286,7 @@ class _Words:
         if not 0 < len(things) <= 1 + any_value:
             return None
         values = [p for p in predicate.parameters if self.valued(p)]
-        named = word in states_in_name(predicate.name)
+        named = word in states_in_name("_".join(plain_words(predicate, self.types)))
         chosen = {p.name: word for p in values if word in self.fixed(p)}
         if not chosen and (not named or (values and not any_value)):
             return None
