@@ -560,7 +560,7 @@ class _Improvement:
         return plan
 
     def _with_windows(self, plan: Plan) -> Plan:
-        """Return the plan with its parts, and short pieces of them, replaced by shorter ones for what the rest relies on."""
+        """Return the plan with its parts, and pieces of them, replaced by shorter ones for what the rest relies on."""
         for place in range(len(plan)):
             if self.setup.orderly and not plan[place].need.fixed:
                 plan = self._with_window(plan, place, 0, len(plan[place].instructions), _END_CAP)

@@ -378,16 +378,20 @@ class GoalReader:
         noun, receivers = clause.direct[0], (given[0].target,)
         if clause.verb == BE and is_relation(given[0].relation, "accompanying"):  # "the van needs an oil change"
             return self._needed(clause, given[0].target)
-        meant = clause.antecedents.get(noun, ())[:1] if is_one(noun) else (noun, _of_gerund(noun))
-        giving = is_verb(clause.verb, "giving") and not self._names_thing(noun)
-        meant += (self._compound_deed(noun), *(family(noun) if giving else ()))  # "a bath" is to be washed
-        deed = next(filter(self.knows_verb, meant), "")
+        deed = self._deed(noun, clause)
         gives = self._gives(clause, given[0])
         mark = self._laid_mark(noun, clause)
         if not (deed or mark) or not gives or self._names_thing(deed or noun):
             return None
         treated = replace(clause, verb=deed or BE, direct=receivers, objects=receivers, relations=())
         return treated if deed else replace(treated, result=mark)
+
+    def _deed(self, noun: str, clause: Clause) -> str:
+        """Return the verb that a noun stands for: *wash* of "a wash" and "a bath"; empty for other nouns."""
+        meant = clause.antecedents.get(noun, ())[:1] if is_one(noun) else (noun, _of_gerund(noun))
+        giving = is_verb(clause.verb, "giving") and not self._names_thing(noun)
+        meant += (self._compound_deed(noun), *(family(noun) if giving else ()))
+        return next(filter(self.knows_verb, meant), "")
 
     def _needed(self, clause: Clause, noun: str) -> Clause | None:
         """Return "both cars get a wash", "the van needs an oil change" as what is to be done to them."""
@@ -484,9 +488,7 @@ class GoalReader:
         if is_verb(plain, "moving_in") and is_relation(particle, "resting"):  # "get the disc in"
             settled = f"{PUT}_{particle}"
             own = [verb, settled, *self._synonyms(settled), *own]
-        going = tuple(words_of("relations", "going"))
-        moved = clause.direct or (None,)  # "go back to the hall": who acts
-        goes = any(r.source in moved and relations_said(r.relation, going) for r in clause.relations)
+        goes = _has_whither(clause)
         if goes and is_verb(verb, "waiting"):  # "wait in the hall"
             own += table("rows")["go"]
         phrasal = verb.count("_") == 1  # to take out is to take; to get rid of is not to get
@@ -626,6 +628,13 @@ class GoalReader:
         near = ", ".join(map(words, nearest_verbs(clause.verb, known)))
         hint = f"the nearest known verbs are {near}" if near else "say what shall be different afterwards"
         return Refusal(RefusalKind.UNKNOWN_VERB, f"unknown verb '{words(clause.verb)}'", hint)
+
+
+def _has_whither(clause: Clause) -> bool:
+    """Return whether a clause says where what it acts on goes, or who acts: "go back to the hall"."""
+    going = tuple(words_of("relations", "going"))
+    moved = clause.direct or (None,)
+    return any(r.source in moved and relations_said(r.relation, going) for r in clause.relations)
 
 
 def _brings_about(operator: Operator, part: Cube) -> bool:

@@ -166,8 +166,8 @@ class Requirements:
         # "water in the glass on the table" is not the cup of water that is somewhere else
         poured = thing and is_relation(said.relation, "inside") and self.nouns.substances(said.referent.noun)
         never = never or (bool(poured) and set(said.names).isdisjoint(said.referent.names))
-        if not (inside or said.relation in words_of("relations", "origin")) and thing and self._never(said):
-            said.reading.notes.append(self._says_nothing(said))  # "the lamp at the sofa", of the ceiling lamp
+        if thing and not inside:
+            self._note_idle(said)
         return [lambda _: FALSE] if never else []  # no kettle is heated in the microwave
 
     def _beside_place(self, said: _Said) -> list[Requirement] | None:
@@ -175,6 +175,11 @@ class Requirements:
             return None
         said.reading.notes.append(self._says_nothing(said))
         return []
+
+    def _note_idle(self, said: _Said) -> None:
+        """Note a place where a thing never is: "the lamp at the sofa", of the ceiling lamp."""
+        if not is_relation(said.relation, "origin") and self._never(said):
+            said.reading.notes.append(self._says_nothing(said))
 
     @staticmethod
     def _says_nothing(said: _Said) -> str:

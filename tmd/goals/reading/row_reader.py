@@ -724,7 +724,9 @@ class RowReader:
         """
         done = row.condition
         names = pairs[0][1].names if len(pairs) == 1 and pairs[0][1].mode is Mode.ANY else ()
-        plain = row.evidence.startswith(OF_ACTION) and isinstance(done, Atom) and done.terms == tuple(v for v, _ in pairs)
+        plain = (
+            row.evidence.startswith(OF_ACTION) and isinstance(done, Atom) and done.terms == tuple(v for v, _ in pairs)
+        )
         if not (plain and isinstance(done, Atom) and len(names) == 1):
             return FALSE
         return Atom(done.predicate, names) if GroundAtom(done.predicate, names) in self.world.task.static else FALSE

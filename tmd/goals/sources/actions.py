@@ -748,7 +748,10 @@ def _outcome(action: ActionSchema, effects: Sequence[Effect]) -> list[Effect]:
     return [
         effect
         for effect in effects
-        if any(w.startswith("-") != effect.positive and w.removeprefix("-") in words_in_name(effect.atom.predicate) for w in said)
+        if any(
+            w.startswith("-") != effect.positive and w.removeprefix("-") in words_in_name(effect.atom.predicate)
+            for w in said
+        )
     ]
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
 from typing import NamedTuple
 
 from tmd.language.clause import AGENT, BE, OF, PERSONS, TO, Clause, Condition, Mood, Relation
@@ -79,17 +80,15 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
 
     for index, draft in enumerate(reading.drafts):
         tell(index)
-        clause = draft.clause(reading.text)
-        conditions = tuple(_condition(c, draft, clause, scenes) for c in clause.conditions)
-        clause = replace(clause, conditions=conditions)
+        clause = _with_conditions(draft.clause(reading.text), draft, scenes)
+        conditions = clause.conditions
         scenes += [_alone(c) for condition in conditions if condition.word != TO for c in condition.clauses]
         hosts = [draft.host] if draft.host is not None else []
         hosts += [d for d in hosted.get(id(draft), ()) if d.verb.span < draft.verb.span]  # "before closing it"
         # of "boil it (wash the pot first)" the pot is done first, and mentioned later
         known = [scene for scene in scenes if scene.at <= draft.verb.span.start] or scenes
         clause = _resolved(clause, draft, [*known, *(_scene(host, host.clause(reading.text)) for host in hosts)])
-        for fact in tuple(facts.values()):
-            clause = _spelled_out(clause, fact)
+        clause = reduce(_spelled_out, facts.values(), clause)
         clause = replace(clause, stated=(*clause.stated, *_stated(clause, facts)))
         clauses.append(_missing_state(clause))
         scenes.append(_scene(draft, clause))
@@ -100,17 +99,16 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
 
 def _spelled_out(clause: Clause, known: Clause) -> Clause:
     """Return a clause with a pronoun replaced by what another clause calls its antecedent: "the gate of pen 3"."""
-    for pronoun in clause.objects:
+    for pronoun in filter(section("singular_pronouns").__contains__, clause.objects):
         noun = clause.antecedents.get(pronoun, ("",))[0]
         phrase = known.phrase(noun)
         wholes = tuple(r for r in known.relations if r.source == noun and r.relation == OF)
-        single = pronoun in section("singular_pronouns") and not phrase.plural
         renamed = clause.renamed(pronoun, noun)
-        if single and noun in known.direct and (wholes or phrase.attributes) and renamed is not clause:
-            further = (r.target for r in wholes if r.target not in renamed.objects)
+        single = noun in known.direct and phrase.definite and not phrase.plural and renamed is not clause
+        if single and (wholes or phrase.attributes):
             clause = replace(
                 renamed,
-                objects=(*renamed.objects, *further),
+                objects=tuple(dict.fromkeys((*renamed.objects, *(r.target for r in wholes)))),
                 relations=(*renamed.relations, *wholes),
                 antecedents={name: meant for name, meant in renamed.antecedents.items() if name != noun},
                 phrases={**renamed.phrases, noun: phrase},
@@ -295,6 +293,10 @@ def _named(clause: Clause) -> list[str]:
     """Return the names in a clause, first those that it acts on."""
     names = [n for name in (*clause.direct, *clause.objects) for n in clause.meant(name)]
     return [name for name in dict.fromkeys(names) if name and not is_pronoun(name) and name not in section("pronouns")]
+
+
+def _with_conditions(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:
+    return replace(clause, conditions=tuple(_condition(c, draft, clause, scenes) for c in clause.conditions))
 
 
 def _condition(condition: Condition, draft: ClauseDraft, owner: Clause, scenes: list[_Scene]) -> Condition:

@@ -721,9 +721,13 @@ class Bracketer(Corrections):
             return ends and (stays or self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE})
         placed = self._verb is not None and self._verb.stem in section("placing")
         switched = self.among(at, "switch_states")
-        ends = ends or (switched and self._verb is None and self.follows(at + 1, "P NP"))  # "lamp off in the hall"
+        ends = ends or self._is_verbless_state(at)
         hosts = self._hosts_result() or (switched and not placed)
         return ends and hosts and self._last() in HEADS | {K.STATE, K.CC}
+
+    def _is_verbless_state(self, at: int) -> bool:
+        """Return whether a place follows a state without a verb: "lamp off in the hall"."""
+        return self._verb is None and self.among(at, "switch_states") and self.follows(at + 1, "P NP")
 
     def _participle(self, at: int) -> int:
         if self._is_to_be_done(at):  # "eggs boiled in the pot"

@@ -52,9 +52,7 @@ class ClauseEnds(Words):
         while not (self.follows(end, "STOP|COMMA|ENSURE|LET") or self.among(end, "then_words")):
             deed = self.kind(end) is K.V and end > at + 1
             free = self.kind(end - 1) not in (K.AUX, K.TO, K.NEG) and (finite or self.kind(end - 1) is not K.SUBJECT)
-            # "if the lamp is on and she is in the hall", "on and not broken"
-            goes_on = self.follows(end, "CC IDLE* SUBJECT IDLE* AUX | CC NEG (ADJ|PARTICIPLE) BREAK") and finite
-            if (deed and free) or (self.follows(end, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)") and not goes_on):
+            if (deed and free) or self._begins_behind(end, finite=finite):
                 break
             if finite and self._begins_main(end):
                 break
@@ -63,6 +61,14 @@ class ClauseEnds(Words):
             finite = finite or deed or self.follows(end, "FINITE|AUX|ING|PARTICIPLE|ADJ")
             end += 1
         return end
+
+    def _begins_behind(self, at: int, *, finite: bool) -> bool:
+        """Return whether something else begins behind a conjunction; a subordinate clause may go on instead.
+
+        *If the lamp is on and she is in the hall, …*, *if it is on and not broken, …*
+        """
+        goes_on = finite and self.follows(at, "CC IDLE* SUBJECT IDLE* AUX | CC NEG (ADJ|PARTICIPLE) BREAK")
+        return self.follows(at, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)") and not goes_on
 
     def _begins_main(self, at: int) -> bool:
         """Return whether the main clause begins behind a whole subordinate one: "once it boils | it should …"."""

@@ -284,17 +284,22 @@ class TextReading:
         drafts = self._said(node)
         nothing = any(p.name in pairs("affirmed") for draft in drafts for p in (*draft.direct, *draft.landmarks))
         negated = _denied_whole(node) or nothing
+        self._say_in_condition(node, drafts, negated=negated)
+        if not purpose and all(Saying(part).outstanding for part in trees(node.children, "part")):
+            negated = not negated  # "if it needs washing" is if it is not washed
+        clauses = tuple(replace(draft.clause(self.text), text=text) for draft in drafts)
+        aimed = purpose and opener.text not in section("reasons")  # "so that it dries" only says what for
+        return Condition(TO if aimed else opener.text, clauses, negated, text)
+
+    @staticmethod
+    def _say_in_condition(node: Tree[Leaf], drafts: Sequence[ClauseDraft], *, negated: bool) -> None:
+        """Complete the clauses of a condition or purpose: its negation is said once, and what happens is *it*."""
         for draft in drafts if negated else ():
             # "no" and "nothing" are in the negation of the condition
             draft.affirm(each=any(t.text in section("negations") for t in leaves(node) if t.kind is Kind.CC))
-        for draft in drafts:
-            if purpose and not draft.direct and draft.verb.stem in section("happening"):
+        for draft in drafts if node.data == "purpose" else ():
+            if not draft.direct and draft.verb.stem in section("happening"):
                 draft.direct.append(Phrase(first_of("singular_pronouns"), draft.verb.span.start, False, True))
-        clauses = tuple(replace(draft.clause(self.text), text=text) for draft in drafts)
-        if not purpose and all(Saying(part).outstanding for part in trees(node.children, "part")):
-            negated = not negated  # "if it needs washing" is if it is not washed
-        aimed = purpose and opener.text not in section("reasons")  # "so that it dries" only says what for
-        return Condition(TO if aimed else opener.text, clauses, negated, text)
 
     def _relative(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
         """Add the content of a relative clause to its noun."""
