@@ -164,6 +164,8 @@ class Saying:
         """Return whether a thing has, or should have, something: "the cup gets some milk"."""
         received = bool(verbs) and verbs[-1].stem in section("receiving") and about_things(self.subject)
         needed = self._helped("needing") and about_things(self.subject)  # "the cup needs some sugar"
+        # "if the cup contains milk"
+        received = received or (bool(verbs) and verbs[-1].stem in section("holding") and about_things(self.subject))
         return bool(trees(self.rest, "group")) and (received or ((needed or self._helped("having")) and not verbs))
 
     def _only_states(self) -> bool:
