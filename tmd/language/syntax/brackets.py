@@ -288,6 +288,9 @@ class Bracketer(Corrections):
         if self.stem_among(deed, "stopping") and self.kind(deed + 1) is K.ING:
             return deed + 1  # "don't stop stirring"
         end = self._negation_end(deed)
+        if self._unneeded(at, deed) and self.kind(deed) in NP:
+            token.note = UNNEEDED  # "we don't need the lamp any longer, turn it off"
+            return self._bracket(token, K.SAY, deed, end)
         if self._unneeded(at, deed):
             return self._skip(at, end, UNNEEDED)
         return self._bracket(token, K.NEG, deed, end)

@@ -170,7 +170,7 @@ class ClauseEnds(Words):
         helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
         idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
         # "they don't need any light in summer"
-        spared = self.among(deed - 1, "unneeded") and self.follows(deed, "NP+ (P NP+)* BREAK")
+        spared = self.among(deed - 1, "unneeded") and self.follows(deed, "NP+ (P NP+)* IDLE* BREAK")
         return self.among(at, "needless") or helped or idle or spared
 
     def _causes(self, at: int) -> bool:
