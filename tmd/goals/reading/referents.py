@@ -114,7 +114,7 @@ class Referents:
         return [r._replace(source=inside.get(r.source, r.source) if r.source else None) for r in others]
 
     def _is_here(self, noun: str, clause: Clause) -> bool:
-        if noun == IT:
+        if is_noun(noun, "singular"):
             return not clause.antecedents.get(noun)
         return noun in words_of("rooms") and not self.nouns.things(noun, 0)
 

@@ -157,8 +157,8 @@ def _meanings(pronoun: str, clause: Clause, draft: ClauseDraft, scenes: list[_Sc
 
 
 def _places_first(pronoun: str, ranked: tuple[str, ...], clause: Clause, scenes: Sequence[_Scene]) -> tuple[str, ...]:
-    """Return what "in there" of a relative clause may mean: first what was named as a place."""
-    if all(r.target != pronoun for r in clause.stated):
+    """Return what "in there", or "in it" of a relative clause, may mean: first what was named as a place."""
+    if pronoun not in section("there_pronouns") and all(r.target != pronoun for r in clause.stated):
         return ranked
     places = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.behind}
     return tuple(sorted(ranked, key=lambda name: name not in places))

@@ -809,9 +809,8 @@ class Bracketer(Corrections):
         after = self.tokens[at + 1]
         top = self.among(at + 1, "top_words") and self.follows(at + 2, "IDLE* BREAK")
         there = self.among(at + 1, "there_words") and self.kind(at + 2) is not K.AUX and self._last() is not K.V
-        if top or there:
-            beside = any(t.kind is K.PRON for t in self.out[-2:])  # "put it in there"
-            after.kind, after.text = K.PRON, first_of("there_pronouns" if beside else "singular_pronouns")
+        if top or there:  # "put it in there"
+            after.kind, after.text = K.PRON, first_of("there_pronouns" if there else "singular_pronouns")
         elif after.kind is K.NEG:
             after.kind, after.text = K.DET, first_of("none_words")
             for word in self.tokens[at + 2 : at + 6]:
