@@ -352,7 +352,7 @@ def test_written_in_a_hurry(text: str, expected: list[str]) -> None:
             "The rope that stands on the bench belongs in the shed.",
             ["(put, [rope, bench, shed], on: rope -> bench, in: rope -> shed)"],
         ),
-        ("Take the pot. Stick the egg in there.", ["(take, [pot])", "(stick, [egg, it], in: egg -> it)"]),
+        ("Take the pot. Stick the egg in there.", ["(take, [pot])", "(stick, [egg, there], in: egg -> there)"]),
     ],
 )
 def test_what_is_said_beside_a_request_takes_nothing_away(text: str, expected: list[str]) -> None:

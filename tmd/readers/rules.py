@@ -81,7 +81,8 @@ class RuleReader:
             TmdError: The lexicon declares something that is wrong; with its place.
         """
         actions = tuple(action.name for action in world.task.problem.domain.actions)
-        parsed = parse(request, _with_names(self._lexicon, world.profiles.objects, actions))
+        names = (*world.profiles.objects, *(kind.name for kind in world.domain.types))
+        parsed = parse(request, _with_names(self._lexicon, names, actions))
         if self._sources is None:
             return Dialogue(parsed)
         tables = goal_tables(self._lexicon, world.domain, self._learned, self._sources)
@@ -103,8 +104,8 @@ _COLON = re.compile(r"[^.!?;\n]*:")
 
 
 @lru_cache(maxsize=16)
-def _with_names(lexicon: Lexicon, objects: tuple[str, ...], actions: tuple[str, ...]) -> Lexicon:
-    return with_names(lexicon, objects, actions)
+def _with_names(lexicon: Lexicon, names: tuple[str, ...], actions: tuple[str, ...]) -> Lexicon:
+    return with_names(lexicon, names, actions)
 
 
 @dataclass(frozen=True, slots=True)

@@ -652,10 +652,13 @@ class _Words:
         wanted = [p.name for p in action.parameters if not self.actor(p)]
         settled = (e for e in action.effects if not e.parameters and e.condition == And())
         own = [e for e in settled if set(e.atom.terms) & set(wanted) and e.atom.predicate not in self.passing]
-        named = _outcome(action, own)
-        if named or not own:
-            return named
-        chosen = self._main_effects(action, own, wanted[0])
+        return _outcome(action, own) or self._purpose(action, own, wanted)
+
+    def _purpose(self, action: ActionSchema, own: Sequence[Effect], wanted: Sequence[str]) -> list[Effect]:
+        """Return those of an action's effects that it is done for."""
+        told = {term for effect in own for term in effect.atom.terms}
+        first = next((name for name in wanted if name in told), "")  # who drives is not what is driven
+        chosen = self._main_effects(action, own, first)
         # what only this action brings about says what it is for: to harvest is to pick, not to hold
         fewest = min((self._makers(e) for e in chosen), default=0)
         return [e for e in chosen if not e.positive or self._makers(e) == fewest]

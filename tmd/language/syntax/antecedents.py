@@ -53,8 +53,12 @@ def is_one(name: str) -> bool:
 
 def is_pronoun(name: str) -> bool:
     """Return whether a language-object refers to something mentioned before."""
-    pronouns = ("singular_pronouns", "plural_pronouns", "open_pronouns")
+    pronouns = ("singular_pronouns", "plural_pronouns", "open_pronouns", "there_pronouns")
     return not sections_of(name).isdisjoint(pronouns) or is_one(name)
+
+
+def _is_single(pronoun: str) -> bool:
+    return not sections_of(pronoun).isdisjoint(("singular_pronouns", "there_pronouns"))
 
 
 def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...], tuple[Clause, ...]]:
@@ -151,7 +155,7 @@ def _meanings(pronoun: str, clause: Clause, draft: ClauseDraft, scenes: list[_Sc
     if is_one(pronoun):
         ranked, count = _one(pronoun, ranked, clause, draft, before), 1
         ranked = _in_order(pronoun, scenes) or ranked
-    elif pronoun in section("singular_pronouns") and not before.isdisjoint(section("insides")):
+    elif _is_single(pronoun) and not before.isdisjoint(section("insides")):
         ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
     return _places_first(pronoun, ranked, clause, scenes), count
 
@@ -368,7 +372,7 @@ def _fitting(
         alike = {m.name for m in mentions if m.behind and m.behind in before}
         return sorted(scored, key=lambda pair: (pair[0] not in alike, pair[0] not in telling))
     single = [pair for pair in scored if pair[0] not in plural]
-    return single if pronoun in section("singular_pronouns") and single else scored
+    return single if _is_single(pronoun) and single else scored
 
 
 def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:

@@ -288,12 +288,16 @@ class Bracketer(Corrections):
         if self.stem_among(deed, "stopping") and self.kind(deed + 1) is K.ING:
             return deed + 1  # "don't stop stirring"
         end = self._negation_end(deed)
-        if self._unneeded(at, deed) and self.kind(deed) in NP:
-            token.note = UNNEEDED  # "we don't need the lamp any longer, turn it off"
-            return self._bracket(token, K.SAY, deed, end)
         if self._unneeded(at, deed):
-            return self._skip(at, end, UNNEEDED)
+            return self._set_aside(at, deed, end)
         return self._bracket(token, K.NEG, deed, end)
+
+    def _set_aside(self, at: int, deed: int, end: int) -> int:
+        """Set aside what need not be done; a thing can be spoken of: "we don't need the lamp, turn it off"."""
+        if self.kind(deed) not in NP:
+            return self._skip(at, end, UNNEEDED)
+        self.tokens[at].note = UNNEEDED
+        return self._bracket(self.tokens[at], K.SAY, deed, end)
 
     def _denied(self, at: int) -> int:
         """Bracket a statement whose negation stands at ``at``; set aside what things need not have."""
