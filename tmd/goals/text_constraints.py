@@ -11,7 +11,7 @@ from tmd.goals.grounder import Moments
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.referents import ANY_TYPE, is_none
-from tmd.goals.words import BE, is_one, is_pronoun, is_relation, is_verb, words_of
+from tmd.goals.words import BE, is_condition, is_one, is_pronoun, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, Clause, Mood, Parsed
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.names import split_name
@@ -78,7 +78,8 @@ class ConstraintReader:
     def _left(self, clause: Clause, state: Bits, memory: Memory) -> TextConstraints | Refusal:
         """Return what *leave it as it is* asks for; what is left alone is not handled either."""
         other = any(clause.phrase(noun).other for noun in clause.direct)
-        if clause.mood is not Mood.KEEP or clause.otherwise or clause.conditions or other:
+        bound = any(not is_condition(c.word, "loose") for c in clause.conditions)  # but "so they can share it"
+        if clause.mood is not Mood.KEEP or clause.otherwise or bound or other:
             return TextConstraints()
         preserved = self.preserved(clause, state, memory)
         if isinstance(preserved, Refusal):

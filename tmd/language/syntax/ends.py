@@ -73,6 +73,9 @@ class ClauseEnds(Words):
     def _begins_main(self, at: int) -> bool:
         """Return whether the main clause begins behind a whole subordinate one: "once it boils | it should …"."""
         said = self.kind(at - 1) in (K.N, K.ADJ, K.FINITE, K.PARTICIPLE) and self.follows(at, "PRON IDLE* AUX")
+        # "when it is dry the lid should be shut"
+        state = self.kind(at - 1) in (K.ADJ, K.PARTICIPLE) or self.among(at - 1, "end_states")
+        said = said or (state and self.follows(at, "DET (NP|OF)* IDLE* AUX"))
         return said or self.follows(at, "SUB|PURP|SUBJECT IDLE* AUX" if self.kind(at - 1) is not K.CC else "SUB|PURP")
 
     def _relative_end(self, at: int) -> int:
