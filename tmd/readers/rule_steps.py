@@ -92,6 +92,34 @@ def _with_numbers(clause: Clause, known: Callable[[str], bool]) -> Clause:
     return clause
 
 
+def one_after_another(parsed: Parsed) -> Parsed:
+    """Return a request with each thing in a clause of its own that goes where an earlier one of its clause is by then.
+
+    *Put the mug on the table and the spoon next to it.*
+    """
+    return replace(parsed, clauses=tuple(part for clause in parsed.clauses for part in _in_turn(clause)))
+
+
+def _in_turn(clause: Clause) -> Iterator[Clause]:
+    for at, name in enumerate(clause.direct):
+        targets = {noun for r in clause.relations if r.source == name for noun in clause.meant(r.target)[:1]}
+        if clause.mood is Mood.DO and not targets.isdisjoint(clause.direct[:at]):
+            yield _about(clause, clause.direct[:at])
+            yield from _in_turn(_about(clause, clause.direct[at:]))
+            return
+    yield clause
+
+
+def _about(clause: Clause, direct: tuple[str, ...]) -> Clause:
+    """Return a clause as far as it acts on some of its things."""
+    others = set(clause.direct).difference(direct)
+    relations = tuple(r for r in clause.relations if r.source not in others)
+    elsewhere = others.union(r.target for r in clause.relations).difference(direct, (r.target for r in relations))
+    objects = tuple(name for name in clause.objects if name not in elsewhere)
+    meant = {name: names for name, names in clause.antecedents.items() if name not in elsewhere}
+    return replace(clause, direct=direct, relations=relations, objects=objects, antecedents=meant)
+
+
 def with_unwanted_states(parsed: Parsed) -> Parsed:
     """Return a request with unwanted states as what shall be so: "don't leave the gate open", "no open gate".
 

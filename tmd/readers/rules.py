@@ -42,6 +42,7 @@ from tmd.readers.rule_steps import (
     RuleStep,
     about_things,
     in_text_order,
+    one_after_another,
     steps_of,
     with_addressees,
     with_unwanted_states,
@@ -135,7 +136,7 @@ class RuleDialogue(Dialogue):
     def __init__(self, parsed: Parsed, goals: GoalReader, state: Bits) -> None:
         self._goals = goals
         parsed = without_doers(self._with_untrue(with_unwanted_states(parsed), state), goals.is_actor)
-        parsed = with_addressees(parsed, goals.is_actor)
+        parsed = one_after_another(with_addressees(parsed, goals.is_actor))
         super().__init__(parsed)
         self._constraints = ConstraintReader(goals)
         read = partial(about_things, known=goals.knows_of)

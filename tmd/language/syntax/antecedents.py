@@ -155,8 +155,9 @@ def _meanings(pronoun: str, clause: Clause, draft: ClauseDraft, scenes: list[_Sc
     if is_one(pronoun):
         ranked, count = _one(pronoun, ranked, clause, draft, before), 1
         ranked = _in_order(pronoun, scenes) or ranked
-    elif _is_single(pronoun) and not before.isdisjoint(section("insides")):
-        ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
+    elif _is_single(pronoun):
+        vessels = _vessels(pronoun, clause, draft) if not before.isdisjoint(section("insides")) else []
+        ranked = tuple(dict.fromkeys((*vessels, *_things_before(pronoun, clause), *ranked)))
     return _places_first(pronoun, ranked, clause, scenes), count
 
 
@@ -218,6 +219,14 @@ def _is_of_several(fact: Clause, meant: str, name: str, clause: Clause) -> bool:
 def _place(pronoun: str, draft: ClauseDraft) -> int:
     """Return where a pronoun stands; one in a relative clause counts as standing at the verb."""
     return next((p.place for p in draft.mentions() if p.name == pronoun), draft.verb.span.start)
+
+
+def _things_before(pronoun: str, clause: Clause) -> list[str]:
+    """Return what a clause acts on before what it puts beside a pronoun: "the mug here and the spoon next to it"."""
+    sources = {r.source for r in clause.relations if r.target == pronoun}
+    first = next((at for at, name in enumerate(clause.direct) if name in sources), 0)
+    things = clause.direct[:first]
+    return [name for name in (*things, *(r.target for r in clause.relations if r.source in things)) if _is_name(name)]
 
 
 def _vessels(pronoun: str, clause: Clause, draft: ClauseDraft) -> list[str]:
