@@ -670,10 +670,21 @@ class Bracketer(Corrections):
             self.out.append(Token(K.P, TO, self.tokens[at].span))  # "take it upstairs"
             self.tokens[at].kind = K.N
             return self._keep(at)
+        if self._is_whereabouts(at):
+            self.out.append(Token(K.P, first_of("whereabouts"), self.tokens[at].span))
+            self.tokens[at].kind, self.tokens[at].text = K.PRON, first_of("there_pronouns")
+            return self._keep(at)
         if not (self.among(at, "end_states") and self._is_state(at)):
             return at + 1
         self.tokens[at].kind = K.STATE
         return self._keep(at)
+
+    def _is_whereabouts(self, at: int) -> bool:
+        """Return whether a condition says of a pronoun that it is "there": "unless it is there already"."""
+        conditional = bool(self._open) and self._open[-1].kind is K.SUB
+        said = conditional and self._last() is K.AUX and self.out[-1].text in section("be")
+        about = len(self.out) > 1 and self.out[-2].kind is K.PRON
+        return said and about and self.among(at, "there_words") and self.follows(at + 1, "IDLE* (BREAK|SUB)")
 
     def _moves_at(self, at: int) -> bool:
         """Return whether the open verb moves something, whose place is said by a word that ends the clause."""
