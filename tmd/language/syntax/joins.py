@@ -233,13 +233,16 @@ def _exceptions(words: Words) -> None:
         denied = all_of_them and words.among(at, "excepted") and words.follows(at + 1, "NEG IDLE* NP")
         if denied:  # "everything in the fridge, but not my cup"
             token.kind, words.tokens[at + 1].kind = K.EXC, K.FILLER
-        if words.among(at, "whole_words", "all_words"):
+        if words.among(at, "whole_words", "all_words", "all_people"):
             whole = at
         elif token.kind in (K.STOP, K.COMMA, K.V):
             whole = -_AHEAD
         but = words.among(at, "exceptive") and at - whole <= _NEAR and words.follows(at + 1, "IDLE* NP")
         if but or (token.kind is K.P and words.among(at, "exceptions")):
             token.kind = K.EXC
+            if words.kind(at - 1) is K.DET and words.among(at - 1, "all_words"):  # "feed all but Rex"
+                before = words.tokens[at - 1]
+                before.kind, before.text = K.PRON, first_of("whole_words")
 
 
 def _with_verbs(words: Words) -> list[Token]:
