@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
+from functools import cached_property
 
 from tmd.goals.grounder import Grounder, Moments
-from tmd.goals.sources.actions import participle, plain_words
+from tmd.goals.sources.actions import actor_types, participle, plain_words
 from tmd.goals.sources.table import RELATION, GoalTable
 from tmd.goals.words import (
     BE,
@@ -138,7 +139,15 @@ class Facts:
         others = [a for a in atom.args if a != name]
         if others == [word] and (self.is_constant(word) or self._is_value(word, name)):
             return True
-        return word in states_in_name(atom.predicate) and all(map(self.is_constant, others))
+        return word in states_in_name(atom.predicate) and all(self.is_constant(n) or self._acts(n) for n in others)
+
+    def _acts(self, name: str) -> bool:
+        """Return whether a thing is one of those who act: Rex is ``on-lead``, whoever holds it."""
+        return not self._actors.isdisjoint(self.world.mentions.types.get(name, ()))
+
+    @cached_property
+    def _actors(self) -> frozenset[str]:
+        return actor_types(self.world.domain)
 
     def _is_value(self, word: str, name: str) -> bool:
         """Return whether an object says how another one is: "blue" of (painted table blue), but no block of another."""

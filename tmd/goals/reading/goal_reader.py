@@ -40,7 +40,7 @@ from tmd.language.clause import AGENT, BRING, PERSONS, PUT, TO, Clause, NounPhra
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE, disjunction
-from tmd.pddl.model import Or, hierarchy
+from tmd.pddl.model import Or, Predicate, hierarchy
 from tmd.pddl.task import Bits, Cube, Operator
 from tmd.world.world import World
 
@@ -225,7 +225,9 @@ class GoalReader:
     def _place_states(self) -> Mapping[tuple[str, str], str]:
         """The states that a preposition and a noun name: ``on-table`` for *on* and *table*, *red* for *to red*."""
         unary = [p for p in self.domain.predicates if len(p.parameters) == 1]
-        names = {p.name: "_".join(split_name(p.name)) for p in unary}
+        # a dog is ``on-lead``, whoever has the lead
+        single = (p for p in self.domain.predicates if len(p.parameters) - self._acting(p) == 1)
+        names = {p.name: "_".join(split_name(p.name)) for p in single}
         # "set the signal to red"
         states = {"_".join(plain_words(p, hierarchy(self.domain))) for p in unary} | self.tables[0].attributes.keys()
         return {(SETTING, state): state for state in states} | {
@@ -234,6 +236,10 @@ class GoalReader:
             for preposition in PREPOSITIONS
             if name.startswith(preposition) and name != preposition
         }
+
+    def _acting(self, predicate: Predicate) -> int:
+        """Return how many of the parameters of a predicate are for those who act."""
+        return sum(not self._actors.isdisjoint(parameter.types) for parameter in predicate.parameters)
 
     @cached_property
     def _mark_states(self) -> Mapping[str, str]:
@@ -255,7 +261,8 @@ class GoalReader:
         for relation in dict.fromkeys((*clause.relations, *clause.stated)):
             state = self._place_state(relation) or self._mark_state(relation, clause)
             if state and relation.source in clause.objects and not self._names_thing(relation.target):
-                clause = self._with_state(clause, relation, state)
+                gone = clause.verb == BE and is_relation(relation.relation, "origin")  # "should be off the lead"
+                clause = self._with_state(clause, relation, f"{NEGATED}{state}" if gone else state)
         return clause
 
     def _place_state(self, relation: Relation) -> str | None:
@@ -652,8 +659,9 @@ def _of_gerund(noun: str) -> str:
 def _goes(clause: Clause, relation: Relation) -> bool:
     """Return whether a place is where the things that a clause acts on shall be."""
     placing = clause.verb == BE or is_verb(clause.verb, "leaving") or clause.verb in section("placing")
-    goes = placing or relation.relation in section("arrivals")
-    told = relation in clause.stated or is_relation(relation.relation, "origin")
+    moved = clause.verb in section("moving") or is_verb(clause.verb, "transporting")
+    goes = placing or relation.relation in section("arrivals") - (frozenset() if moved else section("static"))
+    told = relation in clause.stated or (is_relation(relation.relation, "origin") and clause.verb != BE)
     return goes and relation.source in clause.direct and not told
 
 

@@ -179,7 +179,7 @@ class States:
     def _stands(self, thing: str, relation: str, places: Sequence[str], reading: ClauseReading) -> Formula:
         """Return that a thing is at one of some places; that it is at none of those it is out of."""
         there = self._related(thing, relation, places, reading)
-        return negation(there) if is_relation(relation, "origin") else there
+        return negation(there) if places and is_relation(relation, "origin") else there
 
     def _related(self, thing: str, relation: str, places: Sequence[str], reading: ClauseReading) -> Formula:
         return disjunction(self.nouns.related(relation, thing, p, reading.moments) for p in places if p != thing)

@@ -185,7 +185,8 @@ class ClauseDraft:
 
     def _there(self, placed: list[Relation]) -> bool:
         """Return whether something is named, and its place is where it is: "leave the key in there"."""
-        return all(r.target in section("pronouns") for r in placed) and not any(p.pronoun for p in self.direct)
+        there = section("pronouns") | section("there_pronouns")
+        return all(r.target in there for r in placed) and not any(p.pronoun for p in self.direct)
 
     def _folded(self, text: str, form: str) -> str | None:
         folds = [t for t in self.folds if t.form == form]
