@@ -240,9 +240,13 @@ def _exceptions(words: Words) -> None:
         but = words.among(at, "exceptive") and at - whole <= _NEAR and words.follows(at + 1, "IDLE* NP")
         if but or (token.kind is K.P and words.among(at, "exceptions")):
             token.kind = K.EXC
-            if words.kind(at - 1) is K.DET and words.among(at - 1, "all_words"):  # "feed all but Rex"
-                before = words.tokens[at - 1]
-                before.kind, before.text = K.PRON, first_of("whole_words")
+            _name_all(words, at - 1)
+
+
+def _name_all(words: Words, at: int) -> None:
+    """Let "all" before an exception name all there is: "feed all but Rex"."""
+    if words.kind(at) is K.DET and words.among(at, "all_words"):
+        words.tokens[at].kind, words.tokens[at].text = K.PRON, first_of("whole_words")
 
 
 def _with_verbs(words: Words) -> list[Token]:
