@@ -237,7 +237,8 @@ def _exceptions(words: Words) -> None:
             whole = at
         elif token.kind in (K.STOP, K.COMMA, K.V):
             whole = -_AHEAD
-        but = words.among(at, "exceptive") and at - whole <= _NEAR and words.follows(at + 1, "IDLE* NP")
+        near = at - whole <= _NEAR or words.tokens[at - 1].text in pairs("affirmed")  # "nothing but the cup"
+        but = near and words.among(at, "exceptive") and words.follows(at + 1, "IDLE* NP")
         if but or (token.kind is K.P and words.among(at, "exceptions")):
             token.kind = K.EXC
             _name_all(words, at - 1)
