@@ -13,9 +13,11 @@ from tmd.goals.words import (
     NEGATED,
     is_condition,
     is_noun,
+    is_one,
     is_pronoun,
     is_relation,
     is_verb,
+    ranked,
     the_word,
     words_of,
 )
@@ -60,12 +62,7 @@ def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
         known: Whether a noun means something here.
     """
     inner = tuple(replace(c, clauses=tuple(about_things(said, known) for said in c.clauses)) for c in clause.conditions)
-    clause = _with_numbers(replace(clause, conditions=inner), known)
-    for noun in clause.objects:
-        phrase = clause.phrase(noun)
-        one = not phrase.plural and phrase.quantifier is Quantifier.PLAIN and not phrase.attributes
-        if is_noun(noun, "vague") and one and not any(r.source == noun for r in clause.stated):
-            clause = clause.renamed(noun, IT)  # but "the thing that is in the sink" is what is there
+    clause = _with_vague_nouns(_with_numbers(replace(clause, conditions=inner), known))
     acted_on = clause.direct or tuple(r.target for r in clause.relations if r.source is None)  # "operate on him"
     # "put a rug on her", "give her a bath"
     treated = clause.direct and not (is_pronoun(clause.direct[0]) or known(clause.direct[0]))
@@ -77,6 +74,18 @@ def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
             clause = clause.renamed(noun, IT)
         elif is_noun(noun, "everybody") and not known(noun):
             clause = clause.renamed(noun, the_word("nouns", "whole"))
+    return clause
+
+
+def _with_vague_nouns(clause: Clause) -> Clause:
+    """Return a clause with "that thing" as a pronoun, and "the dirty ones", of nothing before, as things."""
+    for noun in clause.objects:
+        phrase = clause.phrase(noun)
+        one = not phrase.plural and phrase.quantifier is Quantifier.PLAIN and not phrase.attributes
+        if is_one(noun) and phrase.attributes and not clause.antecedents.get(noun):
+            clause = clause.renamed(noun, ranked("nouns", "vague")[0])
+        if is_noun(noun, "vague") and one and not any(r.source == noun for r in clause.stated):
+            clause = clause.renamed(noun, IT)  # but "the thing that is in the sink" is what is there
     return clause
 
 

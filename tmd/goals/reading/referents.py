@@ -455,6 +455,11 @@ class Referents:
             return self._antecedent(antecedent, IT, types, reading)
         return self._of_kind(antecedent, said, relations, types, reading)
 
+    def _classes_of(self, noun: str, state: Bits) -> list[str]:
+        """Return the class of what a noun means, as a noun: "wash the taxi, then vacuum the blue one"."""
+        kinds = (self.world.mentions.kinds.get(name, "") for name in self.nouns.things(noun, state)[:1])
+        return ["_".join(split_name(kind)) for kind in kinds if kind]
+
     def _of_kind(
         self,
         antecedent: str,
@@ -474,6 +479,7 @@ class Referents:
         ways = [(each, [*relations, *told]) for each in kinds]
         if told and said.attributes:  # "the battery in the van is dead, fit the new one": that is elsewhere
             ways += [(each, relations) for each in kinds]
+        ways += [(each, relations) for each in self._classes_of(antecedent, state) if said.attributes]
         named = (self._named(each, replace(said, name=each), types, related, reading) for each, related in ways)
         found = next((referent for referent in named if referent.names), None)
         return found or Referent(kind, ())

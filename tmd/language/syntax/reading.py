@@ -170,7 +170,8 @@ class TextReading:
         if before is not None and last.verb.stem in section("pro_verbs"):
             _repeat(last, before)
         if last.verb.stem in section("light_verbs"):
-            _treat(last)
+            at = self.drafts.index(last)
+            self.drafts[at : at + 1] = _treatments(last)
         give_back(last)
 
     def _attach(
@@ -670,13 +671,17 @@ def _is_counted(nodes: Sequence[Node]) -> bool:
     return lead in section("indefinite") or is_number(lead)
 
 
-def _treat(draft: ClauseDraft) -> None:
-    """Read "give it a scrub" as "scrub it"."""
+def _treatments(draft: ClauseDraft) -> list[ClauseDraft]:
+    """Read "give it a scrub" as "scrub it"; of "a scrub and a rinse", each by itself."""
     deeds = [p.name.rpartition("_")[2] for p in draft.direct]
     receivers = {r.target for r in draft.relations if r.relation == TO}
-    if receivers and not section("treatments").isdisjoint(deeds):
-        draft.verb.stem, draft.direct = deeds[0], [p for p in draft.landmarks if p.name in receivers]
-        draft.landmarks, draft.relations = [], []
+    if not receivers or section("treatments").isdisjoint(deeds):
+        return [draft]
+    if len(deeds) > 1:
+        return [treated for each in draft.each() for treated in _treatments(each)]
+    draft.verb.stem, draft.direct = deeds[0], [p for p in draft.landmarks if p.name in receivers]
+    draft.landmarks, draft.relations = [], []
+    return [draft]
 
 
 def _is_deed(part: Tree[Leaf], *, done: bool) -> bool:
