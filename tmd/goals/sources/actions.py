@@ -526,7 +526,9 @@ class _Words:
             pattern = " … ".join([verb, *(s.variable.removeprefix("?").upper() for s in slots)])
             why = f"the predicate {predicate.name}"
             yield self._row(verbs, slots, self._atom(predicate, names), pattern, why)
-            undoing = tuple(prefix + verb for prefix in section("undoing"))
+            undoing = tuple(
+                prefix + verb for prefix in section("undoing") if prefix + verb not in section("not_undoing")
+            )
             undone = Not(self._atom(predicate, {things[0].name: "?x"}))
             yield self._row(undoing, (Slot("?x"),), undone, f"{undoing[0]} X", why)
 

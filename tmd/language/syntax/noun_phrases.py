@@ -206,4 +206,5 @@ def named_in(nodes: Sequence[Node]) -> list[Phrase]:
 def about_things(nodes: Sequence[Node]) -> bool:
     """Return whether some of the nodes is a group that names more than a person."""
     names = (phrase.name for phrase in named_in(nodes))
-    return any(name not in PERSONS and name not in section("subjects") for name in names)
+    somebody = (PERSONS | section("subjects")) - section("all_people")
+    return any(name not in somebody for name in names)
