@@ -240,7 +240,7 @@ def steps_of(parsed: Parsed, *, use: bool) -> tuple[RuleStep, ...]:
     for clause in filter(is_of_the_end, parsed.constraints):
         before = [n for n, other in enumerate(parsed.clauses) if other.span.start < clause.span.start]
         steps = _with_end(steps, clause, before[-1] if before else 0)
-    return tuple(replace(step, continued=_goes_on(step, parsed.clauses)) for step in steps)
+    return tuple(_continued(step, parsed.clauses) for step in steps)
 
 
 def _with_instruments(parsed: Parsed) -> tuple[Clause, ...]:
@@ -287,6 +287,17 @@ def _with_end(steps: Sequence[RuleStep], clause: Clause, number: int) -> tuple[R
     place = max((at for at, step in enumerate(steps, 1) if step.number == number), default=len(steps))
     other = replace(clause, mood=Mood.DO, result=f"{NEGATED}{clause.result}")
     return (*steps[:place], RuleStep(other, number, main=False, direct=other.direct), *steps[place:])
+
+
+def _continued(step: RuleStep, clauses: Sequence[Clause]) -> RuleStep:
+    """Return a step with whether the next clause goes on with its things; to take them may then mean nothing here."""
+    continued = _goes_on(step, clauses)
+    return replace(step, continued=continued, optional=step.optional or (continued and _takes(step.clause)))
+
+
+def _takes(clause: Clause) -> bool:
+    """Return whether a clause only takes things, from nowhere in particular."""
+    return is_verb(clause.verb, "holding") and not (clause.relations or clause.conditions)
 
 
 def _goes_on(step: RuleStep, clauses: Sequence[Clause]) -> bool:

@@ -223,8 +223,12 @@ class Profiles:
     def __init__(self, task: Task) -> None:
         self.task = task
         problem = task.problem
-        self.constants = frozenset(c.name for c in problem.domain.constants)
-        self.objects = tuple(o.name for o in problem.objects if o.name not in self.constants)
+        declared = {c.name for c in problem.domain.constants}
+        # a cellar that the domain names is a room like those of the problem; water is like nothing there
+        kinds = {o.types for o in problem.objects if o.name not in declared} - {(OBJECT,)}
+        self.constants = frozenset(c.name for c in problem.domain.constants if c.types not in kinds)
+        things = [c.name for c in problem.domain.constants if c.types in kinds]
+        self.objects = (*(o.name for o in problem.objects if o.name not in declared), *things)
         self._fluent = self._by_object(task.atoms)
         self._static = self._by_object(sorted(task.static))
         self._relevant: dict[str, Bits] = {}

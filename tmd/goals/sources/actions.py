@@ -23,6 +23,7 @@ from tmd.language.lexicon.names import split_name, states_in_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import conjunction, disjunction
 from tmd.pddl.model import (
+    OBJECT,
     ActionSchema,
     And,
     Atom,
@@ -178,7 +179,13 @@ class _Words:
     def valued(self, parameter: TypedName) -> bool:
         """Return whether a parameter is a value (an amount, a setting, a substance): its type has constants."""
         fixed = bool(self.fixed(parameter)) and not self.actor(parameter)
-        return fixed and not _placelike(parameter) and self._sites.isdisjoint(parameter.types)
+        return fixed and not _placelike(parameter) and (self._sites | self._stateful).isdisjoint(parameter.types)
+
+    @cached_property
+    def _stateful(self) -> frozenset[str]:
+        """The types of things that actions alone change the state of, and that are no values: pumps run."""
+        unary = (p for p in self.domain.predicates if len(p.parameters) == 1 and p.name in self.fluent)
+        return frozenset(kind for predicate in unary for kind in predicate.parameters[0].types) - {OBJECT}
 
     @cached_property
     def _sites(self) -> frozenset[str]:
@@ -526,10 +533,8 @@ class _Words:
             pattern = " … ".join([verb, *(s.variable.removeprefix("?").upper() for s in slots)])
             why = f"the predicate {predicate.name}"
             yield self._row(verbs, slots, self._atom(predicate, names), pattern, why)
-            undoing = tuple(
-                prefix + verb for prefix in section("undoing") if prefix + verb not in section("not_undoing")
-            )
             undone = Not(self._atom(predicate, {things[0].name: "?x"}))
+            undoing = _undoing(verb)
             yield self._row(undoing, (Slot("?x"),), undone, f"{undoing[0]} X", why)
 
     def doings(self) -> Iterator[GoalRow]:
@@ -821,6 +826,11 @@ def _is_held(predicate: str) -> bool:
     stem, _, _ = builtin().verb(split_name(predicate)[0]) or ("", "", 0)
     held = words_of("verbs", "carrying") | words_of("verbs", "holding")
     return not held.isdisjoint((stem, *family(stem)))
+
+
+def _undoing(verb: str) -> tuple[str, ...]:
+    """Return the verbs that undo what a verb does: *unlock*, of *lock*; but not *display*, of *play*."""
+    return tuple(other for prefix in section("undoing") if (other := prefix + verb) not in section("not_undoing"))
 
 
 def _done(name: str) -> str | None:
