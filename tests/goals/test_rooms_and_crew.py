@@ -66,6 +66,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
             {"(lamps_on attic)"},
         ),
         ("Lamps off in the gallery.", {"(lamps_on attic)"}, {"(lamps_on gallery)"}),
+        ("Turn the lamps off in the attic and the gallery.", set(), {"(lamps_on attic)", "(lamps_on gallery)"}),
         ("The hatch of the cellar is locked. Open it.", set(), {"(hatch_locked cellar)"}),
         ("The gallery should be dark.", {"(lamps_on attic)"}, {"(lamps_on gallery)"}),
         # those who are addressed act, and everyone may

@@ -158,7 +158,8 @@ class Fitting:
         """Yield those of several places that are for a slot."""
         if len(said) > 1:
             said = [p for p in said if self._is_for(slot, p[1], reading)] or said
-        if len(said) > 1:
+        part = bool(unit.direct) and self.nouns.is_only_told_of(unit.direct or "")
+        if len(said) > 1 and not part:  # the beds in two rooms are those of both
             # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
             said = [p for p in said if not self.referents.tells_which(unit.direct, *p, reading)] or said[-1:]
         yield from ((relation, target) for relation, target in said if relation == said[-1][0])
