@@ -725,21 +725,35 @@ class Referents:
         None are left where only such do that adjectives left out of the ``whole``: "the full cup on the table", where
         the cup on the table is empty.
         """
-        for relation, target in relations:
-            names = self.targets(target, reading)
-            excepting = is_relation(relation, "excepting")
-            if excepting and is_one(target) and self._any_one(target, reading) and referent.names:
-                referent = replace(referent, mode=Mode.NUMBER, number=len(referent.names) - 1)  # "all but one"
-                continue
-            left = self._taken_away(referent, relation, target, names, reading)
-            if left is not None:
-                referent = referent.only(n for n in referent.names if n not in left)
-            elif is_relation(relation, "benefit"):  # "the parcel for the tailor"
-                referent = referent.only(self.called_by(referent, (relation, target), reading) or referent.names)
-            elif names and not is_relation(relation, "untelling"):
-                stated = Relation(relation, referent.noun, target) in reading.clause.stated
-                referent = self._where(referent, (relation, target), reading, whole, stated=stated)
+        places = self._places_of_part(referent.noun, relations)
+        if places:  # "the lamps in the hall and the shed"
+            found = [self._restricted(referent, [pair], reading, whole).names for pair in places]
+            referent = referent.only(name for names in found for name in names)
+        for said in (pair for pair in relations if pair not in places):
+            referent = self._as_said(referent, said, reading, whole)
         return referent
+
+    def _as_said(self, referent: Referent, said: tuple[str, str], reading: ClauseReading, whole: Referent) -> Referent:
+        """Return the candidates that one relation leaves."""
+        relation, target = said
+        names = self.targets(target, reading)
+        excepting = is_relation(relation, "excepting")
+        if excepting and is_one(target) and self._any_one(target, reading) and referent.names:
+            return replace(referent, mode=Mode.NUMBER, number=len(referent.names) - 1)  # "all but one"
+        left = self._taken_away(referent, relation, target, names, reading)
+        if left is not None:
+            return referent.only(n for n in referent.names if n not in left)
+        if is_relation(relation, "benefit"):  # "the parcel for the tailor"
+            return referent.only(self.called_by(referent, said, reading) or referent.names)
+        if names and not is_relation(relation, "untelling"):
+            stated = Relation(relation, referent.noun, target) in reading.clause.stated
+            return self._where(referent, said, reading, whole, stated=stated)
+        return referent
+
+    def _places_of_part(self, noun: str, relations: Sequence[tuple[str, str]]) -> list[tuple[str, str]]:
+        """Return the places of several parts that only facts speak of; none for other nouns, and for one place."""
+        places = [pair for pair in relations if is_relation(pair[0], "resting")]
+        return places if len(places) > 1 and self.nouns.is_only_told_of(noun) else []
 
     def _taken_away(
         self, referent: Referent, relation: str, target: str, names: Sequence[str], reading: ClauseReading
