@@ -136,6 +136,7 @@ def test_those_who_are_named_hold_what_is_on_the_rope(folder: Path) -> None:
         ("Give the pot a wash and a rinse.", [("wash", ("pot",)), ("rinse", ("pot",))]),
         ("Put the lamps up in the hall and down in the shed.", [("put_up", ("lamp",)), ("put_down", ("lamp",))]),
         ("If the lid is shut and not dirty, open it.", [("open", ("it",))]),
+        ("The lamp should be off before you close the door.", [("turn_off", ("lamp",)), ("close", ("door",))]),
     ],
 )
 def test_nothing_that_was_said_is_lost(text: str, said: list[tuple[str, tuple[str, ...]]]) -> None:

@@ -402,10 +402,25 @@ class GoalReader:
 
     def _needed(self, clause: Clause, noun: str) -> Clause | None:
         """Return "both cars get a wash", "the van needs an oil change" as what is to be done to them."""
+        served = self._served(clause, noun)
+        if served is not None:
+            return served
         head = noun if self.knows_verb(noun) else noun.rpartition("_")[2]  # "a thorough wash"
         named = (head, *family(head)) if self._is_single(clause.phrase(noun)) else ()
         deed = self._compound_deed(noun) or next(filter(self.knows_verb, named), "")
         return replace(clause, verb=deed, objects=clause.direct, relations=()) if deed else None
+
+    def _served(self, clause: Clause, noun: str) -> Clause | None:
+        """Return "the children get their lunch" as the action that has the noun in its name: ``serve_lunch``."""
+        if not self.nouns.is_only_told_of(noun):
+            return None
+        rows = (row for table in self.tables for row in table.rows if row.noun == noun and row.direct is None)
+        row = next((row for row in rows if len(row.places) == 1 and TO in row.places[0].prepositions), None)
+        if row is None:
+            return None
+        given = tuple(Relation(TO, noun, receiver) for receiver in clause.direct)
+        objects = (noun, *clause.direct)
+        return replace(clause, verb=row.verbs[0], direct=(noun,), objects=objects, relations=given)
 
     def _gives(self, clause: Clause, relation: Relation) -> bool:
         """Return whether a verb only gives something, or puts it there, and is none of this domain's own."""

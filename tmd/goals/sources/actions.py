@@ -448,13 +448,13 @@ class _Words:
     def _going(self) -> Iterator[GoalRow]:
         """Yield ``go to Y`` for the place that an action takes the actor to, and ``send X to Y`` where it is named."""
         found: dict[Formula, dict[str, None]] = {}
-        sent: dict[Formula, None] = {}
+        sent: dict[Formula, dict[str, None]] = {}
         for action, there, left in self._whereabouts():
             verb = split_name(action.name)[0]  # "sail to the isle", where that is what the ferry does
             found.setdefault(Exists(left, there) if left else there, {})[verb] = None
             if len(left) == 1:
                 named = tuple("?x" if term == left[0].name else term for term in there.terms)
-                sent[Atom(there.predicate, named)] = None
+                sent.setdefault(Atom(there.predicate, named), {})[verb] = None  # "sail the boat to the isle"
         where, why = Slot("?y", _ROWS["going"]), "a predicate of where one is"
         for condition, verbs in found.items():
             yield self._row(tuple(dict.fromkeys((*_ROWS["go"], *verbs))), (where,), condition, "go to Y", why)
@@ -465,7 +465,8 @@ class _Words:
             row = self._row((*_ROWS["send"], *_ROWS["put"]), (where,), condition, f"send {name} to Y", why)
             yield replace(row, noun=name)
         both = Slot("?x"), where
-        yield from (self._row(_ROWS["send"], both, condition, "send X to Y", why) for condition in sent)
+        for condition, verbs in sent.items():
+            yield self._row(tuple(dict.fromkeys((*_ROWS["send"], *verbs))), both, condition, "send X to Y", why)
 
     def _place_types(self, condition: Formula) -> tuple[str, ...]:
         """Return the types of ``?y`` in an atom, or one with some arguments left open."""

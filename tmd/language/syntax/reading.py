@@ -519,12 +519,12 @@ class TextReading:
         vague = draft.verb.stem == HAVE and all(p.pronoun for p in draft.direct)
         if empty and (draft.verb.stem == BE or vague):
             return
-        self._modify(draft, conditions, fronted=True)
-        draft.spans += spans(conditions)
         if draft.mood is Mood.AVOID:
             self.forbidden.append((len(self.drafts), draft))
         else:
             self.drafts.append(draft)
+        self._modify(draft, conditions, fronted=True)
+        draft.spans += spans(conditions)
 
     def _named(self, nodes: list[Node]) -> None:
         """Read "TV on", "lid on the pot", "two scoops of ice cream": the text leaves the verb out."""
