@@ -90,7 +90,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ),
         ("Unlock the cellar. Take the tin and put it in there.", {"(lies tin cellar)"}, {"(hatch_locked cellar)"}),
         ("Carry the tin to the cellar unless it is already there.", {"(lies tin cellar)"}, set()),
-        ("Put the tin in with the crate.", {"(lies tin attic)", "(lies crate attic)"}, set()),
+        ("Carry the tin in with the crate.", {"(lies tin attic)", "(lies crate attic)"}, set()),
         # one thing alone, and all but one
         ("Only the tin should be in the attic.", {"(lies tin attic)"}, {"(lies crate attic)"}),
         ("Nothing but the tin should be in the gallery.", {"(lies tin gallery)"}, set()),
