@@ -25,6 +25,7 @@ from tmd.pddl.task import Task
 
 _SHOWN = 3
 """At most so many verbs or forms are named."""
+DOER = "a plan chooses who does it"
 _OF_TYPE = "is not of the class"
 
 

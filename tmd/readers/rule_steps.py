@@ -6,6 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from tmd.goals.reasons import DOER
 from tmd.goals.text_constraints import is_of_the_end
 from tmd.goals.words import (
     BE,
@@ -26,7 +27,6 @@ from tmd.language.lexicon.lexicon import builtin, section, singular
 from tmd.language.lexicon.names import split_name
 from tmd.readers.interface import Step
 
-DOER = "a plan chooses who does it"
 USE: str = the_word("verbs", "using")
 _ENDS = frozenset(".!?;")
 # A first clause that so many others follow may be a heading: *tidy the floor. The toy goes on the shelf, …*

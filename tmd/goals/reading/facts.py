@@ -139,14 +139,15 @@ class Facts:
         others = [a for a in atom.args if a != name]
         if others == [word] and (self.is_constant(word) or self._is_value(word, name)):
             return True
-        return word in states_in_name(atom.predicate) and all(self.is_constant(n) or self._acts(n) for n in others)
+        return word in states_in_name(atom.predicate) and all(self.is_constant(n) or self.acts(n) for n in others)
 
-    def _acts(self, name: str) -> bool:
+    def acts(self, name: str) -> bool:
         """Return whether a thing is one of those who act: Rex is ``on-lead``, whoever holds it."""
-        return not self._actors.isdisjoint(self.world.mentions.types.get(name, ()))
+        return not self.actors.isdisjoint(self.world.mentions.types.get(name, ()))
 
     @cached_property
-    def _actors(self) -> frozenset[str]:
+    def actors(self) -> frozenset[str]:
+        """The types of those who act."""
         return actor_types(self.world.domain)
 
     def _is_value(self, word: str, name: str) -> bool:

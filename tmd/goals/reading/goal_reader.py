@@ -15,8 +15,8 @@ from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
-from tmd.goals.reasons import nearest_verbs
-from tmd.goals.sources.actions import actor_types, participle, plain_words
+from tmd.goals.reasons import DOER, nearest_verbs
+from tmd.goals.sources.actions import participle, plain_words
 from tmd.goals.sources.table import ACTIONS, GoalTable, atoms_in
 from tmd.goals.words import (
     BE,
@@ -239,7 +239,7 @@ class GoalReader:
 
     def _acting(self, predicate: Predicate) -> int:
         """Return how many of the parameters of a predicate are for those who act."""
-        return sum(not self._actors.isdisjoint(parameter.types) for parameter in predicate.parameters)
+        return sum(not self.nouns.actors.isdisjoint(parameter.types) for parameter in predicate.parameters)
 
     @cached_property
     def _mark_states(self) -> Mapping[str, str]:
@@ -315,7 +315,8 @@ class GoalReader:
             return found
         cubes = tuple(c for c, said in zip(found.cubes, self._in_goal(found), strict=True) if names & said)
         if not cubes:
-            return replace(found, notes=(*found.notes, f"'{words(agents[0])}' says nothing here"))
+            said = DOER if self.is_actor(agents[0]) else "says nothing here"
+            return replace(found, notes=(*found.notes, f"'{words(agents[0])}': {said}"))
         parts = found.formula.parts if isinstance(found.formula, Or) else (found.formula,)
         kept = [part for part in parts if any(names & {*atom.terms} for atom in atoms_in(part))]
         return replace(found, formula=disjunction(kept), cubes=cubes)
@@ -557,15 +558,10 @@ class GoalReader:
         """Return whether a noun means something in the domain or in the environment."""
         return self.knows(noun) or bool(self.nouns.things(noun, self.world.task.init) or self.nouns.substances(noun))
 
-    @cached_property
-    def _actors(self) -> frozenset[str]:
-        return actor_types(self.domain)
-
     def is_actor(self, noun: str) -> bool:
         """Return whether a noun names those who act here."""
-        types = self.world.mentions.types
         named = self.nouns.things(noun, self.world.task.init)
-        return bool(named) and all(self._actors.intersection(types.get(name, ())) for name in named)
+        return bool(named) and all(map(self.nouns.acts, named))
 
     def _names_thing(self, noun: str) -> bool:
         """Return whether a noun means a thing itself, and not only what facts say of another one."""

@@ -738,9 +738,8 @@ class Bracketer(Corrections):
             stays = self._last() is K.V and self.out[-1].stem in section("staying") and self._open[-1].negated
             return ends and (stays or self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE})
         placed = self._verb is not None and self._verb.stem in section("placing")
-        switched = self.among(at, "switch_states")
         ends = ends or self._is_verbless_state(at)
-        hosts = self._hosts_result() or (switched and not placed)
+        hosts = self._hosts_result() or (self.among(at, "switch_states") and not placed)
         return ends and hosts and self._last() in HEADS | {K.STATE, K.CC}
 
     def _is_verbless_state(self, at: int) -> bool:

@@ -11,7 +11,7 @@ from itertools import zip_longest
 from lark import Tree
 
 from tmd.language.clause import AGENT, BE, BRING, HAVE, OF, PUT, SET, WHERE, WITH, Mood, Quantifier, Relation, Span
-from tmd.language.lexicon.lexicon import first_of, pairs, section
+from tmd.language.lexicon.lexicon import first_of, pairs, section, sections_of
 from tmd.language.syntax.brackets import ALSO
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
@@ -162,10 +162,10 @@ class Saying:
 
     def _owns(self, verbs: Sequence[Token]) -> bool:
         """Return whether a thing has, or should have, something: "the cup gets some milk"."""
-        received = bool(verbs) and verbs[-1].stem in section("receiving") and about_things(self.subject)
-        needed = self._helped("needing") and about_things(self.subject)  # "the cup needs some sugar"
-        # "if the cup contains milk"
-        received = received or (bool(verbs) and verbs[-1].stem in section("holding") and about_things(self.subject))
+        thing = about_things(self.subject)
+        # "the cup gets some milk", "if the cup contains milk"
+        received = bool(verbs) and thing and not sections_of(verbs[-1].stem).isdisjoint(("receiving", "holding"))
+        needed = self._helped("needing") and thing  # "the cup needs some sugar"
         return bool(trees(self.rest, "group")) and (received or ((needed or self._helped("having")) and not verbs))
 
     def _only_states(self) -> bool:
