@@ -72,6 +72,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         # those who are addressed act, and everyone may
         ("Olaf, go to the cellar.", {"(isin olaf cellar)", "(isin ida gallery)"}, set()),
         ("Ida, wait in the attic.", {"(isin ida attic)"}, set()),
+        ("Everybody should be in the cellar.", {"(isin ida cellar)", "(isin olaf cellar)"}, {"(lies tin cellar)"}),
+        ("Carry the crate to the cellar, and put the tin back.", {"(lies crate cellar)", "(lies tin gallery)"}, set()),
         ("Everyone has to go to the cellar.", {"(isin ida cellar)", "(isin olaf cellar)"}, set()),
         # what still has to be done
         ("If the gallery has to be scrubbed, scrub it.", {"(scrubbed gallery)"}, set()),

@@ -73,7 +73,8 @@ def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
         if noun in PERSONS and any(map(known, clause.antecedents.get(noun, ())[:1])):
             clause = clause.renamed(noun, IT)
         elif is_noun(noun, "everybody") and not known(noun):
-            clause = clause.renamed(noun, the_word("nouns", "whole"))
+            people = the_word("nouns", "people")
+            clause = clause.renamed(noun, people if known(people) else the_word("nouns", "whole"))
     return clause
 
 

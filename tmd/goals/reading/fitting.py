@@ -184,6 +184,8 @@ class Fitting:
         clause = reading.clause
         if not reading.memory.recent or any(r.target in PERSONS for r in clause.relations):
             return None  # "bring me the milk" says where
+        if self.referents.puts_back(reading):
+            return None  # to where it was
         particle = table("particles").get(clause.verb.rpartition("_")[2], ("",))[0]
         if particle in slot.prepositions:
             return particle

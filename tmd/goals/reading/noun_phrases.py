@@ -125,7 +125,7 @@ class Nouns(Facts):
 
     def is_group(self, noun: str) -> bool:
         """Return whether a noun means all things of some classes."""
-        return is_noun(noun, "everything") or noun in self.table.groups
+        return is_noun(noun, "everything") or noun in self.table.groups or bool(self._group(noun))
 
     def things(
         self, noun: str, state: Bits, *, place: bool = False, types: tuple[str, ...] | None = None
@@ -200,7 +200,8 @@ class Nouns(Facts):
         return tuple(n for n in objects if all(self.is_so(word, n, moments) for word in adjectives))
 
     def _group(self, noun: str) -> tuple[str, ...]:
-        classes = self.table.groups.get(noun, ())
+        people = section("people") if is_noun(noun, "people") else frozenset()
+        classes = self.table.groups.get(noun, people)
         return tuple(n for n in self.world.profiles.objects if not self._kinds(n).isdisjoint(classes))
 
     def _explained(self, noun: str, names: Iterable[str], state: Bits) -> list[str]:
