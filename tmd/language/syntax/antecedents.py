@@ -309,7 +309,11 @@ def _named(clause: Clause) -> list[str]:
 
 
 def _with_conditions(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:
-    return replace(clause, conditions=tuple(_condition(c, draft, clause, scenes) for c in clause.conditions))
+    found: list[Condition] = []
+    for condition in clause.conditions:
+        earlier = [_alone(said) for before in found for said in before.clauses]
+        found.append(_condition(condition, draft, clause, [*scenes, *earlier]))
+    return replace(clause, conditions=tuple(found))
 
 
 def _condition(condition: Condition, draft: ClauseDraft, owner: Clause, scenes: list[_Scene]) -> Condition:
@@ -322,10 +326,13 @@ def _condition(condition: Condition, draft: ClauseDraft, owner: Clause, scenes: 
     names = tuple(dict.fromkeys([*ahead, *recent, *behind]))
     # "break the egg into it once it boils": one and the same
     same = {p.name: tuple(dict.fromkeys([*recent, *names])) for p in draft.mentions() if p.pronoun}
+    moved = ahead if draft.verb.stem.partition("_")[0] in section("moving") else ()
+    elsewhere = tuple(sorted(names, key=lambda name: name in moved))  # "put the disc in if there is nothing in it"
 
     def filled(clause: Clause) -> Clause:
         own = [n for n in clause.objects if is_pronoun(n)]
-        found = {n: _agreeing(n, same.get(n, names), many) for n in own if names}
+        holding = {r.target for r in clause.relations if r.relation in section("insides") and r.source and not is_pronoun(r.source)}
+        found = {n: _agreeing(n, elsewhere if n in holding else same.get(n, names), many) for n in own if names}
         clause = replace(
             clause, antecedents={**clause.antecedents, **found}, together={**clause.together, **dict.fromkeys(own, 1)}
         )

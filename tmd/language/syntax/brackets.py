@@ -11,7 +11,7 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from tmd.language.clause import BE, TO, Span
-from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
+from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section, singular
 from tmd.language.syntax.corrections import CORRECTED, GAP, Corrections
 from tmd.language.syntax.tokens import ADDRESS, BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, mark, noted
 
@@ -293,11 +293,28 @@ class Bracketer(Corrections):
         return self._bracket(token, K.NEG, deed, end)
 
     def _set_aside(self, at: int, deed: int, end: int) -> int:
-        """Set aside what need not be done; a thing can be spoken of: "we don't need the lamp, turn it off"."""
-        if self.kind(deed) not in NP:
+        """Set aside what need not be done; a thing can be spoken of: "we don't need the lamp, turn it off".
+
+        What need not be done under a condition is done otherwise: "water it. If it is wet, there is no need".
+        """
+        if self.kind(deed) not in NP or self.among(at, "needless"):
+            end = min(end, self.first(deed, "SUB|STOP"))
+            self._spare(at, end)
             return self._skip(at, end, UNNEEDED)
         self.tokens[at].note = UNNEEDED
         return self._bracket(self.tokens[at], K.SAY, deed, end)
+
+    def _spare(self, at: int, end: int) -> None:
+        """Turn the condition of what need not be done round; take it back where another deed is spared."""
+        start = self._units[-1][0]
+        ahead = [i for i, token in enumerate(self.out) if i >= start and token.kind is K.SUB]
+        before = {token.text for token in self.out[:start] if token.kind is K.N}
+        if {t.text for t in self.tokens[at:end] if t.kind is K.N} <= before:
+            opener = self.tokens[self.past(end, "COMMA*")] if self.kind(end) is not K.STOP else self.tokens[at]
+            for token in [self.out[i] for i in ahead] + [opener] * (opener.kind is K.SUB):
+                token.text = first_of("guards" if token.text in section("excepting") else "excepting")
+        elif ahead:
+            self._take_back(ahead[0], UNNEEDED)
 
     def _denied(self, at: int) -> int:
         """Bracket a statement whose negation stands at ``at``; set aside what things need not have."""
@@ -312,6 +329,7 @@ class Bracketer(Corrections):
     def _speaker(self, at: int) -> int:
         """Bracket what speakers report about themselves or notice; drop other subjects."""
         verb = self.past(at + 1, "(IDLE|AUX)*")
+        due = self.past(verb, "(IDLE|AUX|NEG|TO|INF)*")
         if (wish := self._denied_wish(at)) is not None:
             opener = self.tokens[self.peek(at)]
             opener.negated = True
@@ -322,9 +340,14 @@ class Bracketer(Corrections):
         if own and self.stem_among(verb, "ordering") and self.tokens[verb].form != "ing":
             self._told, self._somebody = self.stem_among(verb, "liking"), True
             return at + 1  # "I'll have a tea"
-        if self._they_belong(at, verb):
+        if (belong := self._they_belong(at, verb)) or self._they_are_due(at, due):
             self._begin_telling(at, own=False)
-            return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(verb))
+            self.tokens[at].kind, self.tokens[at].text = K.PRON, first_of("plural_pronouns")
+            say = mark(K.SAY, self.tokens[at].span.start)
+            for token in self.tokens[at + 1 : due]:
+                if token.kind is K.NEG and token.text in section("duties"):
+                    token.kind, say.negated = K.AUX, True  # "they shouldn't be"
+            return self._bracket(say, K.SAY, at, self._statement_end(verb if belong else at + 1))
         tells = self._begin_telling(at, own=own)
         self._somebody = True
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
@@ -335,14 +358,23 @@ class Bracketer(Corrections):
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
 
     def _they_belong(self, at: int, verb: int) -> bool:
-        """Read "they belong on the bench" as a statement of things; return whether it is one."""
+        """Read "belong" of "they belong on the bench" as finite; return whether it says where things are to be."""
         belongs = self.stem_among(verb, "belonging") or self.among(verb, "belonging")
         if not (belongs and self.among(at, "plural_pronouns") and self.follows(verb + 1, "IDLE* (P|TO)")):
             return False
-        subject, said = self.tokens[at], self.tokens[verb]
-        subject.kind, subject.text = K.PRON, first_of("plural_pronouns")
+        said = self.tokens[verb]
         said.kind, said.stem = K.FINITE, first_of("belonging")
         return True
+
+    def _they_are_due(self, at: int, end: int) -> bool:
+        """Return whether a clause says in what state things are to be: "they should be off", "they need washing"."""
+        said = range(at + 1, end)
+        due = self.among(at, "plural_pronouns") and any(self.among(i, "duties") for i in said)
+        named = next((t.text for t in reversed(self.tokens[:at]) if t.kind is K.N), first_of("people"))
+        if not due or singular(named) in section("people"):
+            return False
+        needed = self.among(said[-1], "needing") and self.kind(said[-1] + 1) in (K.ING, K.PARTICIPLE, K.N)
+        return needed or self.among(said[-1], "be") or any(self.among(i, "infinitive_be") for i in said)
 
     def _begin_telling(self, at: int, *, own: bool) -> bool:
         """Begin a unit where somebody is the subject; return whether it is somebody other than the addressee."""
@@ -462,6 +494,9 @@ class Bracketer(Corrections):
         so = end + 1 + (self.kind(end + 1) is K.SUB and self.among(end + 2, "affirming"))
         denied = self.among(end + 1, "denying")
         opener = mark(K.SUB, self.tokens[at].span.start)
+        if self.follows(end, "STOP (PRON|SUBJECT) (AUX|NEG|TO|INF)+ BREAK"):  # "is the window shut? It should be."
+            opener.note = QUESTION
+            return self._bracket(opener, K.SAY, at + 1, end)
         if not (denied or so > end + 1 or self.among(end + 1, "then_words")):
             self._mention(self.tokens[at + 1 : end], QUESTION)
             return self._skip(at, end, QUESTION)

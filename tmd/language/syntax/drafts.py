@@ -250,7 +250,7 @@ class Attachment:
         elif node.data == "exception" and groups:
             self._exception(phrases_of(groups[0]))
         elif node.data == "state":
-            self.draft.result = [_state_of(t) for t in leaves(node) if t.kind is Kind.STATE][-1]
+            self.draft.result = [state_of(t) for t in leaves(node) if t.kind is Kind.STATE][-1]
 
     def _group(self, phrases: list[Phrase]) -> None:
         """Add what the verb acts on; the first of two groups of a giving verb is the receiver."""
@@ -450,7 +450,7 @@ class Attachment:
         self._pending.clear()
 
 
-def _state_of(token: Token) -> str:
+def state_of(token: Token) -> str:
     """Return the state that a word names: *off*, for "turned off"."""
     particle = token.stem.partition("_")[2]
     return particle if token.form == "ed" and particle in section("end_states") else token.text

@@ -76,7 +76,7 @@ class ClauseEnds(Words):
         # "when it is dry the lid should be shut"
         state = self.kind(at - 1) in (K.ADJ, K.PARTICIPLE) or self.among(at - 1, "end_states")
         said = said or (state and self.follows(at, "DET (NP|OF)* IDLE* AUX"))
-        return said or self.follows(at, "SUB|PURP|SUBJECT IDLE* AUX" if self.kind(at - 1) is not K.CC else "SUB|PURP")
+        return said or self.follows(at, "SUB|PURP|SUBJECT IDLE* (AUX|NEG)" if self.kind(at - 1) is not K.CC else "SUB|PURP")
 
     def _relative_end(self, at: int) -> int:
         """End a relative clause where the main clause goes on: "the chair that stands there to the desk"."""
@@ -171,7 +171,8 @@ class ClauseEnds(Words):
         if self.stem_among(deed, "caring"):
             return True  # "I don't care if it is old"
         helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
-        idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
+        named = self.follows(deed + 1, "IDLE* NP") and self.tokens[self.peek(deed)].form != "ing"
+        idle = self.stem_among(deed, "unneeded") and not named  # but not "don't bother the cat"
         # "they don't need any light in summer"
         spared = self.among(deed - 1, "unneeded") and self.follows(deed, "NP+ (P NP+)* IDLE* BREAK")
         return self.among(at, "needless") or helped or idle or spared

@@ -26,6 +26,7 @@ _DEED = "V|LET|AUX|FINITE|ENSURE|NEG|STOP"
 def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Join the words that are one word of the grammar."""
     tokens = _copulas(_without_commas(Words(tokens)))
+    _results(Words(tokens))
     _finite(Words(tokens))
     _partitives(Words(tokens))
     for token in tokens:
@@ -74,6 +75,17 @@ def _copulas(tokens: list[Token]) -> list[Token]:
         if its or (token.kind is K.N and token.form == "possessive" and state):
             result.append(Token(K.AUX, first_of("be"), Span(token.span.end, token.span.end)))
     return result
+
+
+def _results(words: Words) -> None:
+    """Put the state that a verb leaves behind its object: "push open the door" as "push the door open"."""
+    idle = ("intransitive", "chain_verbs", "lead_verbs")
+    for at, token in enumerate(words.tokens):
+        state = words.kind(at + 1) in (K.V, K.ADJ) and words.among(at + 1, "end_states")
+        if token.kind is K.V and state and words.follows(at + 2, "IDLE* (DET|PRON)") and not words.stem_among(at, *idle):
+            end = words.past(at + 2, "(IDLE|NP)+")
+            words.tokens[at + 1].kind = K.ADJ
+            words.tokens[at + 1 : end] = [*words.tokens[at + 2 : end], words.tokens[at + 1]]
 
 
 def _finite(words: Words) -> None:

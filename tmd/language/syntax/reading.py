@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice, zip_longest
+from itertools import islice, takewhile, zip_longest
 
 from lark import Tree
 
@@ -29,7 +29,7 @@ from tmd.language.clause import (
 from tmd.language.lexicon.lexicon import first_of, pairs, section
 from tmd.language.lexicon.nouns import similarity
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
-from tmd.language.syntax.drafts import Attachment, ClauseDraft, as_one
+from tmd.language.syntax.drafts import Attachment, ClauseDraft, as_one, state_of
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
 from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, give_back, name_verb
@@ -116,8 +116,18 @@ class TextReading:
         for draft in drafts[:-1]:
             draft.direct = last.direct
         self._settle(first, last, before, arguments)
+        self._each_state(last, arguments)
         if first.verb.early and before is not None:
             self._bring_forward(drafts, before)
+
+    def _each_state(self, draft: ClauseDraft, arguments: Sequence[Node]) -> None:
+        """Read "make it clean and dry" as a clause for each state."""
+        at = next((i for i, n in enumerate(arguments) if is_a(n, "state")), len(arguments))
+        words = [t for n in takewhile(lambda node: is_a(node, "state"), arguments[at:]) for t in leaves(n)]
+        states = [state_of(t) for t in words if t.kind is Kind.STATE]
+        if len(states) > 1 and draft in self.drafts and not any(t.text in section("choices") for t in words):
+            own = self.drafts.index(draft)
+            self.drafts[own:own] = [replace(draft, result=state) for state in states[:-1]]
 
     def _bring_forward(self, drafts: Sequence[ClauseDraft], before: ClauseDraft) -> None:
         """Put clauses in front of the sentence before: "put the cup in the crate, but wash it first"."""
@@ -438,6 +448,7 @@ class TextReading:
             self._named(rest)
         elif rest and last is not None:
             self._modify(last, rest)
+            last.spans += spans(trees(rest, "condition"))
 
     def _aside(self, node: Tree[Leaf], conditions: Sequence[Node] = ()) -> None:
         """Read a statement; one that requires a state is a demand."""

@@ -197,14 +197,16 @@ class Saying:
 
     def _each_state(self, attach: Attach) -> list[ClauseDraft]:
         """Return a clause for each state: "should be shut, locked and dry"; but one for "open or shut"."""
-        rest, listed = self.rest, trees(self.rest, "state")[:1]
+        subject, rest, listed = self.subject, self.rest, trees([*self.rest, *self.subject], "state")[:1]
         words = [leaf for node in listed for leaf in node.children if isinstance(leaf, Leaf)]
         states = [leaf for leaf in words if leaf.source.kind is Kind.STATE]
         if len(states) < 2 or any(leaf.source.text in section("choices") for leaf in words):
             return [self._state(attach)]
         found = []
         for state in states:
-            self.rest = [Tree("state", [state]) if node is listed[0] else node for node in rest]
+            alone = Tree("state", [state])
+            self.subject = [alone if node is listed[0] else node for node in subject]
+            self.rest = [alone if node is listed[0] else node for node in rest]
             found.append(self._state(attach))
         return found
 
