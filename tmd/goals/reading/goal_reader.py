@@ -36,7 +36,7 @@ from tmd.goals.words import (
     the_word,
     words_of,
 )
-from tmd.language.clause import AGENT, BRING, PERSONS, PUT, TO, Clause, NounPhrase, Quantifier, Relation
+from tmd.language.clause import AGENT, BRING, PERSONS, PUT, TO, WITH, Clause, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE, disjunction
@@ -179,11 +179,23 @@ class GoalReader:
             asked = self._state(reading.again())
             if not isinstance(asked, Refusal):
                 return asked
+            if (brought := self._brought(clause)) is not None:
+                return self.read(brought, reading.state, reading.memory, decisions=reading.decisions)
         placed = self._placed(reading)
         if placed is None and clause.setting in words_of("extremes"):
             plain, memory = replace(clause, setting=None), reading.memory
             return self.read(plain, reading.state, memory, awaited=reading.awaited, decisions=reading.decisions)
         return placed or self._by_means(reading) or refusal
+
+    def _brought(self, clause: Clause) -> Clause | None:
+        """Return "every bed gets a pillow" as to bring one there; ``None`` where nothing is said to be had."""
+        had = (r for r in clause.relations if r.source in clause.direct and r.relation == WITH)
+        relation = next(had, None)
+        if relation is None or is_none(relation.target, clause) or len(clause.direct) > 1:
+            return None
+        others = tuple(r for r in clause.relations if r != relation)
+        goes = Relation(TO, relation.target, relation.source)
+        return replace(clause, verb=BRING, direct=(relation.target,), relations=(goes, *others))
 
     def _by_means(self, reading: ClauseReading) -> ClauseGoal | None:
         """Return the goal of a clause with a place or tool that every action for it needs; ``None`` for others.

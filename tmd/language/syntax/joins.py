@@ -108,11 +108,14 @@ def _finite(words: Words) -> None:
 def _finite_stem(words: Words, at: int) -> str:
     """Return the stem of a verb of placing, or of getting with several things: "both plants get some water"."""
     several = words.kind(at - 1) is K.N and singular(words.tokens[at - 1].text) != words.tokens[at - 1].text
+    begin = at - 1
+    while words.kind(begin) in NP | {K.CC}:
+        several, begin = several or words.kind(begin) is K.CC, begin - 1  # "the sofa and the bed get a pillow"
     token = words.tokens[at]
     base = singular(token.text)
     gets = several and words.stem_among(at, "receiving")
     gets = gets or (base in section("receiving") and base != token.text)
-    return (token.stem or base) if gets and words.follows(at + 1, "DET|NUM") else _placing(words, at)
+    return (token.stem or base) if gets and words.follows(at + 1, "DET|NUM|ADJ* N") else _placing(words, at)
 
 
 def _placing(words: Words, at: int) -> str:

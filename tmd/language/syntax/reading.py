@@ -116,18 +116,10 @@ class TextReading:
         for draft in drafts[:-1]:
             draft.direct = last.direct
         self._settle(first, last, before, arguments)
-        self._each_state(last, arguments)
+        if last in self.drafts[-1:]:
+            self.drafts[-1:] = _each_state(last, arguments)
         if first.verb.early and before is not None:
             self._bring_forward(drafts, before)
-
-    def _each_state(self, draft: ClauseDraft, arguments: Sequence[Node]) -> None:
-        """Read "make it clean and dry" as a clause for each state."""
-        at = next((i for i, n in enumerate(arguments) if is_a(n, "state")), len(arguments))
-        words = [t for n in takewhile(lambda node: is_a(node, "state"), arguments[at:]) for t in leaves(n)]
-        states = [state_of(t) for t in words if t.kind is Kind.STATE]
-        if len(states) > 1 and draft in self.drafts and not any(t.text in section("choices") for t in words):
-            own = self.drafts.index(draft)
-            self.drafts[own:own] = [replace(draft, result=state) for state in states[:-1]]
 
     def _bring_forward(self, drafts: Sequence[ClauseDraft], before: ClauseDraft) -> None:
         """Put clauses in front of the sentence before: "put the cup in the crate, but wash it first"."""
@@ -549,12 +541,14 @@ class TextReading:
             verb = Token(Kind.V, HAVE, Span(start, start), stem=HAVE, form=IMPLIED)
             draft = ClauseDraft(verb, spans=spans(nodes))
             self._attach(draft, nodes)
-            name_verb(draft)
-            if draft.none() and draft.verb.stem == HAVE:
+            drafts = _each_state(draft, nodes)
+            for named in drafts:
+                name_verb(named)
+            if draft.none() and drafts[-1].verb.stem == HAVE:
                 draft.mood = Mood.AVOID  # "no sugar, please"
                 self.forbidden.append((len(self.drafts), draft))
             else:
-                self.drafts.append(draft)
+                self.drafts += drafts
         else:  # "Socks! Put both of them away."
             self.statements.append((len(self.drafts), mention := empty_draft(BE, nodes)))
             mention.direct = named_in(nodes)
@@ -601,6 +595,16 @@ class TextReading:
         between = re.findall(r"[a-z]+", self.text[before.verb.span.end : draft.verb.span.start].lower())
         same = before.verb.sentence == draft.verb.sentence and not draft.conditions
         return same and section("then_words").isdisjoint(between)
+
+
+def _each_state(draft: ClauseDraft, nodes: Sequence[Node]) -> list[ClauseDraft]:
+    """Return a clause for each state: "make it clean and dry"; but one for "leave it open or shut"."""
+    at = next((i for i, n in enumerate(nodes) if is_a(n, "state")), len(nodes))
+    words = [t for n in takewhile(lambda node: is_a(node, "state"), nodes[at:]) for t in leaves(n)]
+    states = [state_of(t) for t in words if t.kind is Kind.STATE]
+    if len(states) < 2 or any(t.text in section("choices") for t in words):
+        return [draft]
+    return [replace(draft, result=state, verb=replace(draft.verb)) for state in states]
 
 
 def _is_taken_up(nodes: Sequence[Node]) -> bool:

@@ -144,7 +144,7 @@ class Saying:
         owned = self._owns(verbs)
         if verbs and not owned:
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
-        return [self._owned(attach)] if owned else self._states(attach)
+        return self._owned(attach) if owned else self._states(attach)
 
     def _deeds(self, verbs: Sequence[Token]) -> list[Token]:
         """Return the verbs that say what is done to the subject: "must be washed", "needs washing and drying"."""
@@ -261,20 +261,20 @@ class Saying:
         draft.relations += [Relation(AGENT, draft.direct[-1].name if draft.direct else None, p.name) for p in acting]
         return draft
 
-    def _owned(self, attach: Attach) -> ClauseDraft:
-        """*The cup has milk in it*: a state with a relation."""
+    def _owned(self, attach: Attach) -> list[ClauseDraft]:
+        """*The cup has milk in it*: a state with a relation, for each of several owners."""
         draft = empty_draft(BE, [self.part])
         if not (about_things(self.subject) or self._plural()):
             attach(draft, self.rest, ())
-            return draft
+            return [draft]
         attach(draft, self.subject, ())
         draft.stated += draft.relations  # "every book on the desk should get a label"
         contents = named_in(self.rest)
         draft.landmarks += contents
-        owner = draft.direct[-1].name if draft.direct else None
-        draft.relations += [Relation(WITH, owner, p.name) for p in contents]
+        owners = [p.name for p in draft.direct] or [None]
+        draft.relations += [Relation(WITH, owner, p.name) for owner in owners for p in contents]
         draft.relations += [Relation(OF, p.name, part.name) for p in contents for part in p.of]
-        return draft
+        return draft.each() if len(owners) > 1 else [draft]
 
 
 def empty_draft(stem: str, nodes: Sequence[Node]) -> ClauseDraft:
