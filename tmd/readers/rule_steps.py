@@ -314,13 +314,20 @@ def _in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:
     """Return the steps of a text in the order of doing."""
     heading = next((clause for clause in clauses if clause.heading), None)
     if heading is not None and not heading.implied:
-        clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]
+        taken = [c for c in clauses if c.implied and c is not heading and _takes_verb(c, heading)]
+        clauses = [replace(c, verb=heading.verb) if c in taken else c for c in clauses]
     ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
     return tuple(
         step
         for number, clause in ordered
         for step in _steps(clause, number, summarises=not number and len(clauses) > _FEWEST)
     )
+
+
+def _takes_verb(clause: Clause, heading: Clause) -> bool:
+    """Return whether a clause without a verb has that of its heading: not "clear the desk: the pen in the box"."""
+    placed = any(r.source in clause.direct and is_relation(r.relation, "place") for r in clause.relations)
+    return not (placed and heading.direct and is_verb(heading.verb, "summary"))
 
 
 def _step(clause: Clause, number: int, owner: Clause, *, main: bool = True) -> RuleStep:

@@ -8,6 +8,7 @@ What asks for nothing (questions, what is taken back, what need not be done) is 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 
 from tmd.language.clause import BE, TO, Span
@@ -229,6 +230,8 @@ class Bracketer(Corrections):
 
     def _relative(self, at: int) -> int:
         copula = self.peek(at)
+        if self._says_where(at):
+            return self._repeat_noun(copula)
         said = self.past(copula, "SUBJECT|PRON IDLE* (V|FINITE)")
         if said > copula and self.stem_among(said - 1, "reporting") and self.kind(said) is K.AUX:
             copula = said  # "which I believe is in the chest"
@@ -242,6 +245,18 @@ class Bracketer(Corrections):
         if self._last() is K.P:
             self.out.pop()
         return self._bracket(self.tokens[at], K.REL, at + 1, self._relative_end(at))
+
+    def _repeat_noun(self, at: int) -> int:
+        """Begin a statement about the last thing named: "all but the socks, which go in the basket"."""
+        end = max((i for i, token in enumerate(self.out) if token.kind is K.N), default=-1) + 1
+        start = end
+        while start and self.out[start - 1].kind in NP:
+            start -= 1
+        self.out[-1].kind = K.SEP if self._last() is K.COMMA else self._last()
+        self.tokens[at].stem = self.tokens[at].stem or first_of("belonging")
+        self._begin()
+        self.out += [replace(token) for token in self.out[start:end]]
+        return at
 
     def _there(self, copula: int) -> int:
         """Return where a place begins behind a form of *be*: "that is in there" is in it, "that is there" at it."""

@@ -34,9 +34,16 @@ class ClauseEnds(Words):
             return False
         if self.follows(at + 1, "IDLE* NP+ (P NP+)* NEG BREAK"):
             return True  # "the red one should be washed, the blue one not"
-        said = self.kind(at) is K.COMMA and self._statement_follows(at)
+        said = self.kind(at) is K.COMMA and (self._statement_follows(at) or self._says_where(at + 1))
         also = self._too(at + 1 + (self.kind(at + 1) is K.CC))
         return said or also or self._is_reason(at + 1) or self.among(at, "then_words")
+
+    def _says_where(self, at: int) -> bool:
+        """Return whether a relative clause behind a comma says where its noun is to be: ", which go in the basket"."""
+        apart = self.kind(at) is K.REL and self.kind(at - 1) is K.COMMA
+        said = self.peek(at)
+        named = self.among(said, "belonging") or self.stem_among(said, "belonging")
+        return apart and named and self.kind(said) is K.FINITE
 
     def _statement_follows(self, at: int) -> bool:
         """Return whether a subject with its finite verb stands behind a comma or a conjunction."""
