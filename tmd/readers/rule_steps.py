@@ -44,6 +44,7 @@ class RuleStep(Step):
         optional: Whether it may be left out where it is not understood: *when they are done*.
         awaited: Whether it is waited for, not asked for: *until it boils*.
         loose: Whether it may be left out for any reason: a heading, or a purpose.
+        explained: Whether the steps behind it say all that it asks for: *clear the desk: the pen in the box*.
     """
 
     clause: Clause
@@ -52,6 +53,7 @@ class RuleStep(Step):
     optional: bool = False
     awaited: bool = False
     loose: bool = False
+    explained: bool = False
 
 
 def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
@@ -317,15 +319,16 @@ def _in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:
         taken = [c for c in clauses if c.implied and c is not heading and _takes_verb(c, heading)]
         clauses = [replace(c, verb=heading.verb) if c in taken else c for c in clauses]
     ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
+    explained = heading is not None and not all(_takes_verb(c, heading) for c in clauses if c is not heading)
     return tuple(
-        step
+        replace(step, explained=explained and clause.heading)
         for number, clause in ordered
         for step in _steps(clause, number, summarises=not number and len(clauses) > _FEWEST)
     )
 
 
 def _takes_verb(clause: Clause, heading: Clause) -> bool:
-    """Return whether a clause without a verb has that of its heading: not "clear the desk: the pen in the box"."""
+    """Return whether a clause may have the verb of its heading: not "clear the desk: the pen in the box"."""
     placed = any(r.source in clause.direct and is_relation(r.relation, "place") for r in clause.relations)
     return not (placed and heading.direct and is_verb(heading.verb, "summary"))
 

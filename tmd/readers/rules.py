@@ -98,8 +98,9 @@ class RuleReader:
         return None
 
 
-_TITLE = 2
+_TITLE = 4
 """Words of a title, at most: "Movie night!"."""
+_SENTENCE = re.compile(r"[^.!?:;\n]*")
 _COLON = re.compile(r"[^.!?;\n]*:")
 """The rest of a heading."""
 
@@ -188,10 +189,9 @@ class RuleDialogue(Dialogue):
         """Return whether a piece that belongs to no verb names something that is here."""
         nouns = self._goals.nouns
         words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
-        behind = self.parsed.text[piece.span.end :].lstrip()
         first = not self.parsed.text[: piece.span.start].strip() and len(words) <= _TITLE
-        if behind.startswith(":") or (first and behind.startswith(("!", "."))):
-            return False  # a title: "popcorn: …", "Movie night! …"
+        if self._ends_soon(piece, ":", 3) or (first and self._ends_soon(piece, ".!", 1)):
+            return False  # a title: "popcorn for one: …", "Movie night! …"
         objects = self._goals.world.profiles.objects
         named = [word for word in words if nouns.lexicon.names_thing(word) or word in objects]
         named = [n for n in named if not self._goals.is_actor(n)]  # "Joe, wash the car"
@@ -199,6 +199,14 @@ class RuleDialogue(Dialogue):
             map(self._goals.names_deed, words)
         )
         return piece.reason == NO_VERB and known
+
+    def _ends_soon(self, piece: Skipped, signs: str, words: int) -> bool:
+        """Return whether one of the signs follows a piece within some words that are in no clause."""
+        rest = _SENTENCE.match(self.parsed.text, piece.span.end)
+        assert rest is not None
+        free = not any(rest.start() < clause.span.start < rest.end() for clause in self.parsed.clauses)
+        sign = self.parsed.text[rest.end() : rest.end() + 1]
+        return free and len(rest[0].split()) <= words and bool(sign) and sign in signs
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the goal of a step that begins in ``state``."""
@@ -211,6 +219,8 @@ class RuleDialogue(Dialogue):
         if not due:
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return StepGoals((), progress, note)
+        if step.explained:
+            return StepGoals((), progress, "what follows says how")
         clause = step.clause
         each = frozenset(n for n, said in clause.phrases.items() if said.each and not said.plural)
         memory_here = self._with_named_before(step, state, progress.memory)

@@ -537,11 +537,13 @@ class Bracketer(Corrections):
 
     def _stop(self, at: int) -> int:
         token = self.tokens[at]
-        if token.text == ":" and self._verb is None and self._named() and self.kind(self.peek(at)) is K.V:
-            if self.follows(self.peek(at) + 1, "IDLE* BREAK"):  # "window: please close"
-                self.out.insert(self._subject, self.tokens[self.peek(at)])
-                self._verb = self.out[self._subject]
-                return self.peek(at) + 1
+        deed = self.peek(at)
+        topic = token.text == ":" and self._verb is None and self._named() and self.kind(deed) is K.V
+        if topic and self.follows(deed + 1, "IDLE* BREAK"):  # "window: please close"
+            self.out.insert(self._subject, self.tokens[deed])
+            self._verb = self.out[self._subject]
+            return deed + 1
+        if topic and not self.follows(deed + 1, "IDLE* (DET|NUM|ADJ|N)"):  # not "tea for Ann: boil the water"
             return at + 1  # "the radio: put it in the crate"
         ended = token.kind is K.STOP
         token.kind, token.form = K.SEP, ALSO if self._too(at + 1 + (self.kind(at + 1) is K.CC)) else ""

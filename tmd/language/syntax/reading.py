@@ -85,7 +85,9 @@ class TextReading:
             sign = following.source.text if isinstance(following, Leaf) else ""
             heading = sign == ":" and all(is_a(n, "place") for n in front)
             places = front if heading and not actions else []  # "into the crate: rope, hose"
-            if not actions and self._is_topic(front) and _is_taken_up(tree.children[number + 1 :]):
+            if sign == ":" and not actions and _is_title(front, tree.children[number + 2 : number + 3]):
+                self._mention(front)
+            elif not actions and self._is_topic(front) and _is_taken_up(tree.children[number + 1 :]):
                 topic += trees(front, "group")
             elif not places:
                 self._unit(actions, _supplied(unit, front, topic), goes_on=goes_on)
@@ -550,8 +552,12 @@ class TextReading:
             else:
                 self.drafts += drafts
         else:  # "Socks! Put both of them away."
-            self.statements.append((len(self.drafts), mention := empty_draft(BE, nodes)))
-            mention.direct = named_in(nodes)
+            self._mention(nodes)
+
+    def _mention(self, nodes: Sequence[Node]) -> None:
+        """State what is only named, so that pronouns may mean it."""
+        self.statements.append((len(self.drafts), mention := empty_draft(BE, nodes)))
+        mention.direct = named_in(nodes)
 
     def _gapped(self, nodes: list[Node]) -> bool:
         """Read "then the mug" and "the mug too" with the verb, and the place, of the clause before."""
@@ -605,6 +611,13 @@ def _each_state(draft: ClauseDraft, nodes: Sequence[Node]) -> list[ClauseDraft]:
     if len(states) < 2 or any(t.text in section("choices") for t in words):
         return [draft]
     return [replace(draft, result=state, verb=replace(draft.verb)) for state in states]
+
+
+def _is_title(nodes: Sequence[Node], following: Sequence[Node]) -> bool:
+    """Return whether something is only named, and a clause with a verb follows: "tea for Ann: boil the water"."""
+    named = trees(nodes, "group") and all(is_a(node, "group", "place") for node in nodes)
+    benefits = all(next(leaves(node)).text in section("awaited") for node in trees(nodes, "place"))
+    return bool(named) and benefits and any(trees(unit.children, "clause") for unit in trees(following, "unit"))
 
 
 def _is_taken_up(nodes: Sequence[Node]) -> bool:
