@@ -45,6 +45,7 @@ class RuleStep(Step):
         awaited: Whether it is waited for, not asked for: *until it boils*.
         loose: Whether it may be left out for any reason: a heading, or a purpose.
         explained: Whether the steps behind it say all that it asks for: *clear the desk: the pen in the box*.
+        explains: What such a step is about; its own things are likely there: the pen on the desk.
     """
 
     clause: Clause
@@ -54,6 +55,7 @@ class RuleStep(Step):
     awaited: bool = False
     loose: bool = False
     explained: bool = False
+    explains: str = ""
 
 
 def about_things(clause: Clause, known: Callable[[str], bool]) -> Clause:
@@ -319,9 +321,10 @@ def _in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:
         taken = [c for c in clauses if c.implied and c is not heading and _takes_verb(c, heading)]
         clauses = [replace(c, verb=heading.verb) if c in taken else c for c in clauses]
     ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
-    explained = heading is not None and not all(_takes_verb(c, heading) for c in clauses if c is not heading)
+    details = [c for c in clauses if heading is not None and c is not heading and not _takes_verb(c, heading)]
+    about = heading.direct[0] if heading is not None and details else ""
     return tuple(
-        replace(step, explained=explained and clause.heading)
+        replace(step, explained=bool(about) and clause.heading, explains=about if clause in details else "")
         for number, clause in ordered
         for step in _steps(clause, number, summarises=not number and len(clauses) > _FEWEST)
     )

@@ -21,7 +21,7 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
 from tmd.goals.words import BE, is_condition, is_noun, is_pronoun, is_relation, is_verb, words_of
-from tmd.language.clause import AGENT, PERSONS, PUT, Clause, Condition, Mood, Parsed, Quantifier, Skipped
+from tmd.language.clause import AGENT, PERSONS, PUT, Clause, Condition, Mood, Parsed, Quantifier, Relation, Skipped
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
 from tmd.language.lexicon.names import with_names
 from tmd.language.parser import NO_VERB, parse
@@ -221,7 +221,7 @@ class RuleDialogue(Dialogue):
             return StepGoals((), progress, note)
         if step.explained:
             return StepGoals((), progress, "what follows says how")
-        clause = step.clause
+        clause = self._cleared(step, state, progress.memory)
         each = frozenset(n for n, said in clause.phrases.items() if said.each and not said.plural)
         memory_here = self._with_named_before(step, state, progress.memory)
         progress = replace(progress, memory=memory_here, each=each)
@@ -233,6 +233,20 @@ class RuleDialogue(Dialogue):
             idle = (step.optional and _means_nothing(step, found)) or self._is_aside(step, found)
             return StepGoals((), progress, "" if _is_order(moved) else found.message) if idle else found
         return StepGoals(tuple(_candidate(goal, log_prior) for log_prior, goal in found), progress)
+
+    def _cleared(self, step: RuleStep, state: Bits, memory: Memory) -> Clause:
+        """Return the clause of a step, with its things where the heading is about: "clear the desk: the pen …"."""
+        clause = step.clause
+        told_of = {relation.source for relation in clause.stated}
+        for noun in [noun for noun in clause.direct if step.explains and noun not in told_of]:
+            for word in words_of("relations", "resting"):
+                there = Relation(word, noun, step.explains)
+                objects = tuple(dict.fromkeys((*clause.objects, step.explains)))
+                if self._goals.is_there(replace(clause, relations=(there,), objects=objects), state, memory):
+                    told = (*clause.stated, there)
+                    clause = replace(clause, relations=(*clause.relations, there), stated=told, objects=objects)
+                    break
+        return clause
 
     def _to_be_done(self, clause: Clause, state: Bits, memory: Memory) -> Clause | None:
         """Return the clause that is to be done; ``None`` where things stay as they are.

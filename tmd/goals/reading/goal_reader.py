@@ -189,12 +189,12 @@ class GoalReader:
 
     def _brought(self, clause: Clause) -> Clause | None:
         """Return "every bed gets a pillow" as to bring one there; ``None`` where nothing is said to be had."""
-        had = (r for r in clause.relations if r.source in clause.direct and r.relation == WITH)
+        had = (r for r in clause.relations if clause.direct == (r.source,) and r.relation == WITH)
         relation = next(had, None)
-        if relation is None or is_none(relation.target, clause) or len(clause.direct) > 1:
+        if relation is None or is_none(relation.target, clause):
             return None
         others = tuple(r for r in clause.relations if r != relation)
-        goes = Relation(TO, relation.target, relation.source)
+        goes = Relation(TO, relation.target, clause.direct[0])
         return replace(clause, verb=BRING, direct=(relation.target,), relations=(goes, *others))
 
     def _by_means(self, reading: ClauseReading) -> ClauseGoal | None:

@@ -321,8 +321,7 @@ def _condition(condition: Condition, draft: ClauseDraft, owner: Clause, scenes: 
     ahead = () if draft.fronted else tuple(p.name for p in draft.direct if not p.pronoun)
     recent = [name for name, _ in _scored(scenes[-_REACH:][::-1], set(), draft)]
     behind = tuple(p.name for p in draft.mentions() if not p.pronoun)
-    many = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.plural}
-    many |= {p.name for p in draft.mentions() if p.plural}
+    many = _several(draft, scenes)
     names = tuple(dict.fromkeys([*ahead, *recent, *behind]))
     # "break the egg into it once it boils": one and the same
     same = {p.name: tuple(dict.fromkeys([*recent, *names])) for p in draft.mentions() if p.pronoun}
@@ -331,7 +330,7 @@ def _condition(condition: Condition, draft: ClauseDraft, owner: Clause, scenes: 
 
     def filled(clause: Clause) -> Clause:
         own = [n for n in clause.objects if is_pronoun(n)]
-        holding = {r.target for r in clause.relations if r.relation in section("insides") and r.source and not is_pronoun(r.source)}
+        holding = _holding(clause)
         found = {n: _agreeing(n, elsewhere if n in holding else same.get(n, names), many) for n in own if names}
         clause = replace(
             clause, antecedents={**clause.antecedents, **found}, together={**clause.together, **dict.fromkeys(own, 1)}
@@ -339,6 +338,18 @@ def _condition(condition: Condition, draft: ClauseDraft, owner: Clause, scenes: 
         return clause if draft.fronted else _spelled_out(clause, owner)
 
     return replace(condition, clauses=tuple(filled(clause) for clause in condition.clauses))
+
+
+def _several(draft: ClauseDraft, scenes: list[_Scene]) -> set[str]:
+    """Return the plural nouns of a clause and of the scenes before it."""
+    recent = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.plural}
+    return recent | {p.name for p in draft.mentions() if p.plural}
+
+
+def _holding(clause: Clause) -> set[str]:
+    """Return the nouns of which a clause says what is in them."""
+    inner = (r for r in clause.relations if r.relation in section("insides"))
+    return {r.target for r in inner if r.source and not is_pronoun(r.source)}
 
 
 def _agreeing(pronoun: str, names: tuple[str, ...], many: Collection[str]) -> tuple[str, ...]:

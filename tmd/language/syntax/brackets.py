@@ -344,7 +344,6 @@ class Bracketer(Corrections):
     def _speaker(self, at: int) -> int:
         """Bracket what speakers report about themselves or notice; drop other subjects."""
         verb = self.past(at + 1, "(IDLE|AUX)*")
-        due = self.past(verb, "(IDLE|AUX|NEG|TO|INF)*")
         if (wish := self._denied_wish(at)) is not None:
             opener = self.tokens[self.peek(at)]
             opener.negated = True
@@ -355,14 +354,8 @@ class Bracketer(Corrections):
         if own and self.stem_among(verb, "ordering") and self.tokens[verb].form != "ing":
             self._told, self._somebody = self.stem_among(verb, "liking"), True
             return at + 1  # "I'll have a tea"
-        if (belong := self._they_belong(at, verb)) or self._they_are_due(at, due):
-            self._begin_telling(at, own=False)
-            self.tokens[at].kind, self.tokens[at].text = K.PRON, first_of("plural_pronouns")
-            say = mark(K.SAY, self.tokens[at].span.start)
-            for token in self.tokens[at + 1 : due]:
-                if token.kind is K.NEG and token.text in section("duties"):
-                    token.kind, say.negated = K.AUX, True  # "they shouldn't be"
-            return self._bracket(say, K.SAY, at, self._statement_end(verb if belong else at + 1))
+        if said := self._said_of_them(at, verb):
+            return said
         tells = self._begin_telling(at, own=own)
         self._somebody = True
         leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
@@ -371,6 +364,20 @@ class Bracketer(Corrections):
             return at + 1
         self.tokens[at].kind = K.PRON
         return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
+
+    def _said_of_them(self, at: int, verb: int) -> int:
+        """Bracket what "they" of things are, or are to be; return where it ends, or 0 for other subjects."""
+        due = self.past(verb, "(IDLE|AUX|NEG|TO|INF)*")
+        finite = verb if self._they_belong(at, verb) else at + 1 if self._they_are_due(at, due) else 0
+        if not finite:
+            return 0
+        self._begin_telling(at, own=False)
+        self.tokens[at].kind, self.tokens[at].text = K.PRON, first_of("plural_pronouns")
+        say = mark(K.SAY, self.tokens[at].span.start)
+        for token in self.tokens[at + 1 : due]:
+            if token.kind is K.NEG and token.text in section("duties"):
+                token.kind, say.negated = K.AUX, True  # "they shouldn't be"
+        return self._bracket(say, K.SAY, at, self._statement_end(finite))
 
     def _they_belong(self, at: int, verb: int) -> bool:
         """Read "belong" of "they belong on the bench" as finite; return whether it says where things are to be."""

@@ -83,7 +83,9 @@ class ClauseEnds(Words):
         # "when it is dry the lid should be shut"
         state = self.kind(at - 1) in (K.ADJ, K.PARTICIPLE) or self.among(at - 1, "end_states")
         said = said or (state and self.follows(at, "DET (NP|OF)* IDLE* AUX"))
-        return said or self.follows(at, "SUB|PURP|SUBJECT IDLE* (AUX|NEG)" if self.kind(at - 1) is not K.CC else "SUB|PURP")
+        return said or self.follows(
+            at, "SUB|PURP|SUBJECT IDLE* (AUX|NEG)" if self.kind(at - 1) is not K.CC else "SUB|PURP"
+        )
 
     def _relative_end(self, at: int) -> int:
         """End a relative clause where the main clause goes on: "the chair that stands there to the desk"."""

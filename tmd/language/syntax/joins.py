@@ -82,7 +82,12 @@ def _results(words: Words) -> None:
     idle = ("intransitive", "chain_verbs", "lead_verbs")
     for at, token in enumerate(words.tokens):
         state = words.kind(at + 1) in (K.V, K.ADJ) and words.among(at + 1, "end_states")
-        if token.kind is K.V and state and words.follows(at + 2, "IDLE* (DET|PRON)") and not words.stem_among(at, *idle):
+        if (
+            token.kind is K.V
+            and state
+            and words.follows(at + 2, "IDLE* (DET|PRON)")
+            and not words.stem_among(at, *idle)
+        ):
             end = words.past(at + 2, "(IDLE|NP)+")
             words.tokens[at + 1].kind = K.ADJ
             words.tokens[at + 1 : end] = [*words.tokens[at + 2 : end], words.tokens[at + 1]]

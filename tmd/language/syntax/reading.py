@@ -83,9 +83,8 @@ class TextReading:
             actions = trees(unit.children, "clause", "letting")
             front = places + [n for n in unit.children if n not in actions]
             sign = following.source.text if isinstance(following, Leaf) else ""
-            heading = sign == ":" and all(is_a(n, "place") for n in front)
-            places = front if heading and not actions else []  # "into the crate: rope, hose"
-            if sign == ":" and not actions and _is_title(front, tree.children[number + 2 : number + 3]):
+            places = [] if actions else _places_ahead(front, sign)
+            if _is_title(unit, sign, tree.children[number + 2 : number + 3]):
                 self._mention(front)
             elif not actions and self._is_topic(front) and _is_taken_up(tree.children[number + 1 :]):
                 topic += trees(front, "group")
@@ -120,11 +119,12 @@ class TextReading:
         self._settle(first, last, before, arguments)
         if last in self.drafts[-1:]:
             self.drafts[-1:] = _each_state(last, arguments)
-        if first.verb.early and before is not None:
-            self._bring_forward(drafts, before)
+        self._bring_forward(drafts, before)
 
-    def _bring_forward(self, drafts: Sequence[ClauseDraft], before: ClauseDraft) -> None:
-        """Put clauses in front of the sentence before: "put the cup in the crate, but wash it first"."""
+    def _bring_forward(self, drafts: Sequence[ClauseDraft], before: ClauseDraft | None) -> None:
+        """Put clauses with "first" in front of the sentence before: "put the cup in the crate, but wash it first"."""
+        if before is None or not drafts[0].verb.early:
+            return
         others = [draft for draft in self.drafts if draft not in drafts]
         at = next(i for i, draft in enumerate(others) if draft.verb.sentence == before.verb.sentence)
         for draft in drafts:
@@ -613,11 +613,18 @@ def _each_state(draft: ClauseDraft, nodes: Sequence[Node]) -> list[ClauseDraft]:
     return [replace(draft, result=state, verb=replace(draft.verb)) for state in states]
 
 
-def _is_title(nodes: Sequence[Node], following: Sequence[Node]) -> bool:
+def _places_ahead(nodes: list[Node], sign: str) -> list[Node]:
+    """Return the places before a colon, which hold for what is named behind it: "into the crate: rope, hose"."""
+    return nodes if sign == ":" and all(is_a(n, "place") for n in nodes) else []
+
+
+def _is_title(unit: Tree[Leaf], sign: str, following: Sequence[Node]) -> bool:
     """Return whether something is only named, and a clause with a verb follows: "tea for Ann: boil the water"."""
+    nodes = unit.children
     named = trees(nodes, "group") and all(is_a(node, "group", "place") for node in nodes)
     benefits = all(next(leaves(node)).text in section("awaited") for node in trees(nodes, "place"))
-    return bool(named) and benefits and any(trees(unit.children, "clause") for unit in trees(following, "unit"))
+    deed = any(trees(unit.children, "clause") for unit in trees(following, "unit"))
+    return sign == ":" and bool(named) and benefits and deed
 
 
 def _is_taken_up(nodes: Sequence[Node]) -> bool:

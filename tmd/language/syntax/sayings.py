@@ -271,7 +271,7 @@ class Saying:
         draft.stated += draft.relations  # "every book on the desk should get a label"
         contents = named_in(self.rest)
         draft.landmarks += contents
-        owners = [p.name for p in draft.direct] or [None]
+        owners: list[str | None] = [p.name for p in draft.direct] or [None]
         draft.relations += [Relation(WITH, owner, p.name) for owner in owners for p in contents]
         draft.relations += [Relation(OF, p.name, part.name) for p in contents for part in p.of]
         return draft.each() if len(owners) > 1 else [draft]
