@@ -99,7 +99,7 @@ class RuleReader:
 
 
 _TITLE = 4
-"""Words of a title, at most: "Movie night!"."""
+"""Words of a title, at most: "Popcorn and a film!"."""
 _SENTENCE = re.compile(r"[^.!?:;\n]*")
 _COLON = re.compile(r"[^.!?;\n]*:")
 """The rest of a heading."""
@@ -190,7 +190,12 @@ class RuleDialogue(Dialogue):
         nouns = self._goals.nouns
         words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
         first = not self.parsed.text[: piece.span.start].strip() and len(words) <= _TITLE
-        if self._ends_soon(piece, ":", 3) or (first and self._ends_soon(piece, ".!", 1)):
+        exclaimed = first and self._ends_soon(piece, "!", 1)
+        if (
+            exclaimed
+            or self._ends_soon(piece, ":", 3)
+            or (first and len(words) <= 2 and self._ends_soon(piece, ".", 0))
+        ):
             return False  # a title: "popcorn for one: …", "Movie night! …"
         objects = self._goals.world.profiles.objects
         named = [word for word in words if nouns.lexicon.names_thing(word) or word in objects]

@@ -392,10 +392,12 @@ class GoalReader:
 
     def _treated(self, clause: Clause) -> Clause | None:
         """Return "give the fern some water", "put a label on it" as to water or label it, where that is a verb here."""
-        given = tuple(r for r in clause.relations if r.source in clause.direct)
-        if len(clause.direct) != 1 or len(given) != 1:
+        said = (r for r in clause.relations if r.source in clause.direct)
+        # "every piece of clothing needs a price"
+        given = tuple(r for r in said if not (clause.verb == BE and is_relation(r.relation, "partitive")))
+        if len(clause.direct) != 1 or len({relation.relation for relation in given}) != 1:
             return None
-        noun, receivers = clause.direct[0], (given[0].target,)
+        noun, receivers = clause.direct[0], tuple(relation.target for relation in given)
         if clause.verb == BE and is_relation(given[0].relation, "accompanying"):  # "the van needs an oil change"
             return self._needed(clause, given[0].target)
         deed = self._deed(noun, clause)

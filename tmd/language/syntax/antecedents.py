@@ -441,8 +441,8 @@ def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
 
 
 def _acting(draft: ClauseDraft, clause: Clause) -> list[Phrase]:
-    """Return several things that do something together: "the fern and the ivy need water; give them some"."""
-    agents = {r.target for r in clause.relations if r.relation == AGENT}
+    """Return several things that do or get something together: "give the fern and the ivy a drop each"."""
+    agents = {r.target for r in clause.relations if r.relation in (AGENT, TO)}
     acting = [p for p in draft.landmarks if p.name in agents]
     return acting if len(acting) > 1 else []
 

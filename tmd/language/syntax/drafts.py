@@ -257,10 +257,10 @@ class Attachment:
         draft = self.draft
         person = bool(draft.direct) and draft.direct[0].name in PERSONS
         giving = person or draft.verb.stem in section("dative_verbs")
-        if len(draft.direct) == 1 and not self._behind and giving and not draft.relations:
-            receiver = draft.direct.pop()
-            draft.landmarks.append(receiver)
-            draft.relations.extend(Relation(TO, p.name, receiver.name) for p in phrases)
+        if draft.direct and not self._behind and giving and not draft.relations:
+            receivers, draft.direct[:] = [*draft.direct], []
+            draft.landmarks.extend(receivers)
+            draft.relations.extend(Relation(TO, p.name, receiver.name) for p in phrases for receiver in receivers)
         wanted = [p for p in phrases if p.said().quantifier is not Quantifier.NONE]
         phrases = self._without(wanted, phrases) if wanted else phrases  # "a coffee, no sugar"
         phrases = self._told_apart(phrases)

@@ -163,7 +163,9 @@ class ClauseEnds(Words):
         begin = self.past(at, "IDLE*")
         end = self.past(begin, "NP+")
         ahead = any(self.among(i, "also_words") for i in range(at, begin)) and self.kind(end) in BREAKS
-        return end > begin and (ahead or (self.among(end, "also_words") and self.follows(end + 1, "IDLE* BREAK")))
+        return end > begin and (
+            ahead or (self.among(end, "also_words") and self.follows(end + 1, "IDLE* (BREAK|SUB|PURP)"))
+        )
 
     def _is(self, at: int, verb: int) -> bool:
         """Return whether a form of *be* stands between a subject and its predicate."""

@@ -140,8 +140,9 @@ def _partitives(words: Words) -> None:
         token = words.tokens[at]
         if of.kind is not K.P or of.text not in section("of_words"):
             continue
-        if words.kind(at - 1) is K.NUM and words.among(at, "counters"):
-            of.kind = token.kind = K.FILLER  # "two pieces of cutlery" are two
+        counted = words.kind(at - 1) is K.NUM or words.among(at - 1, "all_words", "any_words", "none_words")
+        if counted and words.among(at, "counters"):
+            of.kind = token.kind = K.FILLER  # "two pieces of cutlery" are two, "every piece of clothing" is all
             continue
         if _is_that_of(words, at):
             of.kind, token.kind = K.OF, K.PRON

@@ -32,7 +32,7 @@ from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft, as_one, state_of
 from tmd.language.syntax.grammar import Leaf, Node, is_a, leaves, spans, trees
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
-from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, give_back, name_verb
+from tmd.language.syntax.sayings import Saying, demand, described, empty_draft, give_back, name_verb, sayings_of
 from tmd.language.syntax.tokens import EXISTS, IMPLIED, Kind, Token
 
 _ASIDES = ("demand", "statement")
@@ -221,7 +221,7 @@ class TextReading:
     def _said(self, node: Tree[Leaf]) -> list[ClauseDraft]:
         """Return the clauses of the parts of a subordinate clause."""
         found, mixed = [], _mixed(node)
-        for saying in map(Saying, trees(node.children, "part")):
+        for saying in sayings_of(node):
             drafts = saying.clauses(self._attach)
             for draft in drafts if mixed and saying.denied else ():
                 draft.deny()
@@ -448,8 +448,7 @@ class TextReading:
         """Read a statement; one that requires a state is a demand."""
         opener = next(leaves(node))
         asked = node.data == "demand" or opener.form == DUTY
-        for part in trees(node.children, "part"):
-            saying = Saying(part)
+        for saying in sayings_of(node):
             asked = asked or (saying.asks() and not opener.note)
             if opener.negated and self.drafts and saying.bare:
                 self._forbid(self.drafts[-1], node)  # "the cup goes there, the mug does not"
@@ -460,7 +459,7 @@ class TextReading:
             if asked and not saying.talk:
                 self._demand(node, drafts, conditions, denied=_is_denied(node, saying))
             else:
-                self._stated(part, drafts, len(self.drafts), opener.note or STATEMENT)
+                self._stated(saying.part, drafts, len(self.drafts), opener.note or STATEMENT)
 
     def _suits(self, said: ClauseDraft) -> bool:
         """Return whether a statement allows a vessel, "bring me some water. The blue glass is fine", and add that."""

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from itertools import zip_longest
+from itertools import pairwise, zip_longest
 
 from lark import Tree
 
@@ -42,6 +42,11 @@ class Saying:
         self.rest = [n for n in predicate if not isinstance(n, Leaf) or n.source.kind is Kind.MOD]
         self.verbs = [t for t in words if t.kind in VERBAL - {Kind.AUX} and t.stem]
         self.helpers = [t for t in words if t.kind is Kind.AUX]
+
+    def go_on(self, before: Saying) -> None:
+        """Take the predicate of the part before where it only names things: "the lamp should be off, and the radio"."""
+        if not (self.verbs or self.helpers or self.rest) and all(is_a(node, "group") for node in self.subject):
+            self.verbs, self.helpers, self.rest = before.verbs, before.helpers, before.rest
 
     @property
     def complement(self) -> bool:
@@ -275,6 +280,14 @@ class Saying:
         draft.relations += [Relation(WITH, owner, p.name) for owner in owners for p in contents]
         draft.relations += [Relation(OF, p.name, part.name) for p in contents for part in p.of]
         return draft.each() if len(owners) > 1 else [draft]
+
+
+def sayings_of(node: Tree[Leaf]) -> list[Saying]:
+    """Return the parts of a subordinate clause or statement."""
+    found = [Saying(part) for part in trees(node.children, "part")]
+    for before, saying in pairwise(found):
+        saying.go_on(before)
+    return found
 
 
 def empty_draft(stem: str, nodes: Sequence[Node]) -> ClauseDraft:
