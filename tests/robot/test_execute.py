@@ -376,6 +376,41 @@ def test_a_hand_is_freed_where_nothing_else_helps(corpus: Corpus, demonstrations
     assert set(wanted(corpus, chosen)) <= truth.state
 
 
+@pytest.mark.parametrize("name", ["boiling_water-kitchen1-08", "coffee-kitchen2-08", "coffee-kitchen3-01"])
+def test_hands_are_as_empty_after_a_repair_as_after_the_plan(
+    corpus: Corpus, demonstrations: list[Demonstration], name: str
+) -> None:
+    """A vessel can only be filled in the hand: the repair takes it, and puts it down again."""
+
+    def only_in_the_hand(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name in ("pour", "add") and instruction.args[1] not in truth.held():
+            raise SkillError(SkillPhase.STANCE, "nothing reaches there")
+        return False
+
+    chosen = next(d for d in demonstrations if d.id == name)
+    done, truth, _ = run(corpus, chosen, only_in_the_hand)
+    assert done.status is SkillStatus.RECOVERED, done.reason
+    assert set(wanted(corpus, chosen)) <= truth.state
+    assert truth.held() == []
+
+
+def test_aims_that_are_reached_count_where_tidying_fails(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    chosen = next(d for d in demonstrations if d.id == "coffee-kitchen3-01")
+    aims = set(wanted(corpus, chosen))
+
+    def only_in_the_hand(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name in ("pour", "add") and instruction.args[1] not in truth.held():
+            raise SkillError(SkillPhase.STANCE, "nothing reaches there")
+        if instruction.name in ("keep", "release") and aims <= truth.state:
+            raise SkillError(SkillPhase.STANCE, "there is no room")
+        return False
+
+    done, truth, _ = run(corpus, chosen, only_in_the_hand)
+    assert done.status is SkillStatus.RECOVERED, done.reason
+    assert len(truth.held()) == 1
+    assert {each.atom.args[0] for each in done.lasting if each.atom.predicate == "at"} >= set(truth.held())
+
+
 def test_another_way_to_the_same_facts_is_planned(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
     """One instruction never works; what the plan is for is brought about by others, or the robot stops and says so."""
     ended = []

@@ -239,6 +239,8 @@ class Executor:
                         continue
             repaired = self._repaired(state, waiting, wanted, tried)
             if isinstance(repaired, str):
+                if _satisfied(wanted, state) and all(repair for _, repair in waiting):
+                    break  # only what was to be tidied up is left
                 return self._stopped(repaired, state)
             waiting = repaired
         status = SkillStatus.DONE if smooth and not self._repairs else SkillStatus.RECOVERED
@@ -254,6 +256,7 @@ class Executor:
         self._tried: Counter[tuple[Instruction, Hashable]] = Counter()
         self._spent: set[tuple[Instruction, Hashable]] = set()
         self._on_course: State = self.problem.init
+        self._end: State = self.problem.init
         self._named = {name for instruction in plan for name in instruction.args}
 
     def _did(self, step: ExecutedStep, before: State, after: State) -> bool:
@@ -354,9 +357,20 @@ class Executor:
             plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
             way = _missing(plain, waiting, wanted, planner=self.planner, any_way=True)
             found = way if isinstance(way, str) else _joined(way, waiting)
-        if not isinstance(found, str) and (again := self._the_same_again([i for i, _ in found])) is not None:
+        if isinstance(found, str):
+            return found
+        found += self._tidied(task, [instruction for instruction, _ in found], wanted)
+        if (again := self._the_same_again([instruction for instruction, _ in found])) is not None:
             return f"there is no way left but {again}, which would be tried again as it failed: nothing has moved since"
         return found
+
+    def _tidied(self, task: Task, way: Sequence[Instruction], wanted: _Wanted) -> list[tuple[Instruction, bool]]:
+        """Return what follows a way so that hands, doors and knobs end as the plan leaves them, if one does."""
+        sensors = self.observer.skills.seen
+        moved = frozenset(a for a in task.atoms if sensors.get(a.predicate) in ("held", "joint", "setting"))
+        plain = careful(replace(task, init=task.trace(task.init, way)[-1]), self.observer.skills)
+        more = _missing(plain, (), (wanted[0], wanted[1] | moved - self._end))
+        return [] if isinstance(more, str) else _joined(more, ())
 
     def _the_same_again(self, way: Sequence[Instruction]) -> Instruction | None:
         """Return what has failed as everything stands now, up to the first instruction that moves something."""
@@ -456,6 +470,7 @@ class Executor:
             before, end = end, apply(instruction, end, self.problem)
             moved |= {atom for atom in before ^ end if atom.predicate in worked}
         aside = self.observer.skills.confirmed
+        self._end = end
         concerned = [a for a in (state ^ end) | moved if a.predicate not in aside and not self._aside(a)]
         return frozenset(a for a in concerned if a in end), frozenset(a for a in concerned if a not in end)
 
