@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -127,6 +128,34 @@ def test_a_door_is_shown_from_where_its_inside_is_seen(tmp_path: Path) -> None:
         )
         hit = cell.sim.ray(camera.view.eye, inside)
         assert hit is None or np.linalg.norm(np.subtract(hit.position, inside)) < 0.12
+
+
+def test_a_button_is_shown_from_where_it_is_seen(tmp_path: Path) -> None:
+    """The appliance that it is on may not stand for it, even where the camera begins behind that."""
+    file = tmp_path / "hot.yaml"
+    file.write_text("name: hot\ndomain: kitchen\nobjects:\n  microwave1: {class: push_button_microwave}\n")
+    (environment, folder), (_, world) = Roots().room(str(file)), Roots().world(str(file))
+    with SimulationSession(environment, folder, world.task.problem, kinematic=True) as ready:
+        camera, cell = Camera(ready.cell), ready.cell
+        name = next(n for n in cell.scene.names() if n.endswith("button"))
+        front = cell.front("microwave1")
+        assert front is not None
+        for turn in (front, front + math.pi / 2, front + math.pi):
+            camera.view = replace(camera.view, turn=turn)
+            camera.follow([name], wide=False)
+            button = cell.scene.handle(name)
+            assert button is not None
+            hit = cell.sim.ray(camera.view.eye, button.grasp.position)
+            assert hit is None or math.dist(hit.position, button.grasp.position) < 0.07
+
+
+def test_what_is_filled_is_shown_as_well() -> None:
+    with stage() as ready:
+        film = Film(ready.cell, ready.skills, strip=True)
+        for instruction in map(parse_instruction, ("find(cup1)", "wait()")):
+            film._camera._names = ()
+            film.begin(Title(instruction, 1, 1, False, None), [GroundAtom("contains", ("cup1", "water"))])
+            assert film._camera._names == ("cup1",)
 
 
 def test_a_film_does_not_change_the_run(run: Run) -> None:
