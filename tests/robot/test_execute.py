@@ -600,3 +600,44 @@ def test_what_could_not_be_done_is_only_done_after_something_changed(corpus: Cor
         marked = others.by_instruction[chosen].apply(marked)
         unchanged = unchanged and state & facts == facts
         assert marked & (1 << len(task.atoms)) - 1 == state
+
+
+def test_room_is_made_where_there_is_none(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    """What stands there is taken away, and the thing is not first put elsewhere and brought back."""
+
+    def crowded(truth: Truth, instruction: Instruction) -> bool:
+        full = {("mug1", "sink1", "in"), ("sponge1", "sink1", "in")} <= {*truth.facts("at")}
+        if full and instruction.name == "keep" and instruction.args[1:] == ("sink1", "in"):
+            failed.append(instruction)
+            raise SkillError(SkillPhase.PRECONDITION, "there is no room")
+        return False
+
+    failed: list[Instruction] = []
+    chosen = next(d for d in demonstrations if d.id == "boiling_water-kitchen2-02")
+    done, truth, _ = run(corpus, chosen, crowded)
+    assert done.status is SkillStatus.RECOVERED, done.reason
+    assert len(failed) == 1
+    assert {GroundAtom("hot", ("kettle1",)), GroundAtom("contains", ("kettle1", "water"))} <= truth.state
+
+
+def test_what_is_done_in_another_way_leaves_things_where_the_plan_needs_them(
+    corpus: Corpus, demonstrations: list[Demonstration]
+) -> None:
+    """A bowl in the niche can only be filled in the hand; it is put back below the spout before that runs."""
+
+    def reached(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name == "add" and truth.support(instruction.args[1]) is not None:
+            raise SkillError(SkillPhase.STANCE, "nothing reaches there")
+        return False
+
+    chosen = next(d for d in demonstrations if _adds_below_spout(d))
+    done, truth, _ = run(corpus, chosen, reached)
+    assert done.status is SkillStatus.RECOVERED, done.reason
+    assert set(wanted(corpus, chosen)) <= truth.state
+    assert done.repairs == 1
+
+
+def _adds_below_spout(demonstration: Demonstration) -> bool:
+    names = [instruction.name for instruction in demonstration.instructions]
+    kept = [i.args for i in demonstration.instructions if i.name == "keep" and "dispenser" in i.args[1]]
+    return bool(kept) and "add" in names and names.index("add") < names.index("press")

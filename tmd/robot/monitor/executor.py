@@ -65,7 +65,10 @@ class Setbacks:
         if stage not in TRIES or self._failures[instruction] < TRIES[stage]:
             return
         hands = frozenset(atom for atom in state if self._seen.get(atom.predicate) == "held")
-        for lasting, facts in product((False, True), self._situations(instruction, state)):
+        own, there = self.situations(instruction, state)
+        # where there is no room, there is none until something there is taken away
+        first = [(True, there)] if stage is SkillPhase.PRECONDITION and there else []
+        for lasting, facts in (*first, *product((False, True), (own, there))):
             setback = Setback(instruction, facts or hands, lasting, hands)
             if setback.facts and setback not in self._known:
                 del self._failures[instruction]
@@ -91,13 +94,13 @@ class Setbacks:
             if setback.lasting or setback.hands <= state
         ]
 
-    def _situations(self, instruction: Instruction, state: State) -> Iterator[frozenset[GroundAtom]]:
-        """Yield the facts that might be changed: the places of the things it names, then the things at them."""
+    def situations(self, instruction: Instruction, state: State) -> tuple[frozenset[GroundAtom], frozenset[GroundAtom]]:
+        """Return the facts that might be changed: the places of the things it names, and the things at them."""
         sensors = {atom: self._seen.get(atom.predicate) for atom in state}
         held = {atom for atom, sensor in sensors.items() if sensor == "held" and atom.args[-1] in instruction.args}
         at = {atom for atom, sensor in sensors.items() if sensor == "support"}
-        yield frozenset(held | {atom for atom in at if atom.args[0] in instruction.args})
-        yield frozenset(atom for atom in at if atom.args[1] in instruction.args)
+        own = frozenset(held | {atom for atom in at if atom.args[0] in instruction.args})
+        return own, frozenset(atom for atom in at if atom.args[1] in instruction.args)
 
 
 def without(task: Task, setbacks: Sequence[Setback]) -> Task:
@@ -352,7 +355,8 @@ class Executor:
         """
         task = ground(replace(self.problem, init=state))
         found: list[tuple[Instruction, bool]] | str | None
-        found = self._regained(task, self._setbacks.standing, waiting, wanted) or self._around(task, waiting, wanted)
+        found = self._regained(task, self._setbacks.standing, waiting, wanted)
+        found = found or self._around(task, state, waiting, wanted)
         if found is None:
             plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
             way = _missing(plain, waiting, wanted, planner=self.planner, any_way=True)
@@ -386,27 +390,50 @@ class Executor:
         return tuple(self.observer.lasting(end, state))
 
     def _around(
-        self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
+        self, task: Task, state: State, waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | None:
         """Return a way round the setbacks, if there are any and there is one.
 
-        The waiting instructions are kept; or the next one is left out, and others do for it; or the aims of the plan
-        are reached in another way. If none of that is possible, a hand is freed first.
+        The waiting instructions are kept; or the next one is left out, and others do what it is for and leave things
+        where they are, or do for the rest; or the aims of the plan are reached in another way. If none of that is
+        possible, a hand is freed first. What does not lead to the aims is the last choice.
         """
         question = tuple(self._setbacks.standing), tuple(waiting)
         if not self._setbacks.standing or question in self._hopeless:
             return None
         # setbacks are no part of the PDDL that other planners are given
         plain = careful(task, self.observer.skills)
-        freed = self._setbacks.with_free_hands(task.decode(task.init))
-        for setbacks in dict.fromkeys((question[0], tuple(freed))):
+        last: list[tuple[Instruction, bool]] | None = None
+        for setbacks in dict.fromkeys((question[0], tuple(self._setbacks.with_free_hands(state)))):
             chances = without(plain, setbacks)
-            for rest in dict.fromkeys((question[1], question[1][1:], ())):
-                way = _missing(chances, rest, wanted, cap=DEFAULT_CAP if rest else _NEW_PLAN_CAP)
-                if not isinstance(way, str) and (rest == question[1] or _leads(plain, [*way, *rest], wanted)):
+            for rest, aim in self._choices(question[1], state):
+                way = _missing(chances, () if aim else rest, aim or wanted, cap=DEFAULT_CAP if rest else _NEW_PLAN_CAP)
+                if isinstance(way, str):
+                    continue
+                if _leads(plain, [*way, *rest], wanted):
                     return _joined(way, rest)
+                if rest == question[1] and last is None:
+                    last = _joined(way, rest)
+        if last is not None:
+            return last
         self._hopeless.add(question)
         return None
+
+    def _choices(
+        self, waiting: tuple[Instruction, ...], state: State
+    ) -> Iterator[tuple[tuple[Instruction, ...], _Wanted | None]]:
+        """Yield what may be left of the waiting instructions, each with the aims before it if it can have any."""
+        yield waiting, None
+        if not waiting:
+            return
+        after = apply(waiting[0], state, self.problem)
+        near = self.observer.skills.confirmed
+        places, _ = self._setbacks.situations(waiting[0], after)
+        changed = {a for a in after ^ state if a.predicate not in near}
+        yield waiting[1:], (frozenset(changed & after | places), frozenset(changed - after))
+        if waiting[1:]:
+            yield waiting[1:], None
+            yield (), None
 
     def _regained(
         self, task: Task, setbacks: Sequence[Setback], waiting: Sequence[Instruction], wanted: _Wanted
@@ -530,7 +557,9 @@ def _missing(
 
 
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
-    return _satisfied(wanted, task.decode(task.trace(task.init, plan)[-1]))
+    known = [task.by_instruction[instruction] for instruction in plan if instruction in task.by_instruction]
+    runs = len(known) == len(plan) and _runs(known, task.init)
+    return runs and _satisfied(wanted, task.decode(task.trace(task.init, plan)[-1]))
 
 
 def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:
