@@ -38,6 +38,7 @@ class Truth:
         self.lying: set[str] = set()
         self.beside: set[str] = set()
         self.leaned: dict[str, float] = {}
+        self.places: list[tuple[Instruction, int]] = []
 
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         self.clock += 480
@@ -47,6 +48,10 @@ class Truth:
                 return ""
         self.state = apply(instruction, self.state, self.problem)
         return "it was done"
+
+    def begin(self, instruction: Instruction, gains: Collection[GroundAtom], place: int, repair: bool) -> None:
+        if not repair:
+            self.places.append((instruction, place))
 
     def facts(self, predicate: str) -> list[tuple[str, ...]]:
         """The arguments of what holds now: the monitor asks much more often than anything changes."""
@@ -134,7 +139,7 @@ def run(
     observer = copy(known)
     observer.senses = truth
     observer._inference = FactInference(observer.skills, truth)
-    executor = Executor(truth.problem, observer, truth, watch=told.append)
+    executor = Executor(truth.problem, observer, truth, begin=truth.begin, watch=told.append)
     return executor.execute(demonstration.instructions), truth, told
 
 
@@ -635,6 +640,9 @@ def test_what_is_done_in_another_way_leaves_things_where_the_plan_needs_them(
     assert done.status is SkillStatus.RECOVERED, done.reason
     assert set(wanted(corpus, chosen)) <= truth.state
     assert done.repairs == 1
+    # what follows in the plan is told as such
+    assert all(chosen.instructions[place] == instruction for instruction, place in truth.places)
+    assert truth.places[-1][1] == len(chosen.instructions) - 1
 
 
 def _adds_below_spout(demonstration: Demonstration) -> bool:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
@@ -159,6 +159,11 @@ MOST_REPAIRS = 6
 _NEW_PLAN_CAP = 1000
 
 
+Begin: TypeAlias = Callable[[Instruction, Collection[GroundAtom], int, bool], None]
+"""Receives an instruction, the facts that it should bring about, its place in the plan from 0 (of a repair: where it is
+put in), and whether it is a repair."""
+
+
 class Performer(Protocol):
     """Performer of instructions: a robot in a simulation."""
 
@@ -195,7 +200,7 @@ class Executor:
         performer: Carries out the instructions.
         planner: Name of the planner for repairs.
         most_repairs: Maximum number of replannings.
-        begin: Called before each instruction, with the facts that it should bring about.
+        begin: Called before each instruction.
         watch: Called with each finished step.
     """
 
@@ -207,7 +212,7 @@ class Executor:
         *,
         planner: str = IN_PROCESS,
         most_repairs: int = MOST_REPAIRS,
-        begin: Callable[[Instruction, Collection[GroundAtom]], None] = lambda instruction, gains: None,
+        begin: Begin = lambda *_: None,
         watch: Callable[[ExecutedStep], None] = lambda step: None,
     ) -> None:
         self.problem = problem
@@ -230,7 +235,8 @@ class Executor:
             tried = waiting[0][0] if waiting else None
             if tried is not None and first_broken(tried, state, self.problem) is None:
                 before = state
-                done, state = self._do(*waiting[0], state, attempt)
+                place = len(plan) - sum(not repair for _, repair in waiting)
+                done, state = self._do(*waiting[0], state, attempt, place)
                 # it did what was predicted, and no more
                 exact = not done.failure and all(self._beside(mismatch, before) for mismatch in done.mismatches)
                 smooth = smooth and exact
@@ -286,11 +292,13 @@ class Executor:
             state = apply(instruction, state, self.problem)
         return bool(waiting) and _satisfied(wanted, state)
 
-    def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
+    def _do(
+        self, instruction: Instruction, repair: bool, state: State, attempt: int, place: int
+    ) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
         key = instruction, self.performer.situation()
-        self.begin(instruction, predicted - state)
+        self.begin(instruction, predicted - state, place, repair)
         try:
             evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
