@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Protocol, TypeAlias
@@ -402,19 +402,22 @@ class Executor:
     ) -> list[tuple[Instruction, bool]] | None:
         """Return a way round the setbacks, if there are any and there is one.
 
-        The waiting instructions are kept; or the next one is left out, and others do what it is for and leave things
-        where they are, or do for the rest; or the aims of the plan are reached in another way. If none of that is
-        possible, a hand is freed first. What does not lead to the aims is the last choice.
+        The waiting instructions are kept; or others do what the next one is for, and leave things where it would; or
+        the aims of the plan are reached in another way. If none of that is possible, a hand is freed first. What does
+        not lead to the aims is the last choice.
         """
         question = tuple(self._setbacks.standing), tuple(waiting)
         if not self._setbacks.standing or question in self._hopeless:
             return None
         # setbacks are no part of the PDDL that other planners are given
         plain = careful(task, self.observer.skills)
+        choices: list[tuple[tuple[Instruction, ...], _Wanted | None]] = [(question[1], None)]
+        if waiting:
+            choices += [(question[1][1:], self._same_end(waiting[0], state)), ((), None)]
         last: list[tuple[Instruction, bool]] | None = None
         for setbacks in dict.fromkeys((question[0], tuple(self._setbacks.with_free_hands(state)))):
             chances = without(plain, setbacks)
-            for rest, aim in self._choices(question[1], state):
+            for rest, aim in choices:
                 way = _missing(chances, () if aim else rest, aim or wanted, cap=DEFAULT_CAP if rest else _NEW_PLAN_CAP)
                 if isinstance(way, str):
                     continue
@@ -427,21 +430,12 @@ class Executor:
         self._hopeless.add(question)
         return None
 
-    def _choices(
-        self, waiting: tuple[Instruction, ...], state: State
-    ) -> Iterator[tuple[tuple[Instruction, ...], _Wanted | None]]:
-        """Yield what may be left of the waiting instructions, each with the aims before it if it can have any."""
-        yield waiting, None
-        if not waiting:
-            return
-        after = apply(waiting[0], state, self.problem)
-        near = self.observer.skills.confirmed
-        places, _ = self._setbacks.situations(waiting[0], after)
-        changed = {a for a in after ^ state if a.predicate not in near}
-        yield waiting[1:], (frozenset(changed & after | places), frozenset(changed - after))
-        if waiting[1:]:
-            yield waiting[1:], None
-            yield (), None
+    def _same_end(self, instruction: Instruction, state: State) -> _Wanted:
+        """Return the aims of an instruction that is done in another way: what it names is where it would be."""
+        after = apply(instruction, state, self.problem)
+        changed = {a for a in after ^ state if a.predicate not in self.observer.skills.confirmed}
+        places, _ = self._setbacks.situations(instruction, after)
+        return frozenset(changed & after | places), frozenset(changed - after)
 
     def _regained(
         self, task: Task, setbacks: Sequence[Setback], waiting: Sequence[Instruction], wanted: _Wanted
