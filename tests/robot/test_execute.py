@@ -38,6 +38,7 @@ class Truth:
         self.lying: set[str] = set()
         self.beside: set[str] = set()
         self.leaned: dict[str, float] = {}
+        self.places: list[tuple[Instruction, int]] = []
 
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         self.clock += 480
@@ -47,6 +48,10 @@ class Truth:
                 return ""
         self.state = apply(instruction, self.state, self.problem)
         return "it was done"
+
+    def begin(self, instruction: Instruction, gains: Collection[GroundAtom], place: int, repair: bool) -> None:
+        if not repair:
+            self.places.append((instruction, place))
 
     def facts(self, predicate: str) -> list[tuple[str, ...]]:
         """The arguments of what holds now: the monitor asks much more often than anything changes."""
@@ -134,7 +139,7 @@ def run(
     observer = copy(known)
     observer.senses = truth
     observer._inference = FactInference(observer.skills, truth)
-    executor = Executor(truth.problem, observer, truth, watch=told.append)
+    executor = Executor(truth.problem, observer, truth, begin=truth.begin, watch=told.append)
     return executor.execute(demonstration.instructions), truth, told
 
 
@@ -376,6 +381,41 @@ def test_a_hand_is_freed_where_nothing_else_helps(corpus: Corpus, demonstrations
     assert set(wanted(corpus, chosen)) <= truth.state
 
 
+@pytest.mark.parametrize("name", ["boiling_water-kitchen1-08", "coffee-kitchen2-08", "coffee-kitchen3-01"])
+def test_hands_are_as_empty_after_a_repair_as_after_the_plan(
+    corpus: Corpus, demonstrations: list[Demonstration], name: str
+) -> None:
+    """A vessel can only be filled in the hand: the repair takes it, and puts it down again."""
+
+    def only_in_the_hand(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name in ("pour", "add") and instruction.args[1] not in truth.held():
+            raise SkillError(SkillPhase.STANCE, "nothing reaches there")
+        return False
+
+    chosen = next(d for d in demonstrations if d.id == name)
+    done, truth, _ = run(corpus, chosen, only_in_the_hand)
+    assert done.status is SkillStatus.RECOVERED, done.reason
+    assert set(wanted(corpus, chosen)) <= truth.state
+    assert truth.held() == []
+
+
+def test_aims_that_are_reached_count_where_tidying_fails(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    chosen = next(d for d in demonstrations if d.id == "coffee-kitchen3-01")
+    aims = set(wanted(corpus, chosen))
+
+    def only_in_the_hand(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name in ("pour", "add") and instruction.args[1] not in truth.held():
+            raise SkillError(SkillPhase.STANCE, "nothing reaches there")
+        if instruction.name in ("keep", "release") and aims <= truth.state:
+            raise SkillError(SkillPhase.STANCE, "there is no room")
+        return False
+
+    done, truth, _ = run(corpus, chosen, only_in_the_hand)
+    assert done.status is SkillStatus.RECOVERED, done.reason
+    assert len(truth.held()) == 1
+    assert {each.atom.args[0] for each in done.lasting if each.atom.predicate == "at"} >= set(truth.held())
+
+
 def test_another_way_to_the_same_facts_is_planned(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
     """One instruction never works; what the plan is for is brought about by others, or the robot stops and says so."""
     ended = []
@@ -565,3 +605,47 @@ def test_what_could_not_be_done_is_only_done_after_something_changed(corpus: Cor
         marked = others.by_instruction[chosen].apply(marked)
         unchanged = unchanged and state & facts == facts
         assert marked & (1 << len(task.atoms)) - 1 == state
+
+
+def test_room_is_made_where_there_is_none(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    """What stands there is taken away, and the thing is not first put elsewhere and brought back."""
+
+    def crowded(truth: Truth, instruction: Instruction) -> bool:
+        full = {("mug1", "sink1", "in"), ("sponge1", "sink1", "in")} <= {*truth.facts("at")}
+        if full and instruction.name == "keep" and instruction.args[1:] == ("sink1", "in"):
+            failed.append(instruction)
+            raise SkillError(SkillPhase.PRECONDITION, "there is no room")
+        return False
+
+    failed: list[Instruction] = []
+    chosen = next(d for d in demonstrations if d.id == "boiling_water-kitchen2-02")
+    done, truth, _ = run(corpus, chosen, crowded)
+    assert done.status is SkillStatus.RECOVERED, done.reason
+    assert len(failed) == 1
+    assert {GroundAtom("hot", ("kettle1",)), GroundAtom("contains", ("kettle1", "water"))} <= truth.state
+
+
+def test_what_is_done_in_another_way_leaves_things_where_the_plan_needs_them(
+    corpus: Corpus, demonstrations: list[Demonstration]
+) -> None:
+    """A bowl in the niche can only be filled in the hand; it is put back below the spout before that runs."""
+
+    def reached(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name == "add" and truth.support(instruction.args[1]) is not None:
+            raise SkillError(SkillPhase.STANCE, "nothing reaches there")
+        return False
+
+    chosen = next(d for d in demonstrations if _adds_below_spout(d))
+    done, truth, _ = run(corpus, chosen, reached)
+    assert done.status is SkillStatus.RECOVERED, done.reason
+    assert set(wanted(corpus, chosen)) <= truth.state
+    assert done.repairs == 1
+    # what follows in the plan is told as such
+    assert all(chosen.instructions[place] == instruction for instruction, place in truth.places)
+    assert truth.places[-1][1] == len(chosen.instructions) - 1
+
+
+def _adds_below_spout(demonstration: Demonstration) -> bool:
+    names = [instruction.name for instruction in demonstration.instructions]
+    kept = [i.args for i in demonstration.instructions if i.name == "keep" and "dispenser" in i.args[1]]
+    return bool(kept) and "add" in names and names.index("add") < names.index("press")

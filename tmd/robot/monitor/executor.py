@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
-from typing import Protocol
+from typing import Protocol, TypeAlias
 
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
@@ -65,7 +65,10 @@ class Setbacks:
         if stage not in TRIES or self._failures[instruction] < TRIES[stage]:
             return
         hands = frozenset(atom for atom in state if self._seen.get(atom.predicate) == "held")
-        for lasting, facts in product((False, True), self._situations(instruction, state)):
+        own, there = self.situations(instruction, state)
+        # where there is no room, there is none until something there is taken away
+        first = [(True, there)] if stage is SkillPhase.PRECONDITION and there else []
+        for lasting, facts in (*first, *product((False, True), (own, there))):
             setback = Setback(instruction, facts or hands, lasting, hands)
             if setback.facts and setback not in self._known:
                 del self._failures[instruction]
@@ -91,13 +94,13 @@ class Setbacks:
             if setback.lasting or setback.hands <= state
         ]
 
-    def _situations(self, instruction: Instruction, state: State) -> Iterator[frozenset[GroundAtom]]:
-        """Yield the facts that might be changed: the places of the things it names, then the things at them."""
+    def situations(self, instruction: Instruction, state: State) -> tuple[frozenset[GroundAtom], frozenset[GroundAtom]]:
+        """Return the facts that might be changed: the places of the things it names, and the things at them."""
         sensors = {atom: self._seen.get(atom.predicate) for atom in state}
         held = {atom for atom, sensor in sensors.items() if sensor == "held" and atom.args[-1] in instruction.args}
         at = {atom for atom, sensor in sensors.items() if sensor == "support"}
-        yield frozenset(held | {atom for atom in at if atom.args[0] in instruction.args})
-        yield frozenset(atom for atom in at if atom.args[1] in instruction.args)
+        own = frozenset(held | {atom for atom in at if atom.args[0] in instruction.args})
+        return own, frozenset(atom for atom in at if atom.args[1] in instruction.args)
 
 
 def without(task: Task, setbacks: Sequence[Setback]) -> Task:
@@ -156,6 +159,11 @@ MOST_REPAIRS = 6
 _NEW_PLAN_CAP = 1000
 
 
+Begin: TypeAlias = Callable[[Instruction, Collection[GroundAtom], int, bool], None]
+"""Receives an instruction, the facts that it should bring about, its place in the plan from 0 (of a repair: where it is
+put in), and whether it is a repair."""
+
+
 class Performer(Protocol):
     """Performer of instructions: a robot in a simulation."""
 
@@ -192,7 +200,7 @@ class Executor:
         performer: Carries out the instructions.
         planner: Name of the planner for repairs.
         most_repairs: Maximum number of replannings.
-        begin: Called before each instruction, with the facts that it should bring about.
+        begin: Called before each instruction.
         watch: Called with each finished step.
     """
 
@@ -204,7 +212,7 @@ class Executor:
         *,
         planner: str = IN_PROCESS,
         most_repairs: int = MOST_REPAIRS,
-        begin: Callable[[Instruction, Collection[GroundAtom]], None] = lambda instruction, gains: None,
+        begin: Begin = lambda *_: None,
         watch: Callable[[ExecutedStep], None] = lambda step: None,
     ) -> None:
         self.problem = problem
@@ -227,7 +235,8 @@ class Executor:
             tried = waiting[0][0] if waiting else None
             if tried is not None and first_broken(tried, state, self.problem) is None:
                 before = state
-                done, state = self._do(*waiting[0], state, attempt)
+                place = len(plan) - sum(not repair for _, repair in waiting)
+                done, state = self._do(*waiting[0], state, attempt, place)
                 # it did what was predicted, and no more
                 exact = not done.failure and all(self._beside(mismatch, before) for mismatch in done.mismatches)
                 smooth = smooth and exact
@@ -239,6 +248,8 @@ class Executor:
                         continue
             repaired = self._repaired(state, waiting, wanted, tried)
             if isinstance(repaired, str):
+                if _satisfied(wanted, state) and all(repair for _, repair in waiting):
+                    break  # only what was to be tidied up is left
                 return self._stopped(repaired, state)
             waiting = repaired
         status = SkillStatus.DONE if smooth and not self._repairs else SkillStatus.RECOVERED
@@ -254,6 +265,7 @@ class Executor:
         self._tried: Counter[tuple[Instruction, Hashable]] = Counter()
         self._spent: set[tuple[Instruction, Hashable]] = set()
         self._on_course: State = self.problem.init
+        self._end: State = self.problem.init
         self._named = {name for instruction in plan for name in instruction.args}
 
     def _did(self, step: ExecutedStep, before: State, after: State) -> bool:
@@ -280,11 +292,13 @@ class Executor:
             state = apply(instruction, state, self.problem)
         return bool(waiting) and _satisfied(wanted, state)
 
-    def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
+    def _do(
+        self, instruction: Instruction, repair: bool, state: State, attempt: int, place: int
+    ) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
         key = instruction, self.performer.situation()
-        self.begin(instruction, predicted - state)
+        self.begin(instruction, predicted - state, place, repair)
         try:
             evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
@@ -349,14 +363,26 @@ class Executor:
         """
         task = ground(replace(self.problem, init=state))
         found: list[tuple[Instruction, bool]] | str | None
-        found = self._regained(task, self._setbacks.standing, waiting, wanted) or self._around(task, waiting, wanted)
+        found = self._regained(task, self._setbacks.standing, waiting, wanted)
+        found = found or self._around(task, state, waiting, wanted)
         if found is None:
             plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
             way = _missing(plain, waiting, wanted, planner=self.planner, any_way=True)
             found = way if isinstance(way, str) else _joined(way, waiting)
-        if not isinstance(found, str) and (again := self._the_same_again([i for i, _ in found])) is not None:
+        if isinstance(found, str):
+            return found
+        found += self._tidied(task, [instruction for instruction, _ in found], wanted)
+        if (again := self._the_same_again([instruction for instruction, _ in found])) is not None:
             return f"there is no way left but {again}, which would be tried again as it failed: nothing has moved since"
         return found
+
+    def _tidied(self, task: Task, way: Sequence[Instruction], wanted: _Wanted) -> list[tuple[Instruction, bool]]:
+        """Return what follows a way so that hands, doors and knobs end as the plan leaves them, if one does."""
+        sensors = self.observer.skills.seen
+        moved = frozenset(a for a in task.atoms if sensors.get(a.predicate) in ("held", "joint", "setting"))
+        plain = careful(replace(task, init=task.trace(task.init, way)[-1]), self.observer.skills)
+        more = _missing(plain, (), (wanted[0], wanted[1] | moved - self._end))
+        return [] if isinstance(more, str) else _joined(more, ())
 
     def _the_same_again(self, way: Sequence[Instruction]) -> Instruction | None:
         """Return what has failed as everything stands now, up to the first instruction that moves something."""
@@ -372,27 +398,44 @@ class Executor:
         return tuple(self.observer.lasting(end, state))
 
     def _around(
-        self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
+        self, task: Task, state: State, waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | None:
         """Return a way round the setbacks, if there are any and there is one.
 
-        The waiting instructions are kept; or the next one is left out, and others do for it; or the aims of the plan
-        are reached in another way. If none of that is possible, a hand is freed first.
+        The waiting instructions are kept; or others do what the next one is for, and leave things where it would; or
+        the aims of the plan are reached in another way. If none of that is possible, a hand is freed first. What does
+        not lead to the aims is the last choice.
         """
         question = tuple(self._setbacks.standing), tuple(waiting)
         if not self._setbacks.standing or question in self._hopeless:
             return None
         # setbacks are no part of the PDDL that other planners are given
         plain = careful(task, self.observer.skills)
-        freed = self._setbacks.with_free_hands(task.decode(task.init))
-        for setbacks in dict.fromkeys((question[0], tuple(freed))):
+        choices: list[tuple[tuple[Instruction, ...], _Wanted | None]] = [(question[1], None)]
+        if waiting:
+            choices += [(question[1][1:], self._same_end(waiting[0], state)), ((), None)]
+        last: list[tuple[Instruction, bool]] | None = None
+        for setbacks in dict.fromkeys((question[0], tuple(self._setbacks.with_free_hands(state)))):
             chances = without(plain, setbacks)
-            for rest in dict.fromkeys((question[1], question[1][1:], ())):
-                way = _missing(chances, rest, wanted, cap=DEFAULT_CAP if rest else _NEW_PLAN_CAP)
-                if not isinstance(way, str) and (rest == question[1] or _leads(plain, [*way, *rest], wanted)):
+            for rest, aim in choices:
+                way = _missing(chances, () if aim else rest, aim or wanted, cap=DEFAULT_CAP if rest else _NEW_PLAN_CAP)
+                if isinstance(way, str):
+                    continue
+                if _leads(plain, [*way, *rest], wanted):
                     return _joined(way, rest)
+                if rest == question[1] and last is None:
+                    last = _joined(way, rest)
+        if last is not None:
+            return last
         self._hopeless.add(question)
         return None
+
+    def _same_end(self, instruction: Instruction, state: State) -> _Wanted:
+        """Return the aims of an instruction that is done in another way: what it names is where it would be."""
+        after = apply(instruction, state, self.problem)
+        changed = {a for a in after ^ state if a.predicate not in self.observer.skills.confirmed}
+        places, _ = self._setbacks.situations(instruction, after)
+        return frozenset(changed & after | places), frozenset(changed - after)
 
     def _regained(
         self, task: Task, setbacks: Sequence[Setback], waiting: Sequence[Instruction], wanted: _Wanted
@@ -456,6 +499,7 @@ class Executor:
             before, end = end, apply(instruction, end, self.problem)
             moved |= {atom for atom in before ^ end if atom.predicate in worked}
         aside = self.observer.skills.confirmed
+        self._end = end
         concerned = [a for a in (state ^ end) | moved if a.predicate not in aside and not self._aside(a)]
         return frozenset(a for a in concerned if a in end), frozenset(a for a in concerned if a not in end)
 
@@ -515,7 +559,9 @@ def _missing(
 
 
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
-    return _satisfied(wanted, task.decode(task.trace(task.init, plan)[-1]))
+    known = [task.by_instruction[instruction] for instruction in plan if instruction in task.by_instruction]
+    runs = len(known) == len(plan) and _runs(known, task.init)
+    return runs and _satisfied(wanted, task.decode(task.trace(task.init, plan)[-1]))
 
 
 def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:

@@ -69,36 +69,17 @@ class Recorder:
     def __init__(self, orders: Sequence[Order], listeners: Sequence[Listener]) -> None:
         self._orders = tuple(orders)
         self._listeners = tuple(listeners)
-        self._next = 0
-        self._open = False
+        self._title: Title
 
-    def begin(self, instruction: Instruction, gains: Collection[GroundAtom]) -> None:
-        """Announce an instruction that should bring about ``gains``."""
-        title = self._title(instruction, self._place(instruction))
+    def begin(self, instruction: Instruction, gains: Collection[GroundAtom], place: int, repair: bool) -> None:
+        """Announce an instruction that should bring about ``gains``; see :data:`tmd.robot.monitor.executor.Begin`."""
+        count = len(self._orders)
+        order = None if repair else self._orders[place]
+        self._title = Title(instruction, min(place + 1, count), count, repair, order)
         for listener in self._listeners:
-            listener.begin(title, sorted(gains))
+            listener.begin(self._title, sorted(gains))
 
     def end(self, step: ExecutedStep) -> None:
         """Report a finished step."""
-        place = None if step.repair else self._place(step.instruction)
-        title = self._title(step.instruction, place)
-        if place is not None:
-            done = not step.failure and not step.mismatches
-            self._next = place + 1 if done else place
-            self._open = not done and not step.failure
         for listener in self._listeners:
-            listener.end(title, step)
-
-    def _place(self, instruction: Instruction) -> int | None:
-        """Return the place in the plan; ``None`` for a repair.
-
-        After a step whose facts are not as predicted, the executor may try it again or go on.
-        """
-        possible = range(self._next, min(self._next + 1 + self._open, len(self._orders)))
-        return next((place for place in possible if self._orders[place].instruction == instruction), None)
-
-    def _title(self, instruction: Instruction, place: int | None) -> Title:
-        count = len(self._orders)
-        if place is None:
-            return Title(instruction, min(self._next + 1, count), count, True, None)
-        return Title(instruction, place + 1, count, False, self._orders[place])
+            listener.end(self._title, step)

@@ -21,15 +21,15 @@ from tmd.robot.skills.robot_context import Cell
 # Vertical angle of view in degrees.
 FOV = 50.0
 _TURNS = tuple(math.radians(15.0 * step) for step in range(24))
-_HEIGHTS = tuple(map(math.radians, (28.0, 40.0, 54.0)))
+_HEIGHTS = tuple(map(math.radians, (16.0, 28.0, 40.0, 54.0)))
 # Metres round the subject that are in the picture, at least.
 _CLOSE, _WIDE = 0.5, 1.0
 # A hand that is farther from the thing than this has nothing to do with it.
-_NEAR_HAND = 0.9
+_NEAR_HAND = 0.4
 # One that is nearer than this to the middle of the picture works there.
 _AT_WORK = 0.35
 # A ray that gets this near to its goal has met it.
-_SEEN = 0.1
+_SEEN = 0.06
 # The robot's own body counts as seen where it is this near to the point.
 _OWN = 0.35
 
@@ -100,25 +100,27 @@ class Camera:
         target, around = _ball([p.place for p in points if p.weight >= 1.0])
         around = max(around + 0.3, _WIDE) if self.wide else max(around + 0.2, _CLOSE)
         distance = around / math.sin(math.radians(FOV / 2))
-        views = [View(target, turn, height, distance) for turn, height in product(_TURNS, _HEIGHTS)]
+        heights = _HEIGHTS[1:] if self.wide else _HEIGHTS
+        views = [View(target, turn, height, distance) for turn, height in product(_TURNS, heights)]
         return max(views, key=lambda view: self._worth(view, points))
 
     def _points(self) -> list[_Point]:
         cell, points = self._cell, []
         for name in self._names:
             handle = cell.scene.handle(name)
-            if handle is not None and handle.kind in ("door", "drawer"):
-                points += self._door_points(name, handle)
+            if handle is not None:
+                points += self._handle_points(name, handle)
                 continue
             low, high = cell.sim.extents(*cell.scene.place(name))
             body, _ = cell.scene.place(name)
             x, y, z = cell.centre(name)
             points.append(_Point((x, y, z), (body,), 2.0))
-            points.append(_Point((x, y, high[2]), (body,), 1.0))
+            points.append(_Point((x, y, high[2]), (), 1.5))  # the opening of a vessel
             points += [_Point((a, b, high[2]), (body,), 0.25) for a, b in product((low[0], high[0]), (low[1], high[1]))]
         own = (cell.robot.body, *(cell.scene.bodies[item] for item in cell.in_hand.values()))
         x, y, _ = cell.robot.base()
         if self.wide:
+            points += [self._near_side(name, (x, y)) for name in self._names]
             return [*points, _Point((x, y, 1.2), own, 1.5), _Point((x, y, 0.5), own, 2.0)]
         things = [p.place for p in points]
         for side in ARMS:
@@ -127,21 +129,31 @@ class Camera:
                 points.append(_Point(hand, own, 2.0))
         return [*points, _Point((x, y, 1.2), own, 0.5)]
 
-    def _door_points(self, name: str, handle: Handle) -> list[_Point]:
-        """Return what to show of a door or a drawer: the handle, and the inside, which nothing but itself may cover."""
-        scene = self._cell.scene
-        inside = scene.regions(name, "in") or scene.regions(self._cell.whole(name), "in")
+    def _handle_points(self, name: str, handle: Handle) -> list[_Point]:
+        """Return what to show of what hands work: the handle or button, and what is behind a door or in a drawer.
+
+        The thing itself may not cover them.
+        """
+        scene, inside = self._cell.scene, []
+        if handle.kind in ("door", "drawer"):
+            inside = scene.regions(name, "in") or scene.regions(self._cell.whole(name), "in")
         middles = [
             scene.frame(whole, each.link).apply((np.add(each.low, each.high) / 2).tolist()) for whole, each in inside
         ]
         return [_Point(handle.grasp.position, (), 2.0), *(_Point(each, (), 1.5) for each in middles)]
+
+    def _near_side(self, name: str, base: tuple[float, float]) -> _Point:
+        """Return the middle of the side of a thing that the robot stands before."""
+        low, high = self._cell.sim.extents(*self._cell.scene.place(name))
+        x, y = (min(max(b, a), c) for a, b, c in zip(low, base, high, strict=False))
+        return _Point((x, y, (low[2] + high[2]) / 2), (), 2.0)
 
     def _worth(self, view: View, points: Sequence[_Point]) -> float:
         if self._inside(view.eye):
             return -math.inf
         seen = sum(point.weight for point in points if self._sees(view.eye, point))
         turned = abs(math.remainder(view.turn - self.view.turn, math.tau)) / math.pi
-        return seen - 1.2 * turned - 0.8 * abs(view.height - _HEIGHTS[1])
+        return seen - 1.2 * turned - 1.6 * abs(view.height - _HEIGHTS[2])
 
     def _sees(self, eye: Vector, point: _Point) -> bool:
         hit = self._cell.sim.ray(eye, point.place)

@@ -120,7 +120,9 @@ class Film:
             self._tries[title.number] += 1
         task = self._skills.task(title.instruction)
         names = self._cell.scene.names()
-        self._camera.follow([n for n in (task.object, task.target) if n in names], wide=task.skill in _FAR)
+        filled = [atom.args[0] for atom in expected if atom.predicate == self._skills.contents]
+        shown = [name for name in (task.object, task.target, *filled) if name in names]
+        self._camera.follow(shown, wide=task.skill in _FAR)
         self._caption = Caption(
             str(title.instruction),
             self._number(title),
