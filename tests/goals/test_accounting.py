@@ -93,6 +93,22 @@ def test_a_heading_that_only_sums_up_may_mean_nothing() -> None:
     assert "(and (at pillow2 sofa1 on) (at blanket1 sofa1 on))" in goals(grounded)
 
 
+def test_what_a_heading_is_about_is_where_its_details_are() -> None:
+    grounded = said("living_room", "room3", "Clear the floor: the book onto the shelf.")
+    assert goals(grounded) == ["(at book1 shelf1 on)", ""]
+
+
+def test_what_a_button_does_is_asked_for() -> None:
+    grounded = said("kitchen", "kitchen3", "Press the button that opens the microwave.")
+    assert goals(grounded)[-1] == "(opened microwave1_door)"
+
+
+def test_a_title_asks_for_nothing() -> None:
+    grounded = said("living_room", "room5", "Popcorn and a film tonight! Put the movie in the console.")
+    assert goals(grounded) == ["(at dvd1 console1 in)"]
+    assert said("kitchen", "kitchen3", "mug2: water, hot. Microwave off.").reason
+
+
 def test_an_origin_tells_which_place_is_meant() -> None:
     assert goals(said("kitchen", "kitchen2", "Pour milk into the mug from the shelf.")) == ["(contains mug2 milk)"]
 

@@ -93,6 +93,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("Unlock the cellar. Take the tin and put it in there.", {"(lies tin cellar)"}, {"(hatch_locked cellar)"}),
         ("Carry the tin to the cellar unless it is already there.", {"(lies tin cellar)"}, set()),
         ("Carry the tin in with the crate.", {"(lies tin attic)", "(lies crate attic)"}, set()),
+        # what is to be had, or need not be done
+        ("The attic gets the tin.", {"(lies tin attic)"}, set()),
+        ("The attic and the cellar get a parcel each.", {"(lies tin cellar)", "(lies crate attic)"}, set()),
+        ("Is the cellar scrubbed? It should be.", {"(scrubbed cellar)"}, set()),
+        ("Scrub the cellar. If the attic is small, lock it.", {"(scrubbed cellar)", "(hatch_locked attic)"}, set()),
         # one thing alone, and all but one
         ("Only the tin should be in the attic.", {"(lies tin attic)"}, {"(lies crate attic)"}),
         ("Nothing but the tin should be in the gallery.", {"(lies tin gallery)"}, set()),
