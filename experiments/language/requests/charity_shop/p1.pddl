@@ -1,0 +1,28 @@
+(define (problem monday)
+  (:domain charity-shop)
+  (:objects back-room shop-floor yard
+            sorting-table window-display clothes-rail bookshelf skip
+            wool-coat silk-dress denim-jacket cookbook atlas toaster desk-lamp teddy
+            door-sign)
+  (:init
+    (room back-room) (room shop-floor) (room yard)
+    (door-between back-room shop-floor) (door-between shop-floor back-room)
+    (door-between back-room yard) (door-between yard back-room)
+    (flat sorting-table) (flat window-display) (flat bookshelf) (flat skip)
+    (rail clothes-rail) (pricing-desk sorting-table)
+    (stands-in sorting-table back-room) (stands-in window-display shop-floor)
+    (stands-in clothes-rail shop-floor) (stands-in bookshelf shop-floor) (stands-in skip yard)
+    (sign door-sign) (sign-at door-sign shop-floor) (shows-closed door-sign)
+    (item wool-coat) (item silk-dress) (item denim-jacket) (item cookbook)
+    (item atlas) (item toaster) (item desk-lamp) (item teddy)
+    (clothing wool-coat) (clothing silk-dress) (clothing denim-jacket)
+    (book cookbook) (book atlas) (electrical toaster) (electrical desk-lamp) (toy teddy)
+    (on wool-coat sorting-table) (on denim-jacket sorting-table) (on atlas sorting-table) (on toaster sorting-table)
+    (on silk-dress clothes-rail) (on desk-lamp window-display) (on teddy bookshelf) (on cookbook skip)
+    (creased wool-coat) (creased denim-jacket) (steamed silk-dress)
+    (priced silk-dress) (priced desk-lamp)
+    (unpriced wool-coat) (unpriced denim-jacket) (unpriced cookbook) (unpriced atlas) (unpriced toaster) (unpriced teddy)
+    (untested toaster) (tested desk-lamp)
+    (dusty back-room) (dusty shop-floor)
+    (volunteer-in back-room) (empty-handed))
+  (:goal (and (steamed wool-coat))))
