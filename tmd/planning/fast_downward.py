@@ -15,6 +15,7 @@ from typing import IO
 
 from tmd.diagnostics import LimitError, MissingToolError, TmdError
 from tmd.pddl.model import Problem
+from tmd.pddl.narrowing import narrowed
 from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.processes import Deadline, PlannerProcess, Prover, ending, memory_limit, unnamed_file
@@ -190,7 +191,7 @@ def texts_for_planners(problem: Problem) -> tuple[IO[bytes], IO[bytes]]:
     Where ``either`` cannot be rewritten it stays: they take it in the declaration of a predicate.
     """
     try:
-        plain = portable(problem)
+        plain = portable(narrowed(problem))
     except TmdError:
         plain = problem
     return unnamed_file(format_domain(plain.domain).encode()), unnamed_file(format_problem(plain).encode())
