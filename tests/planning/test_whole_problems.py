@@ -208,7 +208,7 @@ def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeDownwa
         ),
         ("kill -SEGV $$", "", r"was killed by SIGSEGV"),
         ("echo 'bad thing' >&2; exit 32", "", r"exit code 32; its last lines: .*bad thing"),
-        ("echo hello > $plan; echo Solution found.", "", r"wrote what is no plan .*Solution found"),
+        ("echo hello > $plan; echo Solution found.", "", r"wrote what is no plan.*Solution found"),
         ("echo '(light x)' > $plan", "", r"gave a plan that does not work"),
         ("echo '; nothing' > $plan", "", r"gave a plan that does not work"),
         (

@@ -709,17 +709,6 @@ def _overlap(steps: Sequence[_Step]) -> list[str]:
     return []
 
 
-def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
-    """Return the text of a plan file.
-
-    ``cost`` is the number of instructions where it is ``None``; ``unit`` is what the last line says: each costs 1.
-    """
-    lines = [instruction.pddl() for instruction in instructions]
-    total = len(lines) if cost is None else cost
-    lines.append(f"; cost = {total} ({'unit' if unit else 'general'} cost)")
-    return "\n".join(lines) + "\n"
-
-
 def parse_instruction(text: str) -> Instruction:
     """Return the instruction written as ``keep(mug1, counter1, on)``; ``str`` of it gives the text back.
 
