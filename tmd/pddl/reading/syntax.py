@@ -204,10 +204,12 @@ class Source(Reporting):
                 return number
         return None
 
-    def closed_too_early(self, group: Group) -> None:
+    def closed_too_early(self, group: Group) -> TmdError:
         """Raise or report that more text follows a group, which should be its last part."""
         message = f'this parenthesis closes "({group.head}" too early: more text follows'
-        self.fault_at(message, group.end, 'a ")" before it is too many', "extra-parenthesis")
+        error = self.error(message, group.end, 'a ")" before it is too many', "extra-parenthesis")
+        self.fault(error)
+        return error
 
     def word(self, location: Location | None, number: int) -> Location | None:
         """Return the place of word ``number`` (0 for the head) of the group at ``location``; groups count as one."""
@@ -511,6 +513,8 @@ class _Parser:
     faults: int = 0
     undefined: TmdError | None = None
     """The fault that there is no ``(define``."""
+    early: TmdError | None = None
+    """The fault that the definition is closed too early."""
     called: list[Edit] = field(default_factory=list)
     """The edits of ``on(a b)`` to ``(on a b)``."""
     call: str = "(name argument ...)"
@@ -714,6 +718,8 @@ class _Parser:
         end = Location(self.source.file, len(self.source.lines), len(self.source.lines[-1]) + 1)
         if self.undefined and len(self.stack) == 1:
             self.undefined.edits += (Edit(end, end, ")\n"),)
+        elif self.early and len(self.stack) == 1:
+            self.early.hint = "move it to the end of the file"
         else:
             self.never_closed(self.stack[-1], len(self.stack))
         while self.stack:
@@ -737,4 +743,4 @@ class _Parser:
 
     def closed_too_early(self, group: Group) -> None:
         self.faults += 1
-        self.source.closed_too_early(group)
+        self.early = self.source.closed_too_early(group)
