@@ -13,7 +13,7 @@ from __future__ import annotations
 import hashlib
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -29,9 +29,9 @@ from tmd.robot.assets.features import Frame, Grasp, Grip
 from tmd.robot.assets.fittings import DOWN, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfLink, UrdfModel
 from tmd.robot.assets.vessels import CLEARANCE, WIDEST, contents, grasp, rim_grasps
-from tmd.robot.pr2.kinematics import Link, Tree, angles, origin, set_origin, shape_points
+from tmd.robot.pr2.kinematics import Tree, angles, faults_of, origin, set_origin, shape_points
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.sim.urdf_files import CUBE, cache_directory, end_of, find_mesh, mesh_library, read_urdf
+from tmd.robot.sim.urdf_files import CUBE, cache_directory, end_of, find_mesh, mesh_advice, mesh_library, read_urdf
 from tmd.world.shape import GraspEntry, HandleEntry, RegionEntry, Shape
 
 if TYPE_CHECKING:
@@ -50,8 +50,6 @@ _UNITS = {"inch": 0.0254, "centimetre": 0.01, "millimetre": 0.001, "micrometre":
 _CARRIED = (0.02, 0.6)
 # Metres from a handle to what the fingers meet there, at most.
 _BESIDE = 0.02
-# Radians, or metres, beyond which a limit is in degrees or millimetres, and what these are.
-_FARTHEST = {"revolute": (4 * math.pi, "radians", math.pi / 180), "prismatic": (_LARGEST, "metres", 0.001)}
 # Metres: a wall of so much is taken at its rim.
 _RIM = 0.02
 # Metres from the tool's frame back to the palm.
@@ -404,74 +402,26 @@ def _read(path: Path) -> _Source:
         root = read_urdf(path)
     except TmdError as error:
         raise ModelFault(("urdf",), error.message, error.hint) from error
-    links = [link.get("name", "") for link in root.findall("link")]
+    _refuse(ModelFault(("urdf",), f"{path}{end}", hint) for end, hint in faults_of(root))
     joints = root.findall("joint")
-    if not links:
-        raise ModelFault(("urdf",), f"{path} has no links")
-    _refuse(fault for joint in joints for fault in _joint_faults(path, joint, links))
-    children = [end_of(joint, "child") for joint in joints]
-    firsts = [link for link in links if link not in children]
-    twice = sorted({name for names in (links, children) for name in names if names.count(name) > 1})
-    if len(firsts) != 1 or twice:
-        why = f"'{twice[0]}' is twice there" if twice else f"it has the roots {', '.join(firsts) or 'none'}"
-        hint = "let every link but one be the child of one joint"
-        raise ModelFault(("urdf",), f"{path} is not a tree: {why}", hint)
-    if "root" in links and firsts != ["root"]:
+    for joint in joints:
+        if joint.find("mimic") is not None:
+            message = f"{path}: the joint '{joint.get('name')}' mimics another one"
+            raise ModelFault(("urdf",), message, "the simulator does not let joints do that")
+    tree = Tree(root) if joints else None
+    first = tree.root if tree is not None else root.findall("link")[0].get("name", "")
+    if first != "root" and any(link.get("name") == "root" for link in root.findall("link")):
         raise ModelFault(("urdf",), f"{path}: a link that is not the root is called 'root'", "call it something else")
     moved = {joint.get("name", ""): end_of(joint, "child") for joint in joints if joint.get("type") != "fixed"}
-    tree = Tree(root) if joints else None
-    if tree is not None and len(tree.links) < len(children):
-        away = next(child for child in children if child not in tree.links)
-        raise ModelFault(("urdf",), f"{path} is not a tree: '{away}' stands on itself", "change a <parent>")
-    _refuse(fault for each in (tree.links.values() if tree is not None else ()) for fault in _limit_faults(path, each))
-    return _Source(path, root, tree, firsts[0], moved)
-
-
-def _joint_faults(path: Path, joint: ET.Element, links: Sequence[str]) -> Iterator[ModelFault]:
-    told = f"{path}: the joint '{joint.get('name', '')}'"
-    if not joint.get("name"):
-        yield ModelFault(
-            ("urdf",), f"{path}: the joint of '{end_of(joint, 'child')}' has no name", "say `<joint name=`"
-        )
-    if joint.get("type") not in ("fixed", "revolute", "continuous", "prismatic"):
-        kinds = "fixed, revolute, continuous or prismatic"
-        yield ModelFault(("urdf",), f"{told} is {joint.get('type') or 'of no type'}", f"a joint is {kinds}")
-    for end in ("parent", "child"):
-        if end_of(joint, end) not in links:
-            message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
-            yield ModelFault(("urdf",), message, nearest(end_of(joint, end), links) or f'say <{end} link="…"/>')
-    if joint.find("mimic") is not None:
-        yield ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
-
-
-def _limit_faults(path: Path, link: Link) -> Iterator[ModelFault]:
-    told = f"{path}: the joint '{link.joint}'"
-    if link.kind != "fixed" and not link.axis.any():
-        yield ModelFault(("urdf",), f"{told} has no axis: it is 0 0 0", 'say `<axis xyz="0 0 1"/>`')
-    if link.kind not in _FARTHEST:
-        return
-    farthest, unit, smaller = _FARTHEST[link.kind]
-    lower, upper = link.lower, link.upper
-    value = max(lower, upper, key=abs)
-    if lower == upper or math.isinf(value):
-        why = "its lower limit is its upper one" if lower == upper and lower else "it has no limits"
-        hint = 'say `<limit lower="0" upper="1.57" effort="10" velocity="1"/>`'
-        yield ModelFault(("urdf",), f"{told} cannot move: {why}", hint)
-    elif lower > upper:
-        hint = f'say lower="{upper:g}" upper="{lower:g}"'
-        yield ModelFault(("urdf",), f"{told} cannot move: its lower limit is above its upper one", hint)
-    elif abs(value) > farthest:
-        hint = f"limits are in {unit}: say {value * smaller:.4g} for {value:g}"
-        yield ModelFault(("urdf",), f"{told} has a limit of {value:g}", hint)
+    return _Source(path, root, tree, first, moved)
 
 
 def _find_meshes(source: _Source) -> None:
     """Name the meshes by absolute paths; files that the simulator cannot read are copied as OBJ."""
     meshes = [(each, find_mesh(source.path, each.get("filename", ""))) for each in source.root.iter("mesh")]
-    lost = dict.fromkeys(each.get("filename") or "without a name" for each, found in meshes if found is None)
-    _refuse(
-        ModelFault(("urdf",), f"{source.path}: its mesh {name} is missing", _place(source.path, name)) for name in lost
-    )
+    lost = dict.fromkeys(each.get("filename", "") for each, found in meshes if found is None)
+    told = ((f"its mesh {name or 'without a name'} is missing", mesh_advice(source.path, name)) for name in lost)
+    _refuse(ModelFault(("urdf",), f"{source.path}: {message}", hint) for message, hint in told)
     for mesh, found in meshes:
         assert found is not None
         try:
@@ -485,17 +435,6 @@ def _find_meshes(source: _Source) -> None:
             if not found.is_file():
                 write_bytes(found, data)
         mesh.set("filename", str(found.resolve()))
-
-
-def _place(path: Path, name: str) -> str:
-    """Return where a mesh of a URDF is looked for, as advice."""
-    if "://" in name:
-        return f"put the folder '{name.partition('://')[2].partition('/')[0]}' beside the URDF or beside a folder above"
-    beside = (path.parent / name).parent
-    alike = [
-        each for each in (beside.iterdir() if beside.is_dir() else ()) if each.name.lower() == Path(name).name.lower()
-    ]
-    return f"there is {alike[0].name}: say that" if alike else "put the meshes where the URDF names them"
 
 
 def _move_root(source: _Source, shape: Shape) -> None:

@@ -113,6 +113,17 @@ def find_mesh(source: Path, name: str) -> Path | None:
     return next((candidate for candidate in candidates if candidate.is_file()), None)
 
 
+def mesh_advice(path: Path, name: str) -> str:
+    """Return where a mesh of a URDF is looked for, as advice."""
+    if "://" in name:
+        return f"put the folder '{name.partition('://')[2].partition('/')[0]}' beside the URDF or beside a folder above"
+    beside = (path.parent / name).parent
+    alike = [
+        each for each in (beside.iterdir() if beside.is_dir() else ()) if each.name.lower() == Path(name).name.lower()
+    ]
+    return f"there is {alike[0].name}: say that" if alike else "put the meshes where the URDF names them"
+
+
 def mesh_library() -> ModuleType:
     """Import trimesh.
 
