@@ -123,6 +123,8 @@ class YamlSource(Reporting):
             said = expectation(fault, "a mapping")
             if fault["type"] == "string_pattern_mismatch":
                 said = "should be a colour" if "#" in fault["ctx"]["pattern"] else "should be a name"
+            if fault["type"] == "missing" and isinstance(path[-1], int):
+                return self.error(path, f"{where}: the value is missing", "write as many values as belong there")
             return self.error(path, f"{where}: {said}", _HINTS.get(fault["type"]))
         missing = [str(f["loc"][-1]) for f in faults if f["type"] == "missing" and f["loc"][:-1] == path[:-1]]
         hint = nearest(str(path[-1]), missing, what="missing")
@@ -132,7 +134,9 @@ class YamlSource(Reporting):
 _MAPPING = "write `key: value`, a line each, further in than the line above"
 _HINTS = {
     "missing": "see docs/domains.md for what belongs there",
-    "float_type": "write one number, such as 0.5",
+    **dict.fromkeys(("float_type", "float_parsing"), "write one number, such as 0.5"),
+    **dict.fromkeys(("bool_type", "bool_parsing"), "write true or false"),
+    "invalid_key": "a key is a word; a number has a point, not a comma",
     "string_type": "put it into quotes",
     "list_type": "write [a, b], or a line with `- ` for each",
     "tuple_type": "write [a, b], or a line with `- ` for each",
