@@ -84,9 +84,10 @@ def test_one_name_for_two_kinds_is_planned_with(alike: Problem, planner: str) ->
 def test_a_condition_on_five_of_75_things_is_planned_for_at_once(
     planner: str, condition: str, steps: int | None
 ) -> None:
-    text = f"""(define (domain many) (:requirements :adl) (:predicates (in ?x) (ready))
+    text = f"""(define (domain many) (:requirements :adl :derived-predicates) (:predicates (in ?x) (ready) (may))
+      (:derived (may) {condition})
       (:action fill :parameters (?x) :effect (in ?x))
-      (:action go :parameters () :precondition {condition} :effect (ready)))"""
+      (:action go :parameters () :precondition (and (may) {condition}) :effect (ready)))"""
     things = " ".join(f"i{number}" for number in range(75))
     problem = parse_problem(
         f"(define (problem m) (:domain many) (:objects {things}) (:init) (:goal (ready)))", parse_domain(text)

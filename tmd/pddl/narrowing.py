@@ -23,6 +23,7 @@ from tmd.pddl.model import (
     Problem,
     TypedName,
     free_variables,
+    predicates_of,
     universe,
     with_parts,
 )
@@ -48,6 +49,7 @@ class _Narrowing:
         domain = self.problem.domain
         actions = tuple(self.action(action) for action in domain.actions)
         goal = self.formula(self.problem.goal, {})
+        axioms = tuple(map(self.axiom, domain.derived))
         if not self.derived:
             return self.problem
         declared = tuple(Predicate(axiom.head.predicate, axiom.parameters) for axiom in self.derived)
@@ -55,9 +57,15 @@ class _Narrowing:
             domain,
             actions=actions,
             predicates=(*domain.predicates, *declared),
-            derived=(*domain.derived, *self.derived),
+            derived=(*axioms, *self.derived),
         )
         return replace(self.problem, domain=domain, goal=goal)
+
+    def axiom(self, axiom: Axiom) -> Axiom:
+        """Return an axiom; one of derived predicates stays, for these must not come to depend on their negation."""
+        if predicates_of(axiom.condition) & {other.head.predicate for other in self.problem.domain.derived}:
+            return axiom
+        return replace(axiom, condition=self.formula(axiom.condition, {p.name: p for p in axiom.parameters}))
 
     def action(self, action: ActionSchema) -> ActionSchema:
         types = {p.name: p for p in action.parameters}
