@@ -192,6 +192,9 @@ WRONG = {
     "half-expanded": ({"cabinet": "{urdf: half.urdf}"}, r".*half\.urdf is a xacro, not a URDF"),
     "no-axis": ({"cabinet": "{urdf: still.urdf}"}, r".*joint 'hinge' has no axis"),
     "two-roots": ({"cabinet": "{urdf: two.urdf}"}, r".*two\.urdf is not a tree: it has the roots body, lonely"),
+    "a-cycle": ({"cabinet": "{urdf: cycle.urdf}"}, r".*cycle\.urdf is not a tree: '[ab]' stands on itself"),
+    "unknown-encoding": ({"cabinet": "{urdf: encoding.urdf}"}, r".*encoding\.urdf is not valid XML: unknown encoding"),
+    "long-name": ({"cabinet": "{urdf: long.urdf}"}, r".*its mesh a{300} is missing"),
     "another-case": ({"cabinet": "{urdf: case.urdf}"}, r".*its mesh MUG\.obj is missing \(there is mug\.obj"),
     "no-package": ({"cabinet": "{urdf: package.urdf}"}, r".*is missing \(put the folder 'mine' beside the URDF"),
     "centimetres-in-a-urdf": (
@@ -233,6 +236,15 @@ def write_wrong(folder: Path) -> None:
         ("still", axis[1], "0 0 0"),
         ("two", "</robot>", '<link name="lonely"/></robot>'),
         ("case", '<link name="body">', mesh.format("MUG.obj")),
+        ("long", '<link name="body">', mesh.format("a" * 300)),
+        ("encoding", 'version="1.0"', 'version="1.0" encoding="none"'),
+        (
+            "cycle",
+            "</robot>",
+            '<link name="a"/><link name="b"/>'
+            + '<joint name="{0}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint>'.format("a", "b")
+            + '<joint name="{0}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint></robot>'.format("b", "a"),
+        ),
         ("package", '<link name="body">', mesh.format("package://mine/jug.obj")),
         ("windows", '<link name="body">', mesh.format(r".\\mug.obj")),
         (

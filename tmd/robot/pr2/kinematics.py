@@ -116,11 +116,7 @@ def faults_of(root: ET.Element) -> Iterator[Fault]:
     faults = [fault for joint in joints for fault in _joint_faults(joint, links)] or list(_tree_faults(joints, links))
     yield from faults
     if joints and not faults:
-        tree = Tree(root)
-        away = next((name for name in links if name != tree.root and name not in tree.links), None)
-        if away is not None:
-            yield f" is not a tree: '{away}' stands on itself", "change a <parent>"
-        for link in tree.links.values():
+        for link in Tree(root).links.values():
             yield from _limit_faults(link)
 
 
@@ -131,6 +127,15 @@ def _tree_faults(joints: Sequence[ET.Element], links: Sequence[str]) -> Iterator
     if len(roots) != 1 or twice:
         why = f"'{twice[0]}' is twice there" if twice else f"it has the roots {', '.join(roots) or 'none'}"
         yield f" is not a tree: {why}", "let every link but one be the child of one joint"
+        return
+    below = {end_of(joint, "child"): end_of(joint, "parent") for joint in joints}
+    for link in links:
+        name, steps = link, 0
+        while name in below and steps <= len(links):
+            name, steps = below[name], steps + 1
+        if steps > len(links):
+            yield f" is not a tree: '{link}' stands on itself", "change a <parent>"
+            return
 
 
 def _joint_faults(joint: ET.Element, links: Sequence[str]) -> Iterator[Fault]:

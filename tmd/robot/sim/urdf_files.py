@@ -51,7 +51,7 @@ def read_urdf(path: Path) -> ET.Element:
         root = ET.fromstring(data)
     except OSError as error:
         raise TmdError(f"{path} cannot be read: {error.strerror or error}", hint="name a URDF file") from error
-    except ET.ParseError as error:
+    except (ET.ParseError, LookupError, ValueError) as error:  # an encoding may be unknown
         if b"<xacro:" in data:
             raise _to_expand(path) from error
         raise TmdError(f"{path} is not valid XML: {error}", hint="name a URDF file") from error
@@ -104,13 +104,14 @@ def find_mesh(source: Path, name: str) -> Path | None:
     """Return a mesh file named in a URDF: beside it, or in any folder above it for names of packages and models."""
     name = name.replace("\\", "/")
     path = Path(name.removeprefix("file://"))
-    if not name.startswith(("package://", "model://")):
-        found = path if path.is_absolute() else source.resolve().parent / path
-        return found if found.is_file() else None
-    whole = Path(name.partition("://")[2])
-    shorter = Path(*whole.parts[1:])
-    candidates = (folder / each for folder in source.resolve().parents for each in (whole, shorter))
-    return next((candidate for candidate in candidates if candidate.is_file()), None)
+    candidates = iter([path if path.is_absolute() else source.resolve().parent / path])
+    if name.startswith(("package://", "model://")):
+        whole = Path(name.partition("://")[2])
+        shorter = Path(*whole.parts[1:])
+        candidates = (folder / each for folder in source.resolve().parents for each in (whole, shorter))
+    with suppress(OSError):  # a name may be too long
+        return next((candidate for candidate in candidates if candidate.is_file()), None)
+    return None
 
 
 def mesh_advice(path: Path, name: str) -> str:
