@@ -195,6 +195,11 @@ WRONG = {
     "a-cycle": ({"cabinet": "{urdf: cycle.urdf}"}, r".*cycle\.urdf is not a tree: '[ab]' stands on itself"),
     "unknown-encoding": ({"cabinet": "{urdf: encoding.urdf}"}, r".*encoding\.urdf is not valid XML: unknown encoding"),
     "long-name": ({"cabinet": "{urdf: long.urdf}"}, r".*its mesh a{300} is missing"),
+    "slanted": ({"mug": "{mesh: slanted.obj}"}, r".*slanted\.obj has no thickness"),
+    "no-such-corner": (
+        {"mug": "{mesh: corner.ply}"},
+        r".*corner\.ply is not a mesh: ",
+    ),
     "another-case": ({"cabinet": "{urdf: case.urdf}"}, r".*its mesh MUG\.obj is missing \(there is mug\.obj"),
     "no-package": ({"cabinet": "{urdf: package.urdf}"}, r".*is missing \(put the folder 'mine' beside the URDF"),
     "centimetres-in-a-urdf": (
@@ -256,6 +261,10 @@ def write_wrong(folder: Path) -> None:
         (folder / f"{name}.urdf").write_text(cabinet.replace(old, new))
     (folder / "lfs.stl").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
     (folder / "nan.obj").write_text("v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n")
+    (folder / "slanted.obj").write_text("v 0 0 0\nv 0.05 0 0.05\nv 0 0.05 0.02\nf 1 2 3\n")
+    header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    header += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    (folder / "corner.ply").write_text(f"{header}0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
     (folder / "mug.blend").write_text("BLENDER")
     macro = '<xacro:macro name="m" params=""/>'
     (folder / "macro.urdf").write_text(

@@ -431,9 +431,10 @@ class _Open:
         return self.parts[0].text if self.parts and isinstance(self.parts[0], Word) else ""
 
 
-def _shown(parts: Sequence[Node]) -> str:
-    """Return the text of a group with these parts."""
-    return f"({' '.join(part.text if isinstance(part, Word) else _shown(part.parts) for part in parts)})"
+def _shown(parts: Sequence[Node], levels: int = 4) -> str:
+    """Return the text of a group with these parts, so many levels of it."""
+    shown = (part.text if isinstance(part, Word) else _shown(part.parts, levels - 1) for part in parts)
+    return f"({' '.join(shown)})" if levels else "(...)"
 
 
 def _reopened(group: Group) -> _Open:

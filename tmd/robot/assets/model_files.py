@@ -134,6 +134,8 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
         mesh: Any = library.load(path, force="mesh")
         if len(mesh.faces) == 0 or not np.isfinite(mesh.vertices).all():
             raise ValueError("it has no triangles whose corners are numbers")
+        if mesh.vertices.shape[1] != 3 or not 0 <= mesh.faces.min() <= mesh.faces.max() < len(mesh.vertices):
+            raise ValueError("a triangle has a corner that is not there")
     except Exception as error:  # its readers raise whatever a damaged file leads to
         told = " ".join(str(error).split())[:120] or type(error).__name__
         raise ModelFault(("mesh",), f"{path} is not a mesh: {told}", _MESHES) from error
@@ -149,7 +151,7 @@ def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
     mesh.apply_transform(Pose.turned(*map(math.radians, shape.turn)).homogeneous())
     extents = np.asarray(mesh.bounds[1] - mesh.bounds[0])
     size = " × ".join(f"{side:.3g}" for side in extents)
-    if extents.min() <= 0:
+    if np.linalg.svd(mesh.vertices - mesh.vertices.mean(axis=0), compute_uv=False)[-1] < 1e-9:
         raise ModelFault(("mesh",), f"{path} has no thickness: it is {size} m large", "give it another side")
     if not _SMALLEST <= extents.max() <= _LARGEST:
         raise ModelFault(("mesh",), f"{path} is {size} m large", _unit(mesh, shape.scale))

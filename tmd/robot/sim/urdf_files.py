@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import os
 import tempfile
@@ -135,6 +136,7 @@ def mesh_library() -> ModuleType:
         import trimesh
     except ImportError as error:
         raise MissingToolError("reading meshes needs the package trimesh", hint=install_extra("meshes")) from error
+    logging.getLogger("trimesh").setLevel(logging.CRITICAL)  # it prints what it raises as well
     return trimesh
 
 
