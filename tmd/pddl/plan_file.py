@@ -46,7 +46,7 @@ _NAMED = re.compile(r"(?<![\w-])\??([A-Za-z_][\w-]*)\s*[=:]\s*\??(?=\w)")
 # Steps as values of programs, ``Action('grasp', ['mug1'])``: a constructor, an action, and its arguments in brackets.
 _CONSTRUCTOR = re.compile(r"(?<![\w.])([A-Za-z_][\w.]*)\((?=\s*(?:\w+\s*=\s*)?[\"']?([A-Za-z0-9_][\w-]*)[\"']?\s*[,)])")
 _ARGUMENTS = re.compile(
-    r"\(\s*(\w+\s*=\s*)?([\"']?([A-Za-z0-9_][\w-]*)[\"']?\s*,?\s*)(\w+\s*=\s*)?[\[({]([^()\[\]{}]*)[\])}]\s*,?\s*\)"
+    r"\(\s*(\w+\s*=\s*)?([\"']?([A-Za-z0-9_][\w-]*)(?![\w-])[\"']?\s*,?\s*)(\w+\s*=\s*)?[\[({]([^()\[\]{}]*)[\])}]\s*,?\s*\)"
 )
 # An object as plasp writes it; and the number of a step before or behind it in an atom, ``occurs(rest(mug1), 3)``.
 _CONSTANT = re.compile(r"\bconstant\(\s*\"?([A-Za-z0-9_][\w-]*)\"?\s*\)")
