@@ -85,20 +85,26 @@ class _Narrowing:
             return formula
         some = isinstance(formula, Exists)
         parts = [part if wanted else Not(part) for part, wanted, _ in signed_conjuncts(formula.part, some)]
-        left = [p.name for p in formula.parameters]
-        before = len(self.derived)
+        found = self.eliminated([p.name for p in formula.parameters], parts, inner)
+        if found is None:
+            return formula
+        return found if some else Not(found)
+
+    def eliminated(self, left: list[str], parts: list[Formula], types: Mapping[str, TypedName]) -> Formula | None:
+        """Return the conjunction of ``parts`` without the variables ``left``, ``None`` where every two are joined."""
+        before, most = len(self.derived), len(left)
         while left:
             scopes = {name: _beside(name, parts) for name in left}
             name = min(left, key=lambda each: len(scopes[each]))
-            if len(scopes[name]) + 1 >= len(formula.parameters):  # nothing is gained where every two are joined
+            if len(scopes[name]) + 1 >= most:
                 del self.derived[before:]
-                return formula
+                return None
             left.remove(name)
             about = [part for part in parts if name in free_variables(part)]
-            scope = tuple(inner[other] for other in sorted(scopes[name]))
+            scope = tuple(types[other] for other in sorted(scopes[name]))
             parts = [part for part in parts if part not in about]
-            parts.append(self.derive(scope, Exists((inner[name],), And(tuple(about)))))
-        return And(tuple(parts)) if some else Not(And(tuple(parts)))
+            parts.append(self.derive(scope, Exists((types[name],), And(tuple(about)))))
+        return And(tuple(parts))
 
     def derive(self, scope: tuple[TypedName, ...], condition: Formula) -> Atom:
         """Return the atom of a new predicate of ``scope`` that holds where ``condition`` does."""

@@ -357,6 +357,14 @@ def _groups(parameters: Sequence[TypedName], parts: Sequence[_Part]) -> list[tup
     return groups
 
 
+def _equated(parts: _Signed, unbound: Collection[str]) -> Iterator[tuple[str, str]]:
+    """Yield the variables that an equation of ``parts`` binds, each with what it equals."""
+    for part, wanted, _ in parts:
+        if wanted and isinstance(part, Equals):
+            sides = (part.left, part.right), (part.right, part.left)
+            yield from ((term, other) for term, other in sides if term in unbound and other not in unbound)
+
+
 def _extended(
     parameters: Sequence[TypedName], parts: _Signed, state: State, objects: Universe, binding: Binding
 ) -> Iterator[Binding]:
@@ -366,23 +374,20 @@ def _extended(
     types.
     """
     types = {p.name: p.types for p in parameters}
-    for part, wanted, _ in parts:
-        if wanted and isinstance(part, Equals):
-            for term, other in ((part.left, part.right), (part.right, part.left)):
-                value = binding.get(other, other)
-                if term in types and other not in types:
-                    if objects.is_a(value, types[term]):
-                        yield {**binding, term: value}
-                    return
+    for term, other in _equated(parts, types):
+        value = binding.get(other, other)
+        if objects.is_a(value, types[term]):
+            yield {**binding, term: value}
+        return
     atoms = [f for f, wanted, names in parts if wanted and isinstance(f, Atom) and not names.isdisjoint(types)]
     if not atoms:
         yield from bindings((parameters[0],), objects, binding)
         return
     rows, atom = min(((_matching(atom, state, binding), atom) for atom in atoms), key=lambda pair: len(pair[0]))
     for row in rows:
-        found = unified(atom, row, binding)
-        if found and all(objects.is_a(found[term], types[term]) for term in atom.terms if term in types):
-            yield found
+        more = unified(atom, row, binding)
+        if more and all(objects.is_a(more[term], types[term]) for term in atom.terms if term in types):
+            yield more
 
 
 def unified(atom: Atom, row: Row, binding: Binding) -> Binding | None:

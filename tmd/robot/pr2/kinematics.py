@@ -128,14 +128,11 @@ def _tree_faults(joints: Sequence[ET.Element], links: Sequence[str]) -> Iterator
         why = f"'{twice[0]}' is twice there" if twice else f"it has the roots {', '.join(roots) or 'none'}"
         yield f" is not a tree: {why}", "let every link but one be the child of one joint"
         return
-    below = {end_of(joint, "child"): end_of(joint, "parent") for joint in joints}
-    for link in links:
-        name, steps = link, 0
-        while name in below and steps <= len(links):
-            name, steps = below[name], steps + 1
-        if steps > len(links):
-            yield f" is not a tree: '{link}' stands on itself", "change a <parent>"
-            return
+    reached = set(roots)
+    while more := {end_of(joint, "child") for joint in joints if end_of(joint, "parent") in reached} - reached:
+        reached |= more
+    if away := sorted(set(links) - reached):
+        yield f" is not a tree: '{away[0]}' stands on itself", "change a <parent>"
 
 
 def _joint_faults(joint: ET.Element, links: Sequence[str]) -> Iterator[Fault]:
