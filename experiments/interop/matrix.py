@@ -18,9 +18,10 @@ from tmd.export.directory import write_directory
 from tmd.export.formats import FORMATS
 from tmd.export.planned_problem import Planned, planned
 from tmd.export.strips import strips
-from tmd.pddl.plan_file import format_plan, parse_plan, read_plan
+from tmd.pddl.plan_file import parse_plan, read_plan
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.validator import validate
+from tmd.pddl.writer import format_plan
 from tmd.planning.backends import solve
 from tmd.planning.result import Solved
 

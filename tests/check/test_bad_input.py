@@ -48,6 +48,11 @@ FILES: dict[str, tuple[str, bytes, str]] = {
     "ten megabytes": ("d.pddl", b"(a)" * 3_500_000, "too-large"),
     "escape": ("d.pddl", DOMAIN.replace("held", "held\x1b[31m", 1).encode(), "control-character"),
     "ten thousand levels": ("d.pddl", b"(" * 10_000 + b")" * 10_000, "nested-too-deeply"),
+    "levels of a call": (
+        "d.pddl",
+        b"(define (domain d) (:action a :precondition (and on" + b"(" * 10_000 + b")" * 10_003,
+        "nested-too-deeply",
+    ),
     "levels of a domain": ("d.pddl", b"(define (domain d) " + b"(" * 10_000 + b")" * 10_001, "nested-too-deeply"),
     "never closed": ("d.pddl", b"(" * 10_000, "unclosed-parenthesis"),
     "only closed": ("d.pddl", b")" * 10_000, "extra-parenthesis"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
@@ -553,6 +554,14 @@ REPAIRED = {
         "foreign-text",
         "remove",
     ),
+    "an arrow": ("domain", ":effect (moist", ":effect => (moist", "other-notation", "remove"),
+    "variables without marks": (
+        "domain",
+        "(?c - can ?x ?y - bed)\n    :precondition (and (at ?c ?x) (path ?x ?y))\n    :effect (and (at ?c ?y)",
+        "(c - can x y - bed)\n    :precondition (and (at c x) (path x y))\n    :effect (and (at c y)",
+        "bad-name",
+        "?c",
+    ),
     "plural": (
         "domain",
         ":precondition (and (at ?c ?b)",
@@ -564,6 +573,13 @@ REPAIRED = {
 
 # The same, where only the author knows the repair.
 TOLD = {
+    "a goal behind the problem": (
+        "problem",
+        "herbs))\n  (:goal (and (moist roses) (moist herbs))))",
+        "herbs)))\n  (:goal (and (moist roses) (moist herbs)))",
+        "extra-parenthesis",
+        "end of the file",
+    ),
     "an object of two types": ("problem", "jug - can", "jug - can tin - bed", "duplicate-name", "rename"),
     "a predicate of two types": (
         "domain",
@@ -742,6 +758,8 @@ def test_a_slip_is_told_once_with_its_cure(tmp_path: Path, name: str) -> None:
         ("version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 120\n", "git lfs pull"),
         ("404: Not Found", "address"),
         ('{"domain": "garden", "actions": []}\n', "define"),
+        (json.dumps({"domain": DOMAIN, "problem": PROBLEM}), "definition"),
+        (json.dumps([DOMAIN]), "definition"),
         ("from unified_planning.shortcuts import *\n", "define"),
         ('<?xml version="1.0"?>\n<pddl/>\n', "define"),
         ("Sorry, there is no such domain.\n", "define"),

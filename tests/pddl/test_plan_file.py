@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
-from tmd.pddl.plan_file import format_plan, parse_instruction, parse_plan
+from tmd.pddl.plan_file import parse_instruction, parse_plan
+from tmd.pddl.writer import format_plan
 
 names = st.from_regex(r"[a-z][a-z0-9_-]{0,8}", fullmatch=True)
 instructions = st.builds(Instruction, names, st.lists(names, max_size=4).map(tuple))

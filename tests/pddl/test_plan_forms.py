@@ -250,6 +250,19 @@ root 9
         ]
     ),
     "JSON steps": json.dumps([{"start": 0.0, "parameters": list(step.args), "action": step.name} for step in PLAN]),
+    "XML elements": "<?xml version='1.0'?>\n<plan>\n"
+    + "".join(f"<action name='{s.name}'>{''.join(f'<param>{arg}</param>' for arg in s.args)}</action>\n" for s in PLAN)
+    + "</plan>\n",
+    "XML attributes": "<plan>\n"
+    + "".join(f'<step n="{n}"><action name="{s.name}" args="{" ".join(s.args)}"/></step>\n' for n, s in enumerate(PLAN))
+    + "</plan>\n",
+    "ASP": "Answer: 1\noccurs(rest,3) occurs(sail(north,south),2) "
+    "occurs(board(blue,south),4) occurs(board(red,north),1)\n"
+    "SATISFIABLE\n",
+    "ASP facts": "do(9,board(red,north)).\ndo(10,sail(north,south)).\ndo(11,rest).\ndo(12,board(blue,south)).\n",
+    "plasp": 'occurs(action(("board",constant("red"),constant("north"))),1) '
+    'occurs(action(("sail",constant("north"),constant("south"))),2) occurs(action(("rest")),3)\n'
+    'occurs(action(("board",constant("blue"),constant("south"))),4)\n',
     "JSON words": json.dumps({"actions": [[step.name, *step.args] for step in PLAN]}),
 }
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from itertools import pairwise, product
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
-from tmd.pddl import semantics
+from tmd.pddl import narrowing, semantics
 from tmd.pddl.model import (
     And,
     Exists,
@@ -206,6 +206,20 @@ def test_a_join_finds_what_enumeration_finds(condition: str, word: str, atoms: l
     assert sorted(sorted(f.items()) for f in found) == sorted(sorted(w.items()) for w in wanted)
 
 
+@settings(max_examples=50)
+@given(_CONDITION, st.sampled_from(["forall", "exists"]), st.lists(st.sampled_from(_ATOMS)))
+def test_a_narrowed_condition_holds_where_it_did(condition: str, word: str, atoms: list[str]) -> None:
+    assume(condition.count("?w - b") < 2)  # no name is declared twice
+    domain = parse_domain(DOMAIN)
+    problem = parse_problem(PROBLEM.format(f"({word} (?x ?z - a ?y - b) {condition})"), domain)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(narrowing, "_LARGE", 0)
+        narrow = narrowing.narrowed(problem)
+    state = _state(*atoms)
+    held = semantics.holds(problem.goal, state, problem)
+    assert semantics.holds(narrow.goal, semantics.close(state, narrow), narrow) == held
+
+
 def test_a_condition_over_many_objects_is_joined() -> None:
     """Six variables over sixty objects are 46 billion choices."""
     names = [f"o{number}" for number in range(60)]
@@ -215,6 +229,7 @@ def test_a_condition_over_many_objects_is_joined() -> None:
     goals = {
         f"(exists {quantified} (and {path} (r ?f ?a)))": False,
         f"(exists {quantified} {path})": True,
+        f"(exists {quantified} (and (= ?a ?b) (= ?b ?c) (= ?c ?d) (= ?d ?e) (r ?e ?a) (= ?f ?f)))": False,
         f"(forall {quantified} (imply {path} (or (q ?f) (not (p ?a)))))": True,
     }
     for goal, held in goals.items():

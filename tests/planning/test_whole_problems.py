@@ -69,6 +69,36 @@ def test_one_name_for_two_kinds_is_planned_with(alike: Problem, planner: str) ->
     assert isinstance(answer, Solved) and validate(alike, answer.plan).valid
 
 
+@pytest.mark.parametrize("planner", ["auto", "fast-downward"])
+@pytest.mark.parametrize(
+    ("condition", "steps"),
+    [
+        (
+            "(exists (?a ?b ?c ?d ?e) (and (in ?a) (in ?b) (not (= ?a ?b)) (= ?c ?b) (in ?d) (not (= ?c ?d)) (in ?e)))",
+            3,
+        ),
+        ("(not (forall (?a ?b ?c ?d ?e) (or (not (in ?a)) (= ?a ?b) (= ?b ?c) (not (in ?c)) (= ?c ?d) (in ?e))))", 2),
+        ("(exists (?a ?b ?c ?d ?e) (and (in ?a) (= ?a ?b) (= ?b ?c) (= ?c ?d) (= ?d ?e) (not (= ?e ?a))))", None),
+    ],
+)
+def test_a_condition_on_five_of_75_things_is_planned_for_at_once(
+    planner: str, condition: str, steps: int | None
+) -> None:
+    text = f"""(define (domain many) (:requirements :adl :derived-predicates) (:predicates (in ?x) (ready) (may))
+      (:derived (may) {condition})
+      (:action fill :parameters (?x) :effect (in ?x))
+      (:action go :parameters () :precondition (and (may) {condition}) :effect (ready)))"""
+    things = " ".join(f"i{number}" for number in range(75))
+    problem = parse_problem(
+        f"(define (problem m) (:domain many) (:objects {things}) (:init) (:goal (ready)))", parse_domain(text)
+    )
+    answer = solve(problem, planner, seconds=10.0)
+    if steps is None:
+        assert isinstance(answer, Unreachable)
+    else:
+        assert isinstance(answer, Solved) and len(answer.plan) <= steps + 1
+
+
 @pytest.mark.parametrize("planner", ["auto", "kairos", "in-process"])
 def test_an_optimal_plan_says_so(pantry: Task, pantry_problem: Problem, planner: str) -> None:
     """With conditional effects, which the landmark cuts of Fast Downward do not take."""
@@ -179,7 +209,7 @@ def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeDownwa
         ),
         ("kill -SEGV $$", "", r"was killed by SIGSEGV"),
         ("echo 'bad thing' >&2; exit 32", "", r"exit code 32; its last lines: .*bad thing"),
-        ("echo hello > $plan; echo Solution found.", "", r"wrote what is no plan .*Solution found"),
+        ("echo hello > $plan; echo Solution found.", "", r"wrote what is no plan.*Solution found"),
         ("echo '(light x)' > $plan", "", r"gave a plan that does not work"),
         ("echo '; nothing' > $plan", "", r"gave a plan that does not work"),
         (

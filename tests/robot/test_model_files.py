@@ -181,8 +181,34 @@ WRONG = {
         r"no hand fits round it.*`scale: 0\.000999998`.*inch.*or say under `grasps:`",
     ),
     "xacro": ({"cabinet": "{urdf: macro.urdf}"}, r".*macro\.urdf is a xacro, not a URDF \(.* > macro_expanded\.urdf"),
-    "degrees": ({"cabinet": "{urdf: degrees.urdf}"}, r".*joint 'hinge' has a limit of 90 \(limits are in radians"),
-    "no-limits": ({"cabinet": "{urdf: loose.urdf}"}, r".*joint 'hinge' cannot move: .*<limit lower"),
+    "degrees": ({"cabinet": "{urdf: degrees.urdf}"}, r".*hinge' has a limit of 90 \(limits are in radians: say 1\.571"),
+    "no-limits": ({"cabinet": "{urdf: loose.urdf}"}, r".*hinge' cannot move: it has no limits \(say `<limit lower"),
+    "swapped-limits": (
+        {"cabinet": "{urdf: swapped.urdf}"},
+        r".*its lower limit is above .*say lower=\"0\" upper=\"1\.9",
+    ),
+    "commas": ({"cabinet": "{urdf: commas.urdf}"}, r".*the joint 'hinge': xyz=\".*,.*\" of <axis> is not 3 numbers"),
+    "formula": ({"cabinet": "{urdf: formula.urdf}"}, r".*upper=\"pi/2\" of <limit> is not a number \(.*no formulas"),
+    "half-expanded": ({"cabinet": "{urdf: half.urdf}"}, r".*half\.urdf is a xacro, not a URDF"),
+    "no-axis": ({"cabinet": "{urdf: still.urdf}"}, r".*joint 'hinge' has no axis"),
+    "two-roots": ({"cabinet": "{urdf: two.urdf}"}, r".*two\.urdf is not a tree: it has the roots body, lonely"),
+    "a-cycle": ({"cabinet": "{urdf: cycle.urdf}"}, r".*cycle\.urdf is not a tree: '[ab]' stands on itself"),
+    "unknown-encoding": ({"cabinet": "{urdf: encoding.urdf}"}, r".*encoding\.urdf is not valid XML: unknown encoding"),
+    "long-name": ({"cabinet": "{urdf: long.urdf}"}, r".*its mesh a{300} is missing"),
+    "slanted": ({"mug": "{mesh: slanted.obj}"}, r".*slanted\.obj has no thickness"),
+    "no-such-corner": (
+        {"mug": "{mesh: corner.ply}"},
+        r".*corner\.ply is not a mesh: ",
+    ),
+    "another-case": ({"cabinet": "{urdf: case.urdf}"}, r".*its mesh MUG\.obj is missing \(there is mug\.obj"),
+    "no-package": ({"cabinet": "{urdf: package.urdf}"}, r".*is missing \(put the folder 'mine' beside the URDF"),
+    "centimetres-in-a-urdf": (
+        {"cabinet": "{urdf: large.urdf}"},
+        r".*large\.urdf is 70 m large \(its lengths are metres",
+    ),
+    "pointer": ({"mug": "{mesh: lfs.stl}"}, r".*lfs\.stl is a pointer of Git LFS.*git lfs pull"),
+    "not-a-number": ({"mug": "{mesh: nan.obj}"}, r".*nan\.obj is not a mesh: it has no triangles whose corners are"),
+    "another-format": ({"mug": "{mesh: mug.blend}"}, r".*not a mesh: \.blend files are not read .*an OBJ, STL"),
     "beside-the-bar": (
         {"cabinet": CABINET.replace("0.07, 0.64, -0.1", "0.07, 0.64, -0.35")},
         r"the hand would be \d+\.\d cm beside 'door_panel' \(`at` is the middle of the bar",
@@ -204,6 +230,42 @@ def write_wrong(folder: Path) -> None:
     assert limit is not None
     (folder / "degrees.urdf").write_text(cabinet.replace(limit[0], '<limit lower="0" upper="90"/>'))
     (folder / "loose.urdf").write_text(cabinet.replace(limit[0], ""))
+    axis = re.search(r'<axis xyz="([^"]*)"/>', cabinet)
+    assert axis is not None
+    mesh = '<link name="body"><visual><geometry><mesh filename="{}"/></geometry></visual>'
+    for name, old, new in (
+        ("swapped", limit[0], '<limit lower="1.9" upper="0"/>'),
+        ("commas", axis[1], axis[1].replace(" ", ", ")),
+        ("formula", limit[0], '<limit lower="0" upper="pi/2"/>'),
+        ("half", limit[0], '<limit lower="0" upper="${pi/2}"/>'),
+        ("still", axis[1], "0 0 0"),
+        ("two", "</robot>", '<link name="lonely"/></robot>'),
+        ("case", '<link name="body">', mesh.format("MUG.obj")),
+        ("long", '<link name="body">', mesh.format("a" * 300)),
+        ("encoding", 'version="1.0"', 'version="1.0" encoding="none"'),
+        (
+            "cycle",
+            "</robot>",
+            '<link name="a"/><link name="b"/>'
+            + '<joint name="{0}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint>'.format("a", "b")
+            + '<joint name="{0}" type="fixed"><parent link="{0}"/><child link="{1}"/></joint></robot>'.format("b", "a"),
+        ),
+        ("package", '<link name="body">', mesh.format("package://mine/jug.obj")),
+        ("windows", '<link name="body">', mesh.format(r".\\mug.obj")),
+        (
+            "large",
+            'xyz="0.21 0.35 0.36"/><geometry><box size="0.42 0.7 0.72"',
+            'xyz="0 0 35"/><geometry><box size="7 7 70"',
+        ),
+    ):
+        (folder / f"{name}.urdf").write_text(cabinet.replace(old, new))
+    (folder / "lfs.stl").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 9\n")
+    (folder / "nan.obj").write_text("v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n")
+    (folder / "slanted.obj").write_text("v 0 0 0\nv 0.05 0 0.05\nv 0 0.05 0.02\nf 1 2 3\n")
+    header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    header += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    (folder / "corner.ply").write_text(f"{header}0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
+    (folder / "mug.blend").write_text("BLENDER")
     macro = '<xacro:macro name="m" params=""/>'
     (folder / "macro.urdf").write_text(
         cabinet.replace("<robot", '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"').replace(
@@ -241,12 +303,33 @@ def test_what_is_wrong_with_a_file_is_told_with_its_place(kitchen: Kitchen, shap
 
 def test_a_wrong_value_in_one_shape_does_not_hide_the_faults_of_others(kitchen: Kitchen) -> None:
     folder = kitchen(mug=MUG.replace("0.001", "[1, 1, 1]"), cabinet="{urdf: gone.urdf}")
+    objects = folder.path / "objects.yaml"
+    more = "  jug: {parent: item, facts: movable self, shap: {kind: jar}}\n  jar: {parent: item, shape: {kind: jra}}\n"
+    objects.write_text(objects.read_text() + more)
+    checker = Checker()
+    checker.check(objects)
+    faults = [finding.message for finding in checker.findings.sorted()]
+    parts = ("shape.scale: should be", "no file", "facts: should be a list", "unknown key 'classes.jug.shap'", "'jra'")
+    for fault, part in zip(faults, parts, strict=True):
+        assert part in fault
+
+
+def test_all_joints_of_a_urdf_are_looked_at(kitchen: Kitchen) -> None:
+    folder = kitchen(cabinet="{urdf: two.urdf}")
+    cabinet = (folder.path / "cabinet.urdf").read_text()
+    joint = '<joint name="{}" type="{}"><parent link="body"/><child link="{}"/></joint>'
+    more = joint.format("slide", "screw", "door_panel") + joint.format("knob", "fixed", "knbo")
+    (folder.path / "two.urdf").write_text(cabinet.replace("</robot>", f"{more}</robot>"))
     checker = Checker()
     checker.check(folder.path / "objects.yaml")
-    faults = [finding.message for finding in checker.findings.sorted()]
+    faults = [finding.message for finding in checker.findings.sorted() if "two.urdf" in finding.message]
     assert len(faults) == 2
-    assert "shape.scale: should be a valid number" in faults[0]
-    assert "there is no file" in faults[1]
+
+
+def test_names_of_meshes_from_windows_are_read(kitchen: Kitchen) -> None:
+    folder = kitchen(cabinet="{urdf: windows.urdf}")
+    write_wrong(folder.path)
+    assert "mug.obj" in Shapes(folder).blueprint("cabinet").urdf
 
 
 def test_the_frame_of_a_joint_may_be_turned() -> None:

@@ -86,6 +86,29 @@ def test_one_missing_joint_is_named(source: Path, tmp_path: Path) -> None:
         pr2_urdf.prepare(path)
 
 
+@pytest.mark.parametrize(
+    ("tag", "attributes", "message"),
+    [
+        ("axis", {"xyz": "0 0 0"}, "has no axis"),
+        ("axis", {"xyz": "0, 1, 0"}, "is not 3 numbers"),
+        ("parent", {"link": "gone"}, "has the parent link 'gone'"),
+        ("limit", {"lower": "-121"}, "has a limit of -121"),
+        ("limit", {"lower": "0", "upper": "-2"}, "its lower limit is above"),
+        ("limit", {"lower": "-pi"}, "is not a number"),
+    ],
+)
+def test_a_joint_that_cannot_be_is_named(
+    source: Path, tmp_path: Path, tag: str, attributes: dict[str, str], message: str
+) -> None:
+    path = tmp_path / "odd.urdf"
+    root = ET.fromstring(source.read_bytes())
+    (part,) = root.findall(f"joint[@name='l_elbow_flex_joint']/{tag}")
+    part.attrib.update(attributes)
+    path.write_bytes(ET.tostring(root))
+    with pytest.raises(TmdError, match=rf"joint 'l_elbow_flex_joint'.* {message}"):
+        pr2_urdf.prepare(path)
+
+
 def test_a_mesh_that_is_missing_is_named(source: Path, cache: Path, tmp_path: Path) -> None:
     path = tmp_path / "lost.urdf"
     path.write_text(source.read_text())

@@ -249,12 +249,16 @@ class DataFiles:
     def _objects(self, file: Path) -> None:
         folder = self._folder(file)
         before = len(self.checker.findings)
-        check_objects(folder, self._report(file))
-        if len(self.checker.findings) == before and "classes" in folder.__dict__:
+        read = DomainFolder(folder.path)
+        check_objects(read, self._report(file))
+        if "classes" not in read.__dict__:
+            return
+        if read.classes.source.left_out <= {"shape"}:  # environments may need what else is left out
+            folder.__dict__["classes"] = read.classes
+        if len(self.checker.findings) == before:
             self._try(lambda _: check_compiled(folder), folder.path / "domain.pddl")
-
-        if "classes" in folder.__dict__ and any(entry.shape for entry in folder.classes.entries.classes.values()):
-            check_shapes(folder)
+        if any(entry.shape for entry in read.classes.entries.classes.values()):
+            check_shapes(read)
 
     def _lexicon(self, file: Path) -> None:
         from tmd.check.lexicon import check_goals, check_lexicon, check_phrases, declared_verbs, texts_of

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.pddl.model import Domain, Problem
-from tmd.pddl.plan_file import Plan, format_plan, read_plan
 from tmd.pddl.reading.reader import with_goal
-from tmd.pddl.validator import validate
+from tmd.pddl.writer import format_plan
 from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import GaveUp, Solution, Solved, Unreachable
 
 if TYPE_CHECKING:  # whole problems are planned without requests and robots
     from tmd.cli.grounding import Answer
+    from tmd.pddl.plan_file import Plan
     from tmd.robot.monitor.listeners import Order
 
 
@@ -103,6 +103,7 @@ def orders_of_file(path: Path, problem: Problem) -> Orders:
     Raises:
         TmdError: The file cannot be read, or has no instructions.
     """
+    from tmd.pddl.plan_file import read_plan
     from tmd.robot.monitor.listeners import Order
 
     plan = read_plan(path, problem)
@@ -117,6 +118,8 @@ def orders_of_file(path: Path, problem: Problem) -> Orders:
 
 def why_invalid(problem: Problem, plan: Plan) -> str:
     """Return why a plan does not work, with the place in its file; empty if it works."""
+    from tmd.pddl.validator import validate
+
     verdict = validate(problem, plan.instructions)
     place = f"{plan.locations[verdict.step - 1]}: " if verdict.step and plan.locations else ""
     return "" if verdict.valid else f"{place}{verdict.reason}"

@@ -10,9 +10,8 @@ from tmd.diagnostics import TmdError
 from tmd.export.names import Renames
 from tmd.export.planned_problem import Planned
 from tmd.export.strips import Strips
-from tmd.pddl.plan_file import format_plan
 from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.writer import format_domain, format_problem
+from tmd.pddl.writer import format_domain, format_plan, format_problem
 
 # File names with contents.
 Files: TypeAlias = Mapping[str, bytes]

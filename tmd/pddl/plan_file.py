@@ -46,8 +46,13 @@ _NAMED = re.compile(r"(?<![\w-])\??([A-Za-z_][\w-]*)\s*[=:]\s*\??(?=\w)")
 # Steps as values of programs, ``Action('grasp', ['mug1'])``: a constructor, an action, and its arguments in brackets.
 _CONSTRUCTOR = re.compile(r"(?<![\w.])([A-Za-z_][\w.]*)\((?=\s*(?:\w+\s*=\s*)?[\"']?([A-Za-z0-9_][\w-]*)[\"']?\s*[,)])")
 _ARGUMENTS = re.compile(
-    r"\(\s*(\w+\s*=\s*)?([\"']?([A-Za-z0-9_][\w-]*)[\"']?\s*,?\s*)(\w+\s*=\s*)?[\[({]([^()\[\]{}]*)[\])}]\s*,?\s*\)"
+    r"\(\s*(\w+\s*=\s*)?([\"']?([A-Za-z0-9_][\w-]*)(?![\w-])[\"']?\s*,?\s*)(\w+\s*=\s*)?[\[({]([^()\[\]{}]*)[\])}]\s*,?\s*\)"
 )
+# An object as plasp writes it; and the number of a step before or behind it in an atom, ``occurs(rest(mug1), 3)``.
+_CONSTANT = re.compile(r"\bconstant\(\s*\"?([A-Za-z0-9_][\w-]*)\"?\s*\)")
+_WITHOUT_OBJECTS = re.compile(r"\(\s*[0-9]+\s*,\s*([A-Za-z_]\w*)(?=\s*\))|\(\s*([A-Za-z_]\w*)(?=\s*,\s*[0-9]+\s*\))")
+_NUMBER_BEFORE = re.compile(r"\w\(\s*(?:([0-9]{1,9})\s*,\s*)?(?:\w+\(\s*)?$")
+_NUMBER_BEHIND = re.compile(r"[\s)]*,\s*([0-9]{1,9})\s*\)")
 # A step behind another one and a ``;``, which is no comment then.
 _NEXT = re.compile(r"(?<=\));(?=\s*\(([^()]*)\))")
 _QUOTES = str.maketrans("\u201c\u201d\u2018\u2019", "\"\"''")
@@ -164,6 +169,9 @@ def _data(text: str) -> list[Any]:
     """Return the values of JSON or YAML in a text: its blocks, itself, what has brackets, or single lines."""
     found: list[Any] = []
     for part in _FENCED.findall(text) or [text] if len(text) <= _MOST_DATA else ():
+        if (value := _xml(part)) is not None:
+            found.append(value)
+            continue
         lines = [line for line in split_lines(part) if line.lstrip().startswith(("{", "["))]
         for candidates in ([part], _DATA.findall(part), lines):
             values = [value for value in map(_yaml, candidates) if isinstance(value, dict | list)]
@@ -171,6 +179,25 @@ def _data(text: str) -> list[Any]:
                 found.append(values[0] if len(values) == 1 else values)
                 break
     return found
+
+
+def _xml(text: str) -> Any | None:  # noqa: ANN401 - any XML
+    """Return the value of a text in XML: attributes and elements by name, all words as text; ``None`` for others."""
+    if not text.lstrip("\ufeff \t\r\n").startswith("<") or "<!" in text:
+        return None
+    import xml.etree.ElementTree as ET
+
+    def value(element: ET.Element) -> Any:  # noqa: ANN401
+        if not element.attrib and not len(element):
+            return element.text or ""
+        elements: dict[str, list[Any]] = {}
+        for inner in element:
+            elements.setdefault(inner.tag, []).append(value(inner))
+        return {**element.attrib, **elements, "": element.text or ""}
+
+    with suppress(ET.ParseError, RecursionError):
+        return value(ET.fromstring(text.strip()))
+    return None
 
 
 def _yaml(text: str) -> Any | None:  # noqa: ANN401 - any YAML
@@ -243,6 +270,11 @@ class _Vocabulary:
             words = self.words(found[1])
             return " " if words and self.has(words) else found[0]
 
+        def call(found: re.Match[str]) -> str:
+            return found[0] if self.parameters.get((found[1] or found[2]).lower(), "no") else f"{found[0]}()"
+
+        text = _WITHOUT_OBJECTS.sub(call, text)
+        text = _CONSTANT.sub(lambda found: found[1].ljust(len(found[0])), text)
         text = text.replace("(!", "( ")  # so hierarchical planners write what an agent does
         return _NEXT.sub(following, _ARGUMENTS.sub(arguments, _CONSTRUCTOR.sub(constructor, text)))
 
@@ -443,7 +475,8 @@ class _Reader:
                     _check_names(words, where, source)
                 length = _DURATION.match(code, end)
                 stop = start + Decimal(length[1]) if start is not None and length else None
-                steps.append(_Step(_instruction(words), where, source, start, stop))
+                time = start if start is not None else _number_in_atom(code, begin, end)
+                steps.append(_Step(_instruction(words), where, source, time, stop))
         return steps
 
     def _check_end(self, source: str, code: str, place: Location, position: int) -> None:
@@ -468,6 +501,13 @@ class _Reader:
         # numbers, keywords, variables and predicates are no actions
         step = bool(inside) and not re.match(r"[:?]|[0-9.]*$", inside[0]) and not self.vocabulary.denies(inside[0])
         return inside if step else [], group.start(3) - 1, group.end()
+
+
+def _number_in_atom(code: str, begin: int, end: int) -> Decimal | None:
+    """Return the number of the step in these columns, where the step stands in an atom of logic programs."""
+    before, behind = _NUMBER_BEFORE.search(code[:begin]), _NUMBER_BEHIND.match(code, end)
+    number = before and (before[1] or (behind and behind[1]))
+    return Decimal(number) if number else None
 
 
 def _confirm(lines: Sequence[_Line]) -> None:
@@ -667,17 +707,6 @@ def _overlap(steps: Sequence[_Step]) -> list[str]:
         if before.end is not None and after.start is not None and after.start < before.end - _TOLERANCE:
             return [f"{after.place}: instructions overlap in time; they are taken one after the other"]
     return []
-
-
-def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
-    """Return the text of a plan file.
-
-    ``cost`` is the number of instructions where it is ``None``; ``unit`` is what the last line says: each costs 1.
-    """
-    lines = [instruction.pddl() for instruction in instructions]
-    total = len(lines) if cost is None else cost
-    lines.append(f"; cost = {total} ({'unit' if unit else 'general'} cost)")
-    return "\n".join(lines) + "\n"
 
 
 def parse_instruction(text: str) -> Instruction:

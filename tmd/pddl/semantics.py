@@ -92,9 +92,9 @@ def _holds(formula: Formula, state: State, objects: Universe, binding: Binding) 
         case Imply(left, right):
             return not _holds(left, state, objects, binding) or _holds(right, state, objects, binding)
         case Forall(parameters, part):
-            return not _some(parameters, _signed(part, False), state, objects, binding)
+            return not _some(parameters, signed_conjuncts(part, False), state, objects, binding)
         case Exists(parameters, part):
-            return _some(parameters, _signed(part, True), state, objects, binding)
+            return _some(parameters, signed_conjuncts(part, True), state, objects, binding)
 
 
 def size(formula: Formula, objects: Universe) -> int:
@@ -224,7 +224,7 @@ def _following(rule: Axiom, state: State, objects: Universe, start: Binding) -> 
 
 def _starts(rule: Axiom, heads: Collection[str], new: State, objects: Universe) -> Iterator[Binding]:
     """Yield bindings under which new atoms are conditions of a rule: only these can derive more atoms."""
-    parts = [formula for formula, _, _ in _signed(rule.condition, True)]
+    parts = [formula for formula, _, _ in signed_conjuncts(rule.condition, True)]
     deep = (inner for part in parts if not isinstance(part, Atom) for inner in walk(part))
     if any(isinstance(inner, Atom) and inner.predicate in heads for inner in deep):
         yield {}  # which atoms count is not known
@@ -245,17 +245,17 @@ _Signed: TypeAlias = tuple[_Part, ...]
 
 
 @lru_cache(maxsize=4096)
-def _signed(formula: Formula, wanted: bool) -> _Signed:
+def signed_conjuncts(formula: Formula, wanted: bool) -> _Signed:
     """Return the conjuncts of ``formula``, or of its negation where it is not ``wanted``."""
     match formula:
         case Not(part):
-            return _signed(part, not wanted)
+            return signed_conjuncts(part, not wanted)
         case And(parts) if wanted:
-            return tuple(inner for part in parts for inner in _signed(part, True))
+            return tuple(inner for part in parts for inner in signed_conjuncts(part, True))
         case Or(parts) if not wanted:
-            return tuple(inner for part in parts for inner in _signed(part, False))
+            return tuple(inner for part in parts for inner in signed_conjuncts(part, False))
         case Imply(left, right) if not wanted:
-            return _signed(left, True) + _signed(right, False)
+            return signed_conjuncts(left, True) + signed_conjuncts(right, False)
     return ((formula, wanted, free_variables(formula)),)
 
 
@@ -263,9 +263,9 @@ def _alternatives(formula: Formula, wanted: bool) -> list[_Signed]:
     """Return the cases of a disjunction; none for any other formula."""
     match formula:
         case Or(parts) | And(parts) if isinstance(formula, Or) == wanted:
-            return [_signed(part, wanted) for part in parts]
+            return [signed_conjuncts(part, wanted) for part in parts]
         case Imply(left, right) if wanted:
-            return [_signed(left, False), _signed(right, True)]
+            return [signed_conjuncts(left, False), signed_conjuncts(right, True)]
     return []
 
 
@@ -357,23 +357,37 @@ def _groups(parameters: Sequence[TypedName], parts: Sequence[_Part]) -> list[tup
     return groups
 
 
+def _equated(parts: _Signed, unbound: Collection[str]) -> Iterator[tuple[str, str]]:
+    """Yield the variables that an equation of ``parts`` binds, each with what it equals."""
+    for part, wanted, _ in parts:
+        if wanted and isinstance(part, Equals):
+            sides = (part.left, part.right), (part.right, part.left)
+            yield from ((term, other) for term, other in sides if term in unbound and other not in unbound)
+
+
 def _extended(
     parameters: Sequence[TypedName], parts: _Signed, state: State, objects: Universe, binding: Binding
 ) -> Iterator[Binding]:
     """Yield ``binding`` with more parameters bound: those of the atom that the fewest atoms of the state match.
 
-    Without such an atom it is the first parameter, with each object of its types.
+    An equation with one side bound comes first. Without such a part it is the first parameter, with each object of its
+    types.
     """
     types = {p.name: p.types for p in parameters}
+    for term, other in _equated(parts, types):
+        value = binding.get(other, other)
+        if objects.is_a(value, types[term]):
+            yield {**binding, term: value}
+        return
     atoms = [f for f, wanted, names in parts if wanted and isinstance(f, Atom) and not names.isdisjoint(types)]
     if not atoms:
         yield from bindings((parameters[0],), objects, binding)
         return
     rows, atom = min(((_matching(atom, state, binding), atom) for atom in atoms), key=lambda pair: len(pair[0]))
     for row in rows:
-        found = unified(atom, row, binding)
-        if found and all(objects.is_a(found[term], types[term]) for term in atom.terms if term in types):
-            yield found
+        more = unified(atom, row, binding)
+        if more and all(objects.is_a(more[term], types[term]) for term in atom.terms if term in types):
+            yield more
 
 
 def unified(atom: Atom, row: Row, binding: Binding) -> Binding | None:
@@ -393,7 +407,7 @@ def solutions(
     Its atoms are joined, so the number of combinations counts only where they do not restrict it.
     """
     found: list[Binding] = []
-    waiting = [(tuple(parameters), _signed(condition, True), _without(outer, parameters))]
+    waiting = [(tuple(parameters), signed_conjuncts(condition, True), _without(outer, parameters))]
     while waiting:
         unbound, parts, binding = waiting.pop()
         names = {p.name for p in unbound}
@@ -458,7 +472,7 @@ def _first_false(formula: Formula, state: State, objects: Universe, binding: Bin
         found = (_first_false(p, state, objects, binding, wanted) for p in formula.parts)
         return next((b for b in found if b), None)
     if isinstance(formula, Forall if wanted else Exists):
-        inner = _first_solution(formula.parameters, _signed(formula.part, not wanted), state, objects, binding)
+        inner = _first_solution(formula.parameters, signed_conjuncts(formula.part, not wanted), state, objects, binding)
         return _first_false(formula.part, state, objects, inner, wanted) if inner is not None else None
     if _holds(formula, state, objects, binding) == wanted:
         return None

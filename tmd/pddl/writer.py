@@ -26,6 +26,7 @@ from tmd.pddl.model import (
     Forall,
     Formula,
     GroundAtom,
+    Instruction,
     Predicate,
     Problem,
     TypedName,
@@ -180,3 +181,14 @@ def in_lines(word: str, parts: Sequence[str], indent: int) -> str:
 # formulas are of a lower module, which cannot write them
 for _kind in get_args(Formula):
     short_repr(format_formula)(_kind)
+
+
+def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
+    """Return the text of a plan file.
+
+    ``cost`` is the number of instructions where it is ``None``; ``unit`` is what the last line says: each costs 1.
+    """
+    lines = [instruction.pddl() for instruction in instructions]
+    total = len(lines) if cost is None else cost
+    lines.append(f"; cost = {total} ({'unit' if unit else 'general'} cost)")
+    return "\n".join(lines) + "\n"

@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import IO
 
 from tmd.diagnostics import LimitError, MissingToolError, TmdError
-from tmd.pddl.model import Problem
+from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.narrowing import narrowed
 from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.processes import Deadline, PlannerProcess, Prover, ending, memory_limit, unnamed_file
@@ -57,6 +58,7 @@ _NO_MEMORY = (20, 22, 24)
 _PYTHON_WITHOUT_MEMORY = ("MemoryError", "SystemError: error return without exception set")
 _UNSUPPORTED = 34
 _EXHAUSTED = "Completely explored state space"
+_STEP = re.compile(r"\(([^()\s][^()]*)\)")
 _AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
 # Seconds after which the translator alone is stopped: a guard, not part of the result.
 _TRANSLATION = 600.0
@@ -190,7 +192,7 @@ def texts_for_planners(problem: Problem) -> tuple[IO[bytes], IO[bytes]]:
     Where ``either`` cannot be rewritten it stays: they take it in the declaration of a predicate.
     """
     try:
-        plain = portable(problem)
+        plain = portable(narrowed(problem))
     except TmdError:
         plain = problem
     return unnamed_file(format_domain(plain.domain).encode()), unnamed_file(format_problem(plain).encode())
@@ -202,13 +204,13 @@ def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool,
     Raises:
         PlannerError: It cannot be read, or does not work.
     """
-    from tmd.pddl.plan_file import parse_plan
     from tmd.pddl.validator import validate
 
-    try:
-        plan = parse_plan(text, problem=problem).instructions
-    except TmdError as error:
-        raise process.failed(f"wrote what is no plan ({error.message})") from error
+    lines = [line for line in map(str.strip, text.lower().splitlines()) if line and line[0] != ";"]
+    steps = [found[1].split() for line in lines if (found := _STEP.fullmatch(line))]
+    if len(steps) < len(lines):
+        raise process.failed("wrote what is no plan")
+    plan = tuple(Instruction(name, tuple(arguments)) for name, *arguments in steps)
     try:
         with memory_limit(deadline.memory):
             verdict = validate(problem, plan)

@@ -108,7 +108,7 @@ class Classes:
 
     def __init__(self, source: YamlSource, types: Mapping[str, str]) -> None:
         self.source = source
-        self.entries = source.load(ObjectsFile, optional="shape")
+        self.entries = source.load(ObjectsFile, optional=("shape", "facts", "init", "states", "edges"))
         self._types = types
         self._resolved: dict[str, ObjectClass] = {}
         for name in self.entries.classes:

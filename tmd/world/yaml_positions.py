@@ -28,6 +28,8 @@ class YamlSource(Reporting):
         path: The file.
         report: Takes the faults of what the file says; without it the first one is raised.
 
+    ``left_out`` are the keys whose values :meth:`load` left out.
+
     Raises:
         TmdError: The file cannot be read, is not UTF-8, or is not YAML of the accepted kind.
     """
@@ -35,14 +37,15 @@ class YamlSource(Reporting):
     def __init__(self, path: Path, report: Report | None = None) -> None:
         self.path = path
         self.report = report
+        self.left_out: set[str | int] = set()
         self.text = read_text(path)
         self._lines = self.text.splitlines()
         self._root = compose(self.text, str(path))
 
-    def load(self, model: type[Model], optional: str = "") -> Model:
+    def load(self, model: type[Model], optional: Sequence[str] = ()) -> Model:
         """Return the file as ``model``.
 
-        Where faults are reported, the values of ``optional`` keys that do not fit are left out.
+        Where faults are reported, the values of ``optional`` keys that do not fit, and unknown keys, are left out.
 
         Raises:
             TmdError: With the place of the first key that does not fit.
@@ -62,12 +65,27 @@ class YamlSource(Reporting):
             first, *others = self._from_model(error)
             for other in others if self.report is not None else ():
                 self.fault(other)
-            if self.report is not None and optional and _left_out(data, error, optional):
+            if self.report is not None and self._leave_out(data, error, optional):
                 self.fault(first)
                 return model.model_validate(data)
             raise first from None
         finally:
             loader.dispose()
+
+    def _leave_out(self, data: Any, error: ValidationError, optional: Sequence[str]) -> bool:  # noqa: ANN401
+        """Leave out unknown keys, and values of ``optional`` keys with faults; return whether that is all."""
+        for fault in error.errors(include_url=False):
+            path = fault["loc"]
+            unknown = len(path) - 1 if optional and fault["type"] == "extra_forbidden" else None
+            last = next((index for index, part in enumerate(path) if part in optional), unknown)
+            if last is None:
+                return False
+            owner = data
+            for part in path[:last]:
+                owner = owner.get(part, {})
+            owner.pop(path[last], None)
+            self.left_out.add(path[last])
+        return True
 
     def error(
         self, path: Sequence[str | int], message: str, hint: str | None = None, code: str = "bad-value"
@@ -105,6 +123,8 @@ class YamlSource(Reporting):
             said = expectation(fault, "a mapping")
             if fault["type"] == "string_pattern_mismatch":
                 said = "should be a colour" if "#" in fault["ctx"]["pattern"] else "should be a name"
+            if fault["type"] == "missing" and isinstance(path[-1], int):
+                return self.error(path, f"{where}: the value is missing", "write as many values as belong there")
             return self.error(path, f"{where}: {said}", _HINTS.get(fault["type"]))
         missing = [str(f["loc"][-1]) for f in faults if f["type"] == "missing" and f["loc"][:-1] == path[:-1]]
         hint = nearest(str(path[-1]), missing, what="missing")
@@ -114,7 +134,9 @@ class YamlSource(Reporting):
 _MAPPING = "write `key: value`, a line each, further in than the line above"
 _HINTS = {
     "missing": "see docs/domains.md for what belongs there",
-    "float_type": "write one number, such as 0.5",
+    **dict.fromkeys(("float_type", "float_parsing"), "write one number, such as 0.5"),
+    **dict.fromkeys(("bool_type", "bool_parsing"), "write true or false"),
+    "invalid_key": "a key is a word; a number has a point, not a comma",
     "string_type": "put it into quotes",
     "list_type": "write [a, b], or a line with `- ` for each",
     "tuple_type": "write [a, b], or a line with `- ` for each",
@@ -124,19 +146,6 @@ _HINTS = {
     "mapping_type": _MAPPING,
     "string_pattern_mismatch": "a name has small letters, digits and _, a letter first; a colour is like '#a0c4ff'",
 }
-
-
-def _left_out(data: Any, error: ValidationError, key: str) -> bool:  # noqa: ANN401 - as YAML has it
-    """Leave out the values of ``key`` that have faults; return whether there are no other faults."""
-    paths = [fault["loc"] for fault in error.errors(include_url=False)]
-    if not all(key in path for path in paths):
-        return False
-    for path in {path[: path.index(key)] for path in paths}:
-        owner = data
-        for part in path:
-            owner = owner[part]
-        owner.pop(key, None)
-    return True
 
 
 def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mark] | None:

@@ -48,8 +48,8 @@ Variables: TypeAlias = Mapping[str, Sequence[str]]
 """The objects that each variable may stand for."""
 
 _MOST_ROWS = 500_000
-# Atoms that a check of a static condition looks at, in all rows together: some 30 s.
-_MOST_CHECKED = 50_000_000
+# Objects that checks of static conditions look at: some 30 s.
+_MOST_CHECKED = 2_000_000
 # The size a relation is taken to have that is still to grow.
 _UNKNOWN = 1_000_000
 
@@ -107,6 +107,37 @@ def _too_many_rows() -> LimitError:
     )
 
 
+class _Counted(Universe):
+    """The objects of a problem, for checks that look at :data:`_MOST_CHECKED` of them at most.
+
+    Raises:
+        LimitError: (From the methods.) They look at more.
+    """
+
+    def __init__(self, objects: Universe) -> None:
+        vars(self).update(vars(objects))
+        self._left = _MOST_CHECKED
+
+    def is_a(self, name: str, types: Sequence[str]) -> bool:
+        """Return as the universe does."""
+        self._look(1)
+        return super().is_a(name, types)
+
+    def of(self, types: tuple[str, ...]) -> tuple[str, ...]:
+        """Return as the universe does; all of them count."""
+        found = super().of(types)
+        self._look(len(found))
+        return found
+
+    def _look(self, count: int) -> None:
+        self._left -= count
+        if self._left < 0:
+            raise LimitError(
+                f"a condition with quantifiers needs more than {_MOST_CHECKED:,} objects to be looked at",
+                hint="use types to narrow what its variables range over",
+            )
+
+
 @dataclass(frozen=True, slots=True)
 class _Filter:
     """Drop the rows in which a condition on what never changes does not hold."""
@@ -117,11 +148,6 @@ class _Filter:
     objects: Universe
 
     def run(self, rows: list[Row]) -> list[Row]:
-        if len(rows) * size(self.condition, self.objects) > _MOST_CHECKED:
-            raise LimitError(
-                f"a condition with quantifiers needs more than {_MOST_CHECKED:,} atoms to be looked at",
-                hint="use types to narrow what its variables range over",
-            )
         found = []
         for row in rows:
             binding = {name: row[slot] for name, slot in self.slots}
@@ -198,6 +224,7 @@ class _Instantiation:
     def __init__(self, problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]) -> None:
         self.problem = problem
         self.objects: Universe = universe(problem)
+        self.checked = _Counted(self.objects)
         self.forced = forced
         self.work = Work()
         self.numbers: dict[GroundAtom, int] = {}
@@ -303,7 +330,7 @@ class _Instantiation:
             bound = set(join.order)
             for condition, needed in [c for c in checks if c[1] <= bound]:
                 slots = tuple((v, join.order.index(v)) for v in sorted(needed))
-                join.steps.append(_Filter(condition, slots, self.static, self.objects))
+                join.steps.append(_Filter(condition, slots, self.static, self.checked))
                 checks.remove((condition, needed))
             if atoms:
                 atom = min(atoms, key=lambda a: self.effort(a, bound))

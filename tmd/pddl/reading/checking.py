@@ -37,6 +37,7 @@ from tmd.pddl.model import (
     parts_of,
     walk,
 )
+from tmd.pddl.reading.formulas import BARE
 from tmd.pddl.reading.missing_types import apart, narrowest, typed, types_needed
 from tmd.pddl.reading.syntax import NO_BLANKS, Source, Word, nearest, shifted
 
@@ -543,6 +544,9 @@ class _Check:
         place, variable = self.source.word(location, number), f"?{term}"
         slip = "object", term, variable in scope and self.action_checked
         edits = [Edit(place, place, "?")] if place and variable in scope else []
+        if place and edits and BARE in self.source.once:
+            self.source.fault_once(BARE, place, None, "bad-name", edits)
+            return scope[variable]
         if not self.again(slip, place, edits):
             hint = nearest(term, list(self.known_objects), what="objects")
             if variable in scope:

@@ -6,9 +6,11 @@ that everything else keeps its place and is read as if it were alone.
 
 from __future__ import annotations
 
+import json
 import re
 from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from itertools import accumulate, pairwise
 from pathlib import Path
 
@@ -72,6 +74,10 @@ _PARENTHESIS = re.compile(r"[()]")
 
 def other_file(text: str, definition: bool) -> tuple[str, str] | None:
     """Return what a text is that is no PDDL at all, and the cure; it should have a ``definition`` or a condition."""
+    if definition and _OTHER_LANGUAGES["JSON"][0].match(text) and _DEFINE.search(text):
+        with suppress(ValueError, RecursionError):
+            json.loads(text)
+            return "JSON", "take the text of the definition out of it"
     kinds = _OTHER_FILES if not definition or _DEFINE.search(text) else {**_OTHER_FILES, **_OTHER_LANGUAGES}
     return next(((what, cure) for what, (begin, cure) in kinds.items() if begin.match(text)), None)
 

@@ -212,7 +212,7 @@ def _with_blank(first: Node, types: tuple[str, ...], rest: list[Node], source: S
 
 
 # What some write for the dash before a type.
-_DASHES = frozenset({"->", "=>", "=", "\u2192"})
+DASHES = frozenset({"->", "=>", "=", "\u2192"})
 
 
 def _apart(node: Word, rest: list[Node], variables: bool, source: Source) -> Word:
@@ -221,7 +221,7 @@ def _apart(node: Word, rest: list[Node], variables: bool, source: Source) -> Wor
         node = _before_glued_type(node, rest, source)
     if ":" in node.text and node.text[0] != ":":
         node = _before_colon(node, rest, source)
-    if node.text in _DASHES:
+    if node.text in DASHES:
         message, edits = f'a type stands behind a dash, not behind "{node.text}"', [replaced(node, "-")]
         source.fault_once(message, node.location, "write name - type", "other-notation", edits)
         return Word("-", node.location)
@@ -302,6 +302,10 @@ def _before_dash(node: Word, rest: list[Node], source: Source) -> Word:
     return Word(name, node.location)
 
 
+BARE = 'variables begin with "?"'
+"""The fault of variables without their mark, of one message for their declarations and uses."""
+
+
 def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list[Word]:
     """Return the name at ``node``; nothing where it is none and faults are collected."""
     if not variables and isinstance(node, Word) and is_variable(node.text) and len(node.text) > 1:
@@ -318,7 +322,7 @@ def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list
         name = f"?{node.text.lstrip('?')}"
         if _NAME.fullmatch(node.text):
             edits = [replaced(node, name)]
-            source.fault_at(f'"{node.text}" is not {what}', node.location, f'write "{name}"', "bad-name", edits)
+            source.fault_once(BARE, node.location, f'write "{name}"', "bad-name", edits)
         else:
             source.recover(None, _odd_name, node, source, what, _ODD_VARIABLE, f'write "{name}"')
         node = Word(name, node.location)

@@ -32,6 +32,7 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.reading.checking import check_domain, check_problem, undeclared_requirements
 from tmd.pddl.reading.formulas import (
+    DASHES,
     UNSUPPORTED,
     Effects,
     conjoined,
@@ -422,6 +423,11 @@ def _parts_of_action(group: Group, begin: int, action: str, source: Source) -> d
 
 def _whole_value(keyword: Word, value: Node, nodes: list[Node], source: Source) -> Node:
     """Return the value that ``nodes`` begin with, and keep it alone: it may lack parentheses, or a word before it."""
+    if isinstance(value, Word) and value.text in DASHES and len(nodes) > 1:
+        edits = [source.removal(value.location, after(value))]
+        source.fault_once(f'"{value.text}" is not PDDL', value.location, "remove it", "other-notation", edits)
+        value = nodes[1]
+        del nodes[0]
     until = list(takewhile(lambda node: isinstance(node, Group) or not node.text.startswith(":"), nodes))
     whole: Node | None = None
     if keyword.text == ":parameters" and isinstance(value, Word) and value.text.startswith("?"):

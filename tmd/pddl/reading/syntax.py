@@ -204,10 +204,12 @@ class Source(Reporting):
                 return number
         return None
 
-    def closed_too_early(self, group: Group) -> None:
+    def closed_too_early(self, group: Group) -> TmdError:
         """Raise or report that more text follows a group, which should be its last part."""
         message = f'this parenthesis closes "({group.head}" too early: more text follows'
-        self.fault_at(message, group.end, 'a ")" before it is too many', "extra-parenthesis")
+        error = self.error(message, group.end, 'a ")" before it is too many', "extra-parenthesis")
+        self.fault(error)
+        return error
 
     def word(self, location: Location | None, number: int) -> Location | None:
         """Return the place of word ``number`` (0 for the head) of the group at ``location``; groups count as one."""
@@ -429,9 +431,10 @@ class _Open:
         return self.parts[0].text if self.parts and isinstance(self.parts[0], Word) else ""
 
 
-def _shown(parts: Sequence[Node]) -> str:
-    """Return the text of a group with these parts."""
-    return f"({' '.join(part.text if isinstance(part, Word) else _shown(part.parts) for part in parts)})"
+def _shown(parts: Sequence[Node], levels: int = 4) -> str:
+    """Return the text of a group with these parts, so many levels of it."""
+    shown = (part.text if isinstance(part, Word) else _shown(part.parts, levels - 1) for part in parts)
+    return f"({' '.join(shown)})" if levels else "(...)"
 
 
 def _reopened(group: Group) -> _Open:
@@ -511,6 +514,8 @@ class _Parser:
     faults: int = 0
     undefined: TmdError | None = None
     """The fault that there is no ``(define``."""
+    early: TmdError | None = None
+    """The fault that the definition is closed too early."""
     called: list[Edit] = field(default_factory=list)
     """The edits of ``on(a b)`` to ``(on a b)``."""
     call: str = "(name argument ...)"
@@ -714,6 +719,8 @@ class _Parser:
         end = Location(self.source.file, len(self.source.lines), len(self.source.lines[-1]) + 1)
         if self.undefined and len(self.stack) == 1:
             self.undefined.edits += (Edit(end, end, ")\n"),)
+        elif self.early and len(self.stack) == 1:
+            self.early.hint = "move it to the end of the file"
         else:
             self.never_closed(self.stack[-1], len(self.stack))
         while self.stack:
@@ -737,4 +744,4 @@ class _Parser:
 
     def closed_too_early(self, group: Group) -> None:
         self.faults += 1
-        self.source.closed_too_early(group)
+        self.early = self.source.closed_too_early(group)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import hashlib
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -22,16 +22,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmd.diagnostics import MissingToolError, TmdError, install_extra
-from tmd.files import make_directory, write_bytes
+from tmd.files import make_directory, read_bytes, write_bytes
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.assets.appearance import rows
 from tmd.robot.assets.features import Frame, Grasp, Grip
 from tmd.robot.assets.fittings import DOWN, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfLink, UrdfModel
 from tmd.robot.assets.vessels import CLEARANCE, WIDEST, contents, grasp, rim_grasps
-from tmd.robot.pr2.kinematics import Link, Tree, angles, origin, set_origin, shape_points
+from tmd.robot.pr2.kinematics import Tree, angles, faults_of, origin, set_origin, shape_points
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.sim.urdf_files import CUBE, cache_directory, end_of, find_mesh, mesh_library, read_urdf
+from tmd.robot.sim.urdf_files import CUBE, cache_directory, end_of, find_mesh, mesh_advice, mesh_library, read_urdf
 from tmd.world.shape import GraspEntry, HandleEntry, RegionEntry, Shape
 
 if TYPE_CHECKING:
@@ -46,29 +46,40 @@ _PIECES = {"maxConvexHulls": 32, "resolution": 100_000, "maxNumVerticesPerCH": 3
 # Metres: what is at most so wide fits between the fingers; formats with short numbers round 7 cm up.
 _NARROW = 0.0701
 # Metres for a unit, the largest first, and the size of what is carried: which of them a mesh is given in is a guess.
-_UNITS = {"inch": 0.0254, "centimetre": 0.01, "millimetre": 0.001}
+_UNITS = {"inch": 0.0254, "centimetre": 0.01, "millimetre": 0.001, "micrometre": 1e-6}
 _CARRIED = (0.02, 0.6)
 # Metres from a handle to what the fingers meet there, at most.
 _BESIDE = 0.02
-# Radians, or metres, beyond which a limit is in other units.
-_FARTHEST = {"revolute": (4 * math.pi, "radians"), "prismatic": (_LARGEST, "metres")}
 # Metres: a wall of so much is taken at its rim.
 _RIM = 0.02
 # Metres from the tool's frame back to the palm.
 _PALM = 0.05
 # Formats of the simulator.
 _READ = (".obj", ".stl", ".dae")
+_MESHES = "name an OBJ, STL, PLY or GLB file"
 # N or N·m that hold a joint where it is left, as in the scene's own kinds; of a button: its spring.
 _FRICTION = {"door": 1.2, "flap": 1.2, "drawer": 5.0, "slide": 4.0, "lid": 0.03, "knob": 0.12, "button": 6.0}
 _SLIDES = ("drawer", "slide", "button")
 
 
 class ModelFault(Exception):  # noqa: N818 - it becomes a TmdError as soon as its place is known
-    """A fault of a file, or of its entry in ``objects.yaml``; ``path`` leads to the fault within the shape."""
+    """A fault of a file, or of its entry in ``objects.yaml``; ``path`` leads to the fault within the shape.
+
+    ``others`` are further faults of the same file.
+    """
 
     def __init__(self, path: Sequence[str | int], message: str, hint: str | None = None) -> None:
         super().__init__(message)
         self.path, self.message, self.hint = tuple(path), message, hint
+        self.others: tuple[ModelFault, ...] = ()
+
+
+def _refuse(faults: Iterable[ModelFault]) -> None:
+    """Raise the first fault, with the others; do nothing where there is none."""
+    found = list(faults)
+    if found:
+        found[0].others = tuple(found[1:])
+        raise found[0]
 
 
 # ---------------------------------------------------------------------- meshes
@@ -115,13 +126,19 @@ def read_mesh(path: Path) -> trimesh.Trimesh:
         MissingToolError: trimesh is not installed.
     """
     library = mesh_library()
+    if read_bytes(path).startswith(b"version https://git-lfs"):
+        raise ModelFault(("mesh",), f"{path} is a pointer of Git LFS, not the file", "run `git lfs pull`")
+    if path.suffix[1:].lower() not in library.available_formats():
+        raise ModelFault(("mesh",), f"{path} is not a mesh: {path.suffix or 'such'} files are not read", _MESHES)
     try:
         mesh: Any = library.load(path, force="mesh")
         if len(mesh.faces) == 0 or not np.isfinite(mesh.vertices).all():
-            raise ValueError("it has no triangles")
+            raise ValueError("it has no triangles whose corners are numbers")
+        if mesh.vertices.shape[1] != 3 or not 0 <= mesh.faces.min() <= mesh.faces.max() < len(mesh.vertices):
+            raise ValueError("a triangle has a corner that is not there")
     except Exception as error:  # its readers raise whatever a damaged file leads to
         told = " ".join(str(error).split())[:120] or type(error).__name__
-        raise ModelFault(("mesh",), f"{path} is not a mesh: {told}", "name an OBJ, STL, PLY or GLB file") from error
+        raise ModelFault(("mesh",), f"{path} is not a mesh: {told}", _MESHES) from error
     return mesh  # type: ignore[no-any-return]  # trimesh.load gives whatever the file holds
 
 
@@ -134,7 +151,7 @@ def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
     mesh.apply_transform(Pose.turned(*map(math.radians, shape.turn)).homogeneous())
     extents = np.asarray(mesh.bounds[1] - mesh.bounds[0])
     size = " × ".join(f"{side:.3g}" for side in extents)
-    if extents.min() <= 0:
+    if np.linalg.svd(mesh.vertices - mesh.vertices.mean(axis=0), compute_uv=False)[-1] < 1e-9:
         raise ModelFault(("mesh",), f"{path} has no thickness: it is {size} m large", "give it another side")
     if not _SMALLEST <= extents.max() <= _LARGEST:
         raise ModelFault(("mesh",), f"{path} is {size} m large", _unit(mesh, shape.scale))
@@ -373,6 +390,9 @@ def urdf_model(name: str, shape: Shape, path: Path, parts: Sequence[str], mass: 
         z = model.low[2]
         hint = f"say `origin: {{xyz: [0, 0, {-z:.3f}]}}`"
         raise ModelFault(("urdf",), f"{path}: its lowest point is at z = {z:.3f} m, and not on the floor", hint)
+    if (largest := max(high - low for low, high in zip(model.low, model.high, strict=True))) > _LARGEST:
+        hint = 'its lengths are metres; a mesh has `scale="0.001 0.001 0.001"` if its unit is the millimetre'
+        raise ModelFault(("urdf",), f"{path} is {largest:.3g} m large", hint)
     model.element = _renamed(model, source)
     return model
 
@@ -384,59 +404,28 @@ def _read(path: Path) -> _Source:
         root = read_urdf(path)
     except TmdError as error:
         raise ModelFault(("urdf",), error.message, error.hint) from error
-    links = [link.get("name", "") for link in root.findall("link")]
+    _refuse(ModelFault(("urdf",), f"{path}{end}", hint) for end, hint in faults_of(root))
     joints = root.findall("joint")
-    if not links:
-        raise ModelFault(("urdf",), f"{path} has no links")
     for joint in joints:
-        _check_joint(path, joint, links)
-    children = [end_of(joint, "child") for joint in joints]
-    firsts = [link for link in links if link not in children]
-    if len(firsts) != 1 or len(set(children)) != len(children):
-        raise ModelFault(("urdf",), f"{path} is not a tree: it has {len(firsts)} root links", None)
-    if "root" in links and firsts != ["root"]:
+        if joint.find("mimic") is not None:
+            message = f"{path}: the joint '{joint.get('name')}' mimics another one"
+            raise ModelFault(("urdf",), message, "the simulator does not let joints do that")
+    tree = Tree(root) if joints else None
+    first = tree.root if tree is not None else root.findall("link")[0].get("name", "")
+    if first != "root" and any(link.get("name") == "root" for link in root.findall("link")):
         raise ModelFault(("urdf",), f"{path}: a link that is not the root is called 'root'", "call it something else")
     moved = {joint.get("name", ""): end_of(joint, "child") for joint in joints if joint.get("type") != "fixed"}
-    tree = Tree(root) if joints else None
-    for each in tree.links.values() if tree is not None else ():
-        _check_limits(path, each)
-    return _Source(path, root, tree, firsts[0], moved)
-
-
-def _check_joint(path: Path, joint: ET.Element, links: Sequence[str]) -> None:
-    told = f"{path}: the joint '{joint.get('name')}'"
-    if joint.get("type") not in ("fixed", "revolute", "continuous", "prismatic"):
-        kinds = "fixed, revolute, continuous or prismatic"
-        raise ModelFault(("urdf",), f"{told} is {joint.get('type') or 'of no type'}", f"a joint is {kinds}")
-    for end in ("parent", "child"):
-        if end_of(joint, end) not in links:
-            message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
-            raise ModelFault(("urdf",), message, nearest(end_of(joint, end), links))
-    if joint.find("mimic") is not None:
-        raise ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
-
-
-def _check_limits(path: Path, link: Link) -> None:
-    if link.kind not in _FARTHEST:
-        return
-    farthest, unit = _FARTHEST[link.kind]
-    if not link.lower < link.upper < math.inf:
-        message = f"{path}: the joint '{link.joint}' cannot move: its lower limit is not below its upper one"
-        raise ModelFault(("urdf",), message, 'say `<limit lower="0" upper="1.57" effort="10" velocity="1"/>`')
-    value = max(link.lower, link.upper, key=abs)
-    if abs(value) > farthest:
-        message = f"{path}: the joint '{link.joint}' has a limit of {value:g}"
-        raise ModelFault(("urdf",), message, f"limits are in {unit}")
+    return _Source(path, root, tree, first, moved)
 
 
 def _find_meshes(source: _Source) -> None:
     """Name the meshes by absolute paths; files that the simulator cannot read are copied as OBJ."""
-    for mesh in source.root.iter("mesh"):
-        name = mesh.get("filename", "")
-        found = find_mesh(source.path, name)
-        if found is None:
-            hint = "put the meshes where the URDF names them"
-            raise ModelFault(("urdf",), f"{source.path}: its mesh {name or 'without a name'} is missing", hint)
+    meshes = [(each, find_mesh(source.path, each.get("filename", ""))) for each in source.root.iter("mesh")]
+    lost = dict.fromkeys(each.get("filename", "") for each, found in meshes if found is None)
+    told = ((f"its mesh {name or 'without a name'} is missing", mesh_advice(source.path, name)) for name in lost)
+    _refuse(ModelFault(("urdf",), f"{source.path}: {message}", hint) for message, hint in told)
+    for mesh, found in meshes:
+        assert found is not None
         try:
             read = read_mesh(found)
         except ModelFault as fault:
@@ -482,8 +471,8 @@ def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
         try:
             points = [shape_points(each) for each in element.findall("collision")]
         except ValueError:
-            message = f"{source.path}: a <collision> has no mesh, box, cylinder or sphere with its size"
-            raise ModelFault(("urdf",), message) from None
+            message = f"{source.path}: a <collision> of '{name}' has no mesh, box, cylinder or sphere"
+            raise ModelFault(("urdf",), message, "say one of these; a capsule is a cylinder and two spheres") from None
         if points:
             cloud = np.vstack(points)
             model.links[called].boxes += [(_vector(each.min(axis=0)), _vector(each.max(axis=0))) for each in points]
@@ -499,9 +488,10 @@ def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
 def _weigh(model: UrdfModel, element: ET.Element, called: str, mass: float | None) -> None:
     """Add a mass and inertia where the file has none, or where the entry gives another mass."""
     inertial = element.find("inertial")
-    if inertial is not None and inertial.find("mass") is not None and not (mass and called == ROOT):
-        link = model.links[called]
-        link.mass = float(inertial.find("mass").get("value", "0"))  # type: ignore[union-attr]  # seen above
+    given = None if inertial is None else inertial.find("mass")
+    own = 0.0 if given is None else float(given.get("value", "0"))
+    if own > 0 and not (mass and called == ROOT):
+        model.links[called].mass = own
         return
     if inertial is not None:
         element.remove(inertial)

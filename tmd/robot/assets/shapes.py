@@ -109,6 +109,9 @@ class Shapes:
                 else urdf_model(class_name, shape, file, parts, shape.mass)
             )
         except ModelFault as fault:
+            for other in fault.others:
+                error = self._error(class_name, class_name, None, other.path, other.message, other.hint)
+                self.classes.source.fault(error)
             raise self._error(class_name, class_name, None, fault.path, fault.message, fault.hint) from None
         if sort == "item" and not model.grasps:
             hint = "say under `grasps:` where a hand takes it"

@@ -7,17 +7,23 @@ thousands.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
-from math import asin, atan2, cos, inf, sin
+from math import asin, atan2, cos, inf, isinf, pi, sin
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from tmd.pddl.reading.syntax import nearest
 from tmd.robot.sim.urdf_files import end_of, mesh_library
 
 Array = NDArray[np.float64]
+Fault: TypeAlias = tuple[str, str | None]
+"""The end of a sentence about a file, and the cure."""
+# Radians, or metres, beyond which a limit is in degrees or millimetres, and what these are.
+_FARTHEST = {"revolute": (4 * pi, "radians", pi / 180), "prismatic": (6.0, "metres", 0.001)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +104,69 @@ class Tree:
                 frame = frame @ motion(link, positions.get(link.joint, 0.0))
             frames[name] = frame
         return frames
+
+
+def faults_of(root: ET.Element) -> Iterator[Fault]:
+    """Yield what is wrong with the links and joints of a URDF, whose numbers are numbers."""
+    links = [link.get("name", "") for link in root.findall("link")]
+    joints = root.findall("joint")
+    if not links:
+        yield " has no links", None
+        return
+    faults = [fault for joint in joints for fault in _joint_faults(joint, links)] or list(_tree_faults(joints, links))
+    yield from faults
+    if joints and not faults:
+        for link in Tree(root).links.values():
+            yield from _limit_faults(link)
+
+
+def _tree_faults(joints: Sequence[ET.Element], links: Sequence[str]) -> Iterator[Fault]:
+    children = [end_of(joint, "child") for joint in joints]
+    roots = [link for link in links if link not in children]
+    twice = sorted({name for names in (links, children) for name in names if names.count(name) > 1})
+    if len(roots) != 1 or twice:
+        why = f"'{twice[0]}' is twice there" if twice else f"it has the roots {', '.join(roots) or 'none'}"
+        yield f" is not a tree: {why}", "let every link but one be the child of one joint"
+        return
+    reached = set(roots)
+    while more := {end_of(joint, "child") for joint in joints if end_of(joint, "parent") in reached} - reached:
+        reached |= more
+    if away := sorted(set(links) - reached):
+        yield f" is not a tree: '{away[0]}' stands on itself", "change a <parent>"
+
+
+def _joint_faults(joint: ET.Element, links: Sequence[str]) -> Iterator[Fault]:
+    told = f": the joint '{joint.get('name', '')}'"
+    if not joint.get("name"):
+        yield f": the joint of '{end_of(joint, 'child')}' has no name", "say `<joint name=`"
+    if joint.get("type") not in ("fixed", "revolute", "continuous", "prismatic"):
+        kinds = "fixed, revolute, continuous or prismatic"
+        yield f"{told} is {joint.get('type') or 'of no type'}", f"a joint is {kinds}"
+    for end in ("parent", "child"):
+        if end_of(joint, end) not in links:
+            message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
+            yield (message, nearest(end_of(joint, end), links) or f'say <{end} link="…"/>')
+
+
+def _limit_faults(link: Link) -> Iterator[Fault]:
+    told = f": the joint '{link.joint}'"
+    if link.kind != "fixed" and not link.axis.any():
+        yield f"{told} has no axis: it is 0 0 0", 'say `<axis xyz="0 0 1"/>`'
+    if link.kind not in _FARTHEST:
+        return
+    farthest, unit, smaller = _FARTHEST[link.kind]
+    lower, upper = link.lower, link.upper
+    value = max(lower, upper, key=abs)
+    if lower == upper or isinf(value):
+        why = "its lower limit is its upper one" if lower == upper and lower else "it has no limits"
+        hint = 'say `<limit lower="0" upper="1.57" effort="10" velocity="1"/>`'
+        yield f"{told} cannot move: {why}", hint
+    elif lower > upper:
+        hint = f'say lower="{upper:g}" upper="{lower:g}"'
+        yield f"{told} cannot move: its lower limit is above its upper one", hint
+    elif abs(value) > farthest:
+        hint = f"limits are in {unit}: say {value * smaller:.4g} for {value:g}"
+        yield f"{told} has a limit of {value:g}", hint
 
 
 def motion(link: Link, position: ArrayLike) -> Array:

@@ -19,7 +19,8 @@ from tmd.diagnostics import MissingToolError, TmdError, install_extra
 from tmd.files import make_directory, write_bytes
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.pr2 import tiago_pro
-from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, mesh_library, read_urdf
+from tmd.robot.pr2.kinematics import faults_of
+from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, mesh_advice, mesh_library, read_urdf
 
 BASE_JOINTS = ("base_x_joint", "base_y_joint", "base_theta_joint")
 TORSO = "torso_lift_joint"
@@ -96,6 +97,8 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
     """
     source = packaged("urdf/pr2.urdf") if urdf is None else urdf
     root = read_urdf(source)
+    for end, hint in faults_of(root):
+        raise TmdError(f"{source}{end}", hint=hint)
     missing = tiago_pro.missing_joints(root)
     if missing and not any("finger" in joint.get("name", "") for joint in root.findall("joint")):
         raise TmdError(f"{source} has no hands: {_lacks('joint', missing)}", hint=_WITH_HANDS)
@@ -110,7 +113,7 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
         if path is None:
             if urdf is None:
                 raise MissingToolError(f"the PR2's mesh {name} is missing", hint=f"{_ADVICE} --force-reinstall")
-            raise TmdError(f"{source}: its mesh {name} is missing", hint="put the meshes where the URDF names them")
+            raise TmdError(f"{source}: its mesh {name} is missing", hint=mesh_advice(source, name))
         meshes[name] = path
     contents = {path: path.read_bytes() for path in sorted(set(meshes.values()))}
     folder = cache_directory("pr2") / _digest(

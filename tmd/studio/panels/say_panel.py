@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING, Any
 from tmd.diagnostics import RefusalKind, TmdError
 from tmd.grounded import Grounded, why_refused
 from tmd.pddl.model import Formula, Instruction, State
-from tmd.pddl.plan_file import format_plan
 from tmd.pddl.semantics import holds
-from tmd.pddl.writer import format_formula
+from tmd.pddl.writer import format_formula, format_plan
 from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.clause_spans import clean
