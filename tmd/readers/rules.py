@@ -248,8 +248,7 @@ class RuleDialogue(Dialogue):
                 there = Relation(word, noun, step.explains)
                 objects = tuple(dict.fromkeys((*clause.objects, step.explains)))
                 if self._goals.is_there(replace(clause, relations=(there,), objects=objects), state, memory):
-                    told = (*clause.stated, there)
-                    clause = replace(clause, relations=(*clause.relations, there), stated=told, objects=objects)
+                    clause = replace(clause, relations=(there, *clause.relations), objects=objects)
                     break
         return clause
 

@@ -390,11 +390,15 @@ class GoalReader:
         added = Relation(the_word("relations", "accompanying"), noun, modifier)
         return replace(plain, objects=(*plain.objects, modifier), relations=(*plain.relations, added))
 
+    @staticmethod
+    def _given(clause: Clause) -> tuple[Relation, ...]:
+        """Return what is said of what a clause acts on, but for "of" in "every piece of clothing needs a price"."""
+        said = (r for r in clause.relations if r.source in clause.direct)
+        return tuple(r for r in said if not (clause.verb == BE and is_relation(r.relation, "partitive")))
+
     def _treated(self, clause: Clause) -> Clause | None:
         """Return "give the fern some water", "put a label on it" as to water or label it, where that is a verb here."""
-        said = (r for r in clause.relations if r.source in clause.direct)
-        # "every piece of clothing needs a price"
-        given = tuple(r for r in said if not (clause.verb == BE and is_relation(r.relation, "partitive")))
+        given = self._given(clause)
         if len(clause.direct) != 1 or len({relation.relation for relation in given}) != 1:
             return None
         noun, receivers = clause.direct[0], tuple(relation.target for relation in given)

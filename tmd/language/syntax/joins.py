@@ -140,8 +140,7 @@ def _partitives(words: Words) -> None:
         token = words.tokens[at]
         if of.kind is not K.P or of.text not in section("of_words"):
             continue
-        counted = words.kind(at - 1) is K.NUM or words.among(at - 1, "all_words", "any_words", "none_words")
-        if counted and words.among(at, "counters"):
+        if words.among(at, "counters") and _is_counted(words, at - 1):
             of.kind = token.kind = K.FILLER  # "two pieces of cutlery" are two, "every piece of clothing" is all
             continue
         if _is_that_of(words, at):
@@ -155,6 +154,10 @@ def _partitives(words: Words) -> None:
                 words.tokens[at + 3].kind = K.FILLER  # "one of the two lamps": how many there are picks none of them
         elif token.kind in HEADS:
             of.kind = K.OF
+
+
+def _is_counted(words: Words, at: int) -> bool:
+    return words.kind(at) is K.NUM or words.among(at, "all_words", "any_words", "none_words")
 
 
 def _is_that_of(words: Words, at: int) -> bool:

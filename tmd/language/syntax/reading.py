@@ -76,16 +76,20 @@ class TextReading:
         goes_on = False
         places: list[Node] = []
         topic: list[Tree[Leaf]] = []
+        known = before = (0, 0)
         for number, (unit, following) in enumerate(zip_longest(tree.children, tree.children[1:])):
             if isinstance(unit, Leaf):
                 goes_on = unit.source.form == ALSO
                 continue
+            before, known = known, (len(self.statements), len(self.drafts))
             actions = trees(unit.children, "clause", "letting")
             front = places + [n for n in unit.children if n not in actions]
             sign = following.source.text if isinstance(following, Leaf) else ""
             places = [] if actions else _places_ahead(front, sign)
             if _is_title(unit, sign, tree.children[number + 2 : number + 3]):
                 self._mention(front)
+            elif goes_on and self._states_too(unit, before):
+                pass  # "the lamp is on, and the radio too"
             elif not actions and self._is_topic(front) and _is_taken_up(tree.children[number + 1 :]):
                 topic += trees(front, "group")
             elif not places:
@@ -93,6 +97,20 @@ class TextReading:
                 topic = topic if sign == "," else []
         self._carry()
         return self
+
+    def _states_too(self, unit: Tree[Leaf], before: tuple[int, int]) -> bool:
+        """State what "too" adds to a statement, if one stands before; ``before`` counts what was read ahead of that."""
+        statements, drafts = before
+        named = trees(unit.children, "group")
+        if len(named) != len(unit.children) or len(self.statements) == statements or len(self.drafts) > drafts:
+            return False
+        last = self.statements[-1][1]
+        too = replace(last, direct=named_in(named), relations=[], landmarks=[], verb=replace(last.verb))
+        too.take_places(last)
+        self.statements.append((len(self.drafts), too))
+        span = hull(spans(named))
+        self.skipped.append(Token(Kind.SKIP, self.text[slice(*span)], span, note=STATEMENT))
+        return True
 
     def _unit(self, actions: Sequence[Tree[Leaf]], front: list[Node], *, goes_on: bool) -> None:
         for index, action in enumerate(actions):
