@@ -85,3 +85,22 @@ def test_a_condition_of_another_deed_that_is_spared_is_none_of_the_first() -> No
 def test_what_is_in_it_speaks_of_a_place() -> None:
     (put,) = parse("Put the disc in the player unless there is already something in it.").clauses
     assert put.conditions[0].clauses[0].antecedents["it"][0] == "player"
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("The fridge is wide open, and the cupboard as well! Close them.", ("fridge", "cupboard")),
+        ("The cup is in the sink. The plate too. Put them on the shelf.", ("cup", "plate")),
+    ],
+)
+def test_too_goes_on_with_a_statement(text: str, meant: tuple[str, ...]) -> None:
+    (clause,) = parse(text).clauses
+    assert clause.meant("them") == meant
+
+
+def test_too_goes_on_with_a_request_behind_its_reason() -> None:
+    assert clauses("Close the fridge, it is getting warm, and the cupboard too.") == [
+        "(close, [fridge])",
+        "(close, [cupboard])",
+    ]

@@ -105,6 +105,8 @@ class TextReading:
         if len(named) != len(unit.children) or len(self.statements) == statements or len(self.drafts) > drafts:
             return False
         last = self.statements[-1][1]
+        if any(phrase.pronoun for phrase in last.direct):
+            return False  # "shut the fridge, it is getting warm, and the cupboard too"
         too = replace(last, direct=named_in(named), relations=[], landmarks=[], verb=replace(last.verb))
         too.take_places(last)
         self.statements.append((len(self.drafts), too))
