@@ -317,7 +317,7 @@ WITH_ROBOT = {
         ExitCode.BAD_INPUT,
         [*KITCHEN, *TEXT, "--urdf", "lost.urdf"],
         "",
-        r"error: lost\.urdf: its mesh package://\S+\.stl is missing\nhint: put the meshes where the URDF names them\n",
+        r"error: lost\.urdf: its mesh package://\S+\.stl is missing\nhint: put the folder .example-robot-data. beside ",
     ),
     "overlap": (
         ExitCode.BAD_INPUT,
