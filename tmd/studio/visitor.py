@@ -142,6 +142,8 @@ class Visitor:
         self.run: RobotRun | None = None
         self.lock = threading.RLock()
         self._playing: threading.Event | None = None
+        self.at_fault = False
+        """Whether the last message says that something was not done."""
         self._voice = threading.Lock()
         self._aloud: viser.NotificationHandle | None = None
         self._pointed_at = -_CLICK
@@ -477,6 +479,7 @@ class Visitor:
                 Faults always are.
         """
         self._message.content = notice(message, hint, fault=fault)
+        self.at_fault = fault
         title, colour = ("Not done", ORANGE) if fault else ("tmd studio", BLUE)
         said = shortened(" – ".join(filter(None, (message, hint))))
         with self._voice:

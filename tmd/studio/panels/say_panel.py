@@ -265,7 +265,8 @@ class SayPanel(Panel):
         visitor = self._visitor
         saved, self._saved = self._saved, None
         if saved is None:
-            visitor.tell("Everything that was saved is learned.")
+            if not visitor.at_fault:  # what was not done is still to be read
+                visitor.tell("Everything that was saved is learned.")
             return
         grounded = self._again(saved)
         # what a language model read, or what was chosen in answer to a question, stays
