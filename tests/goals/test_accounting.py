@@ -34,6 +34,21 @@ def test_a_word_that_fits_nothing_here_refuses_the_step(place: str, text: str, w
     assert word in grounded.reason
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Pour milk into each cup except the one with water.", {"cup2"}),
+        ("Each cup gets some milk, but don't bother with the one that has water in it.", {"cup2"}),
+        ("Pour milk into each cup, but leave the one with water in it as it is.", {"cup2"}),
+        ("Put the cups on the table, except the one on the counter.", {"cup2"}),
+    ],
+)
+def test_what_is_taken_from_a_whole_gets_nothing(text: str, expected: set[str]) -> None:
+    grounded = said("kitchen", "kitchen5", text)
+    assert grounded.plans
+    assert set(re.findall(r"\bcup\d", " ".join(goals(grounded)))) == expected
+
+
 def test_a_guess_may_leave_a_word_out() -> None:
     grounded = kit("kitchen").ground("Put the striped cup on the table.", "kitchen1", guess=True)
     assert goals(grounded) == ["(at cup1 table1 on)"]

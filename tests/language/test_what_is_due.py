@@ -25,6 +25,7 @@ def clauses(text: str) -> list[str]:
         # a question or a statement that "should be" takes up
         ("Is the window shut? It should be.", ["(close, [it])"]),
         ("Are the lamps off? They should be.", ["(turn_off, [them])"]),
+        ("Wash the mug. Is the lamp on?", ["(wash, [mug])"]),
         # several states, each a clause
         ("Make the floor clean and dry.", ["(make, [floor])", "(make, [floor])"]),
         ("Both windows shut and locked, please.", ["(close, [window])", "(be, [window])"]),
@@ -50,6 +51,11 @@ def clauses(text: str) -> list[str]:
         (
             "Put what lies on the floor in the crate.",
             ["(put, [everything, floor, crate], on: everything -> floor, in: everything -> crate)"],
+        ),
+        # what is taken from a whole behind a statement, a place or a thing
+        (
+            "Each cup gets some milk, except the one that is full.",
+            ["(be, [cup, milk, one], except: cup -> one, with: cup -> milk)"],
         ),
         # titles
         ("Tea for Ann: boil the water.", ["(boil, [water])"]),

@@ -199,7 +199,8 @@ SUBSTANCES = (
 
 
 def _not_left(names: Names, c: Context) -> Names:
-    return tuple(n for n in names if n not in c.reading.memory.left) if c.noun in c.reading.clause.direct else ()
+    meant = c.noun in c.reading.clause.direct or c.phrase.quantifier is Quantifier.ALL
+    return tuple(n for n in names if n not in c.reading.memory.left) if meant else ()
 
 
 def _as_before(names: Names, c: Context) -> Names:

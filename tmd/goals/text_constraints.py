@@ -79,7 +79,9 @@ class ConstraintReader:
         """Return what *leave it as it is* asks for; what is left alone is not handled either."""
         other = any(clause.phrase(noun).other for noun in clause.direct)
         bound = any(not is_condition(c.word, "loose") for c in clause.conditions)  # but "so they can share it"
-        if clause.mood is not Mood.KEEP or clause.otherwise or bound or other:
+        leaves = is_verb(clause.verb, "leaving") and not clause.result
+        stays = clause.mood is Mood.KEEP or (leaves and self.reader.is_there(clause, state, memory))
+        if not stays or clause.otherwise or bound or other:
             return TextConstraints()
         preserved = self.preserved(clause, state, memory)
         if isinstance(preserved, Refusal):
@@ -225,7 +227,8 @@ class ConstraintReader:
                 left = set(self.reader.referents.every_kind_of(target, clause, state))
                 names = tuple(n for n in names if n not in left)
             elif not is_relation(relation, "locating"):
-                names = nouns.related_now(names, relation, nouns.things(target, state), moments) or names
+                targets = (*nouns.things(target, state), *nouns.substances(target))
+                names = nouns.related_now(names, relation, targets, moments) or names
         found = nouns.narrowed(names, clause.phrase(noun), moments)[0]
         return found or (self._another_one(noun, meant, clause, state) if is_one(noun) else ())
 

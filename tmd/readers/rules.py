@@ -98,8 +98,8 @@ class RuleReader:
         return None
 
 
-_TITLE = 4
-"""Words of a title, at most: "Popcorn and a film!"."""
+_TITLES = {":": (9, 3), "!": (4, 1), ".": (2, 0)}
+"""By the sign behind a title, the words of it and those before the sign, at most: "Popcorn and a film tonight!"."""
 _SENTENCE = re.compile(r"[^.!?:;\n]*")
 _COLON = re.compile(r"[^.!?;\n]*:")
 """The rest of a heading."""
@@ -189,14 +189,8 @@ class RuleDialogue(Dialogue):
         """Return whether a piece that belongs to no verb names something that is here."""
         nouns = self._goals.nouns
         words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
-        first = not self.parsed.text[: piece.span.start].strip() and len(words) <= _TITLE
-        exclaimed = first and self._ends_soon(piece, "!", 1)
-        if (
-            exclaimed
-            or self._ends_soon(piece, ":", 3)
-            or (first and len(words) <= 2 and self._ends_soon(piece, ".", 0))
-        ):
-            return False  # a title: "popcorn for one: …", "Movie night! …"
+        if self._is_title(piece, len(words)):
+            return False
         objects = self._goals.world.profiles.objects
         named = [word for word in words if nouns.lexicon.names_thing(word) or word in objects]
         named = [n for n in named if not self._goals.is_actor(n)]  # "Joe, wash the car"
@@ -205,13 +199,15 @@ class RuleDialogue(Dialogue):
         )
         return piece.reason == NO_VERB and known
 
-    def _ends_soon(self, piece: Skipped, signs: str, words: int) -> bool:
-        """Return whether one of the signs follows a piece within some words that are in no clause."""
-        rest = _SENTENCE.match(self.parsed.text, piece.span.end)
+    def _is_title(self, piece: Skipped, count: int) -> bool:
+        """Return whether a piece of so many words is a title: "popcorn for one: …", "Movie night! …"."""
+        text, rest = self.parsed.text, _SENTENCE.match(self.parsed.text, piece.span.end)
         assert rest is not None
+        sign = text[rest.end() : rest.end() + 1]
+        most, between = _TITLES.get(sign, (0, 0))
+        first = sign == ":" or not text[: piece.span.start].strip()
         free = not any(rest.start() < clause.span.start < rest.end() for clause in self.parsed.clauses)
-        sign = self.parsed.text[rest.end() : rest.end() + 1]
-        return free and len(rest[0].split()) <= words and bool(sign) and sign in signs
+        return first and free and count <= most and len(rest[0].split()) <= between
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the goal of a step that begins in ``state``."""

@@ -69,9 +69,7 @@ class Referents:
         if clause.setting and name in (*clause.direct, ""):
             found.append((SETTING, clause.setting.split()[-1]))
         found = self._measured(found, clause)
-        # "the eggs in the fridge except the one on the shelf": what is acted on is excepted from
-        excepted = [(r.relation, r.target) for r in said if is_relation(r.relation, "excepting")]
-        found = [pair for pair in found if pair not in excepted] + (excepted if name in clause.direct else [])
+        found = [pair for pair in found if not is_relation(pair[0], "excepting")] + _exceptions(name, said, clause)
         return [self._received(r, t, clause) for r, t in found if t not in PERSONS or self._somebody(t, clause)]
 
     def _received(self, relation: str, target: str, clause: Clause) -> tuple[str, str]:
@@ -920,3 +918,17 @@ def _is_definite(phrase: NounPhrase) -> bool:
 def is_none(noun: str, clause: Clause) -> bool:
     """Return whether a noun was said with *no*."""
     return clause.phrase(noun).quantifier is Quantifier.NONE
+
+
+def _exceptions(noun: str, said: Iterable[Relation], clause: Clause) -> list[tuple[str, str]]:
+    """Return what is taken from a noun: from what is acted on, but for "into each cup except the full one".
+
+    *The eggs in the fridge except the one on the shelf* are eggs.
+    """
+    found = []
+    for relation in (r for r in said if is_relation(r.relation, "excepting")):
+        whole = relation.source or ""
+        placed = whole not in clause.direct and clause.phrase(whole).quantifier is Quantifier.ALL
+        if noun == whole if placed else noun in clause.direct:
+            found.append((relation.relation, relation.target))
+    return found

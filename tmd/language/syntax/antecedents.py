@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import reduce
 from typing import NamedTuple
 
-from tmd.language.clause import AGENT, BE, OF, PERSONS, TO, Clause, Condition, Mood, Relation
+from tmd.language.clause import AGENT, BE, EXCEPT, OF, PERSONS, TO, Clause, Condition, Mood, Quantifier, Relation
 from tmd.language.lexicon.lexicon import pairs, section, sections_of
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
@@ -153,7 +153,9 @@ def _meanings(pronoun: str, clause: Clause, draft: ClauseDraft, scenes: list[_Sc
     before = {r.relation for r in clause.relations if r.target == pronoun}
     ranked, count = _rank(pronoun, draft, scenes, before)
     if is_one(pronoun):
-        ranked, count = _one(pronoun, ranked, clause, draft, before), 1
+        taken_from = (r.source for r in clause.relations if r.relation == EXCEPT and r.target == pronoun and r.source)
+        ranked = tuple(dict.fromkeys((*taken_from, *_one(pronoun, ranked, clause, draft, before))))
+        count = 1
         ranked = _in_order(pronoun, scenes) or ranked
     elif _is_single(pronoun):
         vessels = _vessels(pronoun, clause, draft) if not before.isdisjoint(section("insides")) else []
@@ -466,7 +468,8 @@ def _landmark(landmark: Phrase, clause: Clause) -> list[_Mention]:
         distance = _LANDMARK + _PART * (part is not landmark)
         if clause.verb in section("replacing") | section("mutual_verbs") and behind in section("replacement"):
             distance = _REPLACEMENT
-        found += [_Mention(name, part.plural, distance, behind=behind) for name in _meant(part, clause)]
+        each = part.said().quantifier is Quantifier.ALL  # "into each cup, but leave the full one"
+        found += [_Mention(name, part.plural, distance, each, behind) for name in _meant(part, clause)]
     return found
 
 

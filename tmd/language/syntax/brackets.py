@@ -12,7 +12,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from tmd.language.clause import BE, TO, Span
-from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section, singular
+from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
 from tmd.language.syntax.corrections import CORRECTED, GAP, Corrections
 from tmd.language.syntax.tokens import ADDRESS, BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, mark, noted
 
@@ -388,16 +388,6 @@ class Bracketer(Corrections):
         said.kind, said.stem = K.FINITE, first_of("belonging")
         return True
 
-    def _they_are_due(self, at: int, end: int) -> bool:
-        """Return whether a clause says in what state things are to be: "they should be off", "they need washing"."""
-        said = range(at + 1, end)
-        due = self.among(at, "plural_pronouns") and any(self.among(i, "duties") for i in said)
-        named = next((t.text for t in reversed(self.tokens[:at]) if t.kind is K.N), first_of("people"))
-        if not due or singular(named) in section("people"):
-            return False
-        needed = self.among(said[-1], "needing") and self.kind(said[-1] + 1) in (K.ING, K.PARTICIPLE, K.N)
-        return needed or self.among(said[-1], "be") or any(self.among(i, "infinitive_be") for i in said)
-
     def _begin_telling(self, at: int, *, own: bool) -> bool:
         """Begin a unit where somebody is the subject; return whether it is somebody other than the addressee."""
         tells = self.tokens[at].text.partition("'")[0] in section("tellers")
@@ -502,7 +492,7 @@ class Bracketer(Corrections):
 
     def _is_question(self, at: int) -> bool:
         """Return whether a question begins that asks for nothing: "Is the lamp on?"."""
-        begins = not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}
+        begins = not at or self.kind(at - 1) in IDLE | {K.STOP, K.SEP, K.CC}
         begins = begins or (self.kind(at - 1) is K.COMMA and self._verb is None and not self._named())
         starts = begins and self._last() in BREAKS
         opens = self.among(at, "questions") and self.kind(at) is not K.V and self.kind(at + 1) is not K.ING

@@ -275,16 +275,22 @@ class Attachment:
 
     def _exception(self, phrases: list[Phrase]) -> None:
         """Take an exception out of a whole."""
-        wholes = [p for p in self.draft.direct if p.said().quantifier is Quantifier.ALL]
         acted_on = {p.name for p in self.draft.direct}
         phrases = [as_one(p) if p.name in acted_on else p for p in phrases]  # "all the cups except the cup here"
         self._earlier = self.host, self._behind
-        self._relate(EXCEPT, wholes or self.host or self.draft.direct, phrases)
-        named = {p.name for p in self.draft.direct} - {p.name for p in phrases}
+        self._relate(EXCEPT, self._whole(), phrases)
+        named = acted_on - {p.name for p in phrases}
         goes = any(r.source in named and r.relation in section("arrivals") for r in self.draft.relations)
         # "all cups in the sink except the cup on the shelf": where the others go was said before
         fronted = not self.draft.direct  # "except for the cup on the shelf, all cups …"
         self.host, self._behind = phrases if goes or fronted or _tells(phrases) else [], EXCEPT
+
+    def _whole(self) -> Sequence[Phrase]:
+        """Return what an exception is taken from: *all* of something, else several things, else what is nearest."""
+        named = (self.draft.direct, self.host)
+        every = ([p for p in phrases if p.said().quantifier is Quantifier.ALL] for phrases in named)
+        several = [p for phrases in reversed(named) for p in phrases if p.plural]
+        return next(filter(None, every), None) or several or self.host or self.draft.direct
 
     def _place(self, preposition: Token, group: Tree[Leaf], later: int) -> None:
         """Add a prepositional phrase; ``later`` counts those still to come."""

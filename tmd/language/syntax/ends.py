@@ -5,6 +5,7 @@ The classes of the words ahead decide; nothing is changed here.
 
 from __future__ import annotations
 
+from tmd.language.lexicon.lexicon import section, singular
 from tmd.language.syntax.tokens import BREAKS, LINKS, Kind, Words
 
 K = Kind
@@ -166,6 +167,16 @@ class ClauseEnds(Words):
         return end > begin and (
             ahead or (self.among(end, "also_words") and self.follows(end + 1, "IDLE* (BREAK|SUB|PURP)"))
         )
+
+    def _they_are_due(self, at: int, end: int) -> bool:
+        """Return whether a clause says in what state things are to be: "they should be off", "they need washing"."""
+        said = range(at + 1, end)
+        due = self.among(at, "plural_pronouns") and any(self.among(i, "duties") for i in said)
+        named = next((t.text for t in reversed(self.tokens[:at]) if t.kind is K.N), "")
+        if not (due and named) or singular(named) in section("people"):
+            return False  # "the guests are here, they should be seated"
+        needed = self.among(said[-1], "needing") and self.kind(said[-1] + 1) in (K.ING, K.PARTICIPLE, K.N)
+        return needed or self.among(said[-1], "be") or any(self.among(i, "infinitive_be") for i in said)
 
     def _is(self, at: int, verb: int) -> bool:
         """Return whether a form of *be* stands between a subject and its predicate."""

@@ -272,7 +272,8 @@ class Saying:
         if not (about_things(self.subject) or self._plural()):
             attach(draft, self.rest, ())
             return [draft]
-        attach(draft, self.subject, ())
+        # "every cup gets some milk, except the one that is full"
+        attach(draft, [*self.subject, *(n for n in self.rest if is_a(n, "exception", "relative"))], ())
         draft.stated += draft.relations  # "every book on the desk should get a label"
         contents = named_in(self.rest)
         draft.landmarks += contents
