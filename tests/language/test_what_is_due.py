@@ -52,6 +52,17 @@ def clauses(text: str) -> list[str]:
             "Put what lies on the floor in the crate.",
             ["(put, [everything, floor, crate], on: everything -> floor, in: everything -> crate)"],
         ),
+        (
+            "Take the rope to the shed, which must be locked.",
+            ["(take, [rope, shed], to: rope -> shed)", "(lock, [shed])"],
+        ),
+        (
+            "The rope belongs in the shed, which must be shut.",
+            ["(put, [rope, shed], in: rope -> shed)", "(close, [shed])"],
+        ),
+        ("Fill the jug, which you should rinse.", ["(fill, [jug])", "(rinse, [jug])"]),
+        ("Get the rope, which should be in the shed.", ["(get, [rope, shed], in: rope -> shed)"]),
+        ("Take the jug, which should be full, to the table.", ["(take, [jug, table], to: jug -> table)"]),
         # what is taken from a whole behind a statement, a place or a thing
         (
             "Each cup gets some milk, except the one that is full.",

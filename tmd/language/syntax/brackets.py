@@ -7,9 +7,9 @@ What asks for nothing (questions, what is taken back, what need not be done) is 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, takewhile
 
 from tmd.language.clause import BE, TO, Span
 from tmd.language.lexicon.lexicon import Lexicon, first_of, pairs, section
@@ -230,13 +230,15 @@ class Bracketer(Corrections):
 
     def _relative(self, at: int) -> int:
         copula = self.peek(at)
-        if self._says_where(at):
-            return self._repeat_noun(copula)
+        demand = self._demands(at)
+        # "the mug belongs on the shelf, which must be shut"
+        asks = self._verb is not None or any(t.kind is K.SAY for t in self._unit())
+        if demand and (asks or self.kind(demand) is K.FINITE):
+            return self._repeat_noun(demand)
         said = self.past(copula, "SUBJECT|PRON IDLE* (V|FINITE)")
         if said > copula and self.stem_among(said - 1, "reporting") and self.kind(said) is K.AUX:
             copula = said  # "which I believe is in the chest"
-        stands = self.kind(copula) is K.FINITE and self.stem_among(copula, "postures")
-        if stands or (self.kind(copula) is K.AUX and self.among(copula, "be") and not self.among(copula, "not_forms")):
+        if self._is_somewhere(copula):
             place = self._there(copula)
             # what has become a pronoun just now is not seen by patterns
             if self.follows(place, "P IDLE* NP") or (self.kind(place) is K.P and self.kind(place + 1) is K.PRON):
@@ -246,6 +248,16 @@ class Bracketer(Corrections):
             self.out.pop()
         return self._bracket(self.tokens[at], K.REL, at + 1, self._relative_end(at))
 
+    def _unit(self) -> Iterable[Token]:
+        """Return the words of this unit so far, the last one first."""
+        return takewhile(lambda token: token.kind is not K.SEP, reversed(self.out))
+
+    def _is_somewhere(self, at: int) -> bool:
+        """Return whether a verb may say where something is: "is", "stands", but not "isn't"."""
+        if self.kind(at) is K.FINITE:
+            return self.stem_among(at, "postures")
+        return self.kind(at) is K.AUX and self.among(at, "be") and not self.among(at, "not_forms")
+
     def _repeat_noun(self, at: int) -> int:
         """Begin a statement about the last thing named: "all but the socks, which go in the basket"."""
         end = max((i for i, token in enumerate(self.out) if token.kind is K.N), default=-1) + 1
@@ -253,9 +265,13 @@ class Bracketer(Corrections):
         while start and self.out[start - 1].kind in NP:
             start -= 1
         self.out[-1].kind = K.SEP if self._last() is K.COMMA else self._last()
-        self.tokens[at].stem = self.tokens[at].stem or first_of("belonging")
+        if self.kind(at) is K.FINITE:
+            self.tokens[at].stem = self.tokens[at].stem or first_of("belonging")
         self._begin()
-        self.out += [replace(token) for token in self.out[start:end]]
+        named = [replace(token) for token in self.out[start:end]]
+        if self.kind(at) is K.V:
+            at = self._deed(at)
+        self.out += named
         return at
 
     def _there(self, copula: int) -> int:
@@ -903,8 +919,11 @@ class Bracketer(Corrections):
         while self.kind(place) in NP and (self.kind(place) is not K.ADJ or self._leads(place)):
             place += 1
         state = self.among(place, "end_states") or self.kind(place) is K.ADJ
-        ends = state and self.kind(place - 1) in HEADS and self.follows(place + 1, "IDLE* BREAK")
-        return place + 1 if ends else 0
+        ends = [place + 1] if state else []
+        if self.kind(at - 1) is K.COMMA and self.among(place, "static"):  # ", with the lid next to the pot"
+            ends.append(self.past(place, "P NP* N"))
+        ends = ends if self.kind(place - 1) in HEADS else []
+        return next((end for end in ends if self.follows(end, "IDLE* BREAK")), 0)
 
     # words inside of brackets
 

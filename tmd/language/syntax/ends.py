@@ -6,7 +6,7 @@ The classes of the words ahead decide; nothing is changed here.
 from __future__ import annotations
 
 from tmd.language.lexicon.lexicon import section, singular
-from tmd.language.syntax.tokens import BREAKS, LINKS, Kind, Words
+from tmd.language.syntax.tokens import BREAKS, LINKS, NP, Kind, Words
 
 K = Kind
 
@@ -35,16 +35,29 @@ class ClauseEnds(Words):
             return False
         if self.follows(at + 1, "IDLE* NP+ (P NP+)* NEG BREAK"):
             return True  # "the red one should be washed, the blue one not"
-        said = self.kind(at) is K.COMMA and (self._statement_follows(at) or self._says_where(at + 1))
+        said = self.kind(at) is K.COMMA and (self._statement_follows(at) or self._demands(at + 1) > 0)
         also = self._too(at + 1 + (self.kind(at + 1) is K.CC))
         return said or also or self._is_reason(at + 1) or self.among(at, "then_words")
 
-    def _says_where(self, at: int) -> bool:
-        """Return whether a relative clause behind a comma says where its noun is to be: ", which go in the basket"."""
-        apart = self.kind(at) is K.REL and self.kind(at - 1) is K.COMMA
+    def _demands(self, at: int) -> int:
+        """Return where a relative clause behind a comma demands something: ", which go in the basket", else 0."""
         said = self.peek(at)
+        if not (self.kind(at) is K.REL and self.kind(at - 1) is K.COMMA):
+            return 0
         named = self.among(said, "belonging") or self.stem_among(said, "belonging")
-        return apart and named and self.kind(said) is K.FINITE
+        return said if named and self.kind(said) is K.FINITE else self._duty(said)
+
+    def _duty(self, at: int) -> int:
+        """Return where a duty of a thing or of the addressee begins: "must be shut", "you should wash"; 0 for none."""
+        goes_on = self.first(at, "COMMA|SEP|STOP")
+        # ", which must be clean, to Ann", ", which should be in the chest"
+        if self.follows(goes_on, "COMMA (P|TO)") or self.follows(at, "AUX IDLE* AUX P"):
+            return 0
+        deed = self.past(at, "PRON IDLE* AUX (TO|INF|ADV|IDLE)* V")
+        own = deed > at and self.among(at, "addressee") and self.kind(deed) not in NP
+        duty = self.peek(at) if own else at
+        due = self.kind(duty) is K.AUX and self.among(duty, "duties")
+        return (deed - 1 if own else at) if due else 0
 
     def _statement_follows(self, at: int) -> bool:
         """Return whether a subject with its finite verb stands behind a comma or a conjunction."""
