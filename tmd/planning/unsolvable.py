@@ -61,6 +61,9 @@ def unreachable_reason(task: Task, state: Bits, goal: Sequence[Cube]) -> str:
     return f"{', '.join(wanted)} cannot hold together"
 
 
+_TOLD = 2
+"""Maximum number of reasons of one proof that are given."""
+
 Literals = int
 
 
@@ -288,8 +291,10 @@ class Counts:
     def reason(self, goal: Sequence[Cube]) -> str | None:
         """Return the reason why every cube of a goal is out of reach; ``None`` where that is not known of all."""
         reasons = [self.mutexes.clash(cube) or self.clash(cube) for cube in goal]
-        known = [reason for reason in reasons if reason is not None]
-        return "; ".join(dict.fromkeys(known)) if known and len(known) == len(goal) else None
+        known = list(dict.fromkeys(reason for reason in reasons if reason is not None))
+        more = f"; and {len(known) - _TOLD} more reasons" if len(known) > _TOLD + 1 else ""
+        told = known[:_TOLD] if more else known
+        return "; ".join(told) + more if known and None not in reasons else None
 
     def _total(self, vector: Sequence[int]) -> int:
         return sum(weight * count for weight, count in zip(vector, self._start, strict=True))

@@ -39,7 +39,7 @@ from tmd.goals.words import (
 from tmd.language.clause import AGENT, BRING, PERSONS, PUT, TO, WITH, Clause, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
-from tmd.pddl.ground_formula import TRUE, disjunction
+from tmd.pddl.ground_formula import TRUE, conjunction, disjunction
 from tmd.pddl.model import Or, Predicate, hierarchy
 from tmd.pddl.task import Bits, Cube, Operator
 from tmd.world.world import World
@@ -319,19 +319,42 @@ class GoalReader:
         doing = {r.target for r in clause.relations} - {r.target for r in relations} - {*clause.direct}
         return replace(clause, relations=relations, objects=tuple(n for n in clause.objects if n not in doing))
 
-    def _by_whom(self, found: ClauseGoal, clause: Clause, state: Bits) -> ClauseGoal:
-        """Return a goal as far as it is about the thing that acts: "Nadia should start work at the pool"."""
+    def _by_whom(self, found: ClauseGoal, clause: Clause, state: Bits) -> ClauseGoal | Refusal:
+        """Return a goal as far as it is about the things that act: "Nadia should start work at the pool"."""
         agents = [r.target for r in clause.relations if r.relation == AGENT]
-        names = {name for noun in agents for name in self.nouns.things(noun, state)}
+        names = dict.fromkeys(name for noun in agents for name in self._acting_as(noun, clause, state))
         if not names:
             return found
-        cubes = tuple(c for c, said in zip(found.cubes, self._in_goal(found), strict=True) if names & said)
-        if not cubes:
+        parts = found.formula.parts if isinstance(found.formula, Or) else (found.formula,)
+        about = {name: [p for p in parts if any(name in atom.terms for atom in atoms_in(p))] for name in names}
+        if not any(about.values()):
             said = DOER if self.is_actor(agents[0]) else "says nothing here"
             return replace(found, notes=(*found.notes, f"'{words(agents[0])}': {said}"))
-        parts = found.formula.parts if isinstance(found.formula, Or) else (found.formula,)
-        kept = [part for part in parts if any(names & {*atom.terms} for atom in atoms_in(part))]
-        return replace(found, formula=disjunction(kept), cubes=cubes)
+        ways = map(disjunction, filter(None, about.values()))
+        # "Ann and Joe need a helmet": each of them one
+        formula = (conjunction if self._act_each(agents, clause) else disjunction)(ways)
+        cubes = self.rows.cubes(formula, clause)
+        return cubes if isinstance(cubes, Refusal) else replace(found, formula=formula, cubes=cubes)
+
+    @staticmethod
+    def _act_each(agents: Sequence[str], clause: Clause) -> bool:
+        """Return whether each one of those who act does it: "everybody", "Ann and Joe"; but not "Ann or Joe"."""
+        said = clause.phrase(agents[0])
+        every = said.plural or said.quantifier is Quantifier.ALL or is_noun(agents[0], "everybody")
+        return (every or len(agents) > 1) and not said.either
+
+    def _acting_as(self, noun: str, clause: Clause, state: Bits) -> tuple[str, ...]:
+        """Return who acts, without those that are excepted: "everyone in the hall except Ann"."""
+        names = self.nouns.things(noun, state)
+        if not names and is_noun(noun, "everybody"):
+            names = tuple(filter(self.nouns.acts, self.world.profiles.objects))
+        for relation, source, target in clause.relations:
+            others = self.nouns.things(target, state)
+            if is_relation(relation, "excepting") and source not in clause.direct:
+                names = tuple(n for n in names if n not in others)
+            elif is_relation(relation, "place") and source == noun:
+                names = self.nouns.related_now(names, relation, others, Moments(state, state)) or names
+        return names
 
     def _of_oneself(self, clause: Clause) -> Clause:
         """Return a clause with nothing left out, if its verb moves who acts: "take the car and sail to the isle"."""

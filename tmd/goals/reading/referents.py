@@ -438,9 +438,6 @@ class Referents:
         """Return *the other one* and *the red one* as one of what was spoken of."""
         said = reading.clause.phrase(pronoun)
         relations = self.relations_of(pronoun, reading.clause)
-        plain = (
-            said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations or said.other)
-        )
         bound = reading.memory.bound.get(antecedent)
         order = position(pronoun)
         if order is not None and bound is not None:  # "take both cans, and put the first on the table"
@@ -449,7 +446,12 @@ class Referents:
         other = self._other_one(antecedent, said, types, reading) if said.other else None
         if other is not None:
             return other
-        if pronoun == ONE and plain and antecedent in reading.memory.bound:  # "… the other plate. Wash that one."
+        counted = "_".join((*said.attributes, split_name(antecedent)[-1]))
+        if order is not None and self.nouns.things(counted, reading.state):  # "from the second shelf to the first one"
+            return self._named(counted, replace(said, name=counted, attributes=()), types, relations, reading)
+        if (
+            pronoun == ONE and bound is not None and not relations and _is_that_one(said)
+        ):  # "… the other plate. Wash that one."
             return self._antecedent(antecedent, IT, types, reading)
         return self._of_kind(antecedent, said, relations, types, reading)
 
@@ -913,6 +915,11 @@ class Referents:
 def _is_definite(phrase: NounPhrase) -> bool:
     """Return whether a phrase means one particular thing; "one of the lamps" is any of them."""
     return (phrase.definite or phrase.undetermined) and phrase.quantifier is not Quantifier.SOME
+
+
+def _is_that_one(said: NounPhrase) -> bool:
+    """Return whether *one* is just the one that was spoken of."""
+    return said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or said.other)
 
 
 def is_none(noun: str, clause: Clause) -> bool:

@@ -21,7 +21,7 @@ from tmd.goals.reasons import forms, placed, why_impossible
 from tmd.goals.sources.actions import OF_ACTION, is_journey
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, is_verb, relations_said, table, the_word, words_of
-from tmd.language.clause import PERSONS, NounPhrase, Quantifier
+from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.names import split_name, words_in_name
 from tmd.pddl.ground_formula import (
@@ -35,6 +35,7 @@ from tmd.pddl.ground_formula import (
     only_negative,
 )  # fmt: skip
 from tmd.pddl.model import And, Atom, Exists, Formula, GroundAtom, Not, Or, conjuncts, predicates_of
+from tmd.pddl.task import Cube
 from tmd.planning.unsolvable import Impossible
 
 _NEVER_OTHERWISE = Or((FALSE,))
@@ -95,14 +96,20 @@ class RowReader:
         clause = reading.clause
         if clause.direct and all(is_none(n, clause) for n in clause.direct):
             formula = negation(formula)
+        cubes = self.cubes(formula, clause)
+        if isinstance(cubes, Refusal):
+            return cubes
+        notes = tuple(dict.fromkeys(reading.notes))
+        return ClauseGoal(clause, formula, cubes, row, dict(reading.meant), tuple(reading.approach), notes)
+
+    def cubes(self, formula: Formula, clause: Clause) -> tuple[Cube, ...] | Refusal:
+        """Return a condition as conjunctions over the task's atoms."""
         try:
             cubes = goal_cubes(self.world.task, formula)
         except TmdError as error:
             return Refusal(RefusalKind.NOT_UNDERSTOOD, error.message, error.hint)
-        if not cubes:
-            return Refusal(RefusalKind.CONTRADICTION, f"'{clause.text}' asks for what cannot hold at the same time")
-        notes = tuple(dict.fromkeys(reading.notes))
-        return ClauseGoal(clause, formula, cubes, row, dict(reading.meant), tuple(reading.approach), notes)
+        contradiction = f"'{clause.text}' asks for what cannot hold at the same time"
+        return cubes or Refusal(RefusalKind.CONTRADICTION, contradiction)
 
     # ------------------------------------------------------------------ one thing for several
 

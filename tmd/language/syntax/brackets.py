@@ -444,12 +444,12 @@ class Bracketer(Corrections):
             if self.kind(to + 1) is K.AUX:
                 return True
         place, things = at + 1, False
-        while self.follows(place, "(NP|P|ADV|MOD|EXC|TO|OF|CC|AUX)") and (
+        while self.follows(place, "(NP|P|ADV|MOD|EXC|TO|OF|CC|AUX|FILLER)") and (
             self.kind(place) is not K.ADJ or self._leads(place)
         ):
             things = things or self.kind(place) is K.N or self.among(place, "whole_words")
             place += 1
-        return things and (self.kind(place) in (K.PARTICIPLE, K.ADJ) or self.among(place - 1, "end_states"))
+        return things and self._is_wished(place)
 
     def _stands(self, at: int) -> None:
         """Read "to stand on the table", "to stay shut" as to be there or so."""

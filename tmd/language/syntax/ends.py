@@ -181,6 +181,12 @@ class ClauseEnds(Words):
             ahead or (self.among(end, "also_words") and self.follows(end + 1, "IDLE* (BREAK|SUB|PURP)"))
         )
 
+    def _is_wished(self, at: int) -> bool:
+        """Return whether a state stands behind things: "I want the fork cleaned", "I want the fork put in the sink"."""
+        if self.kind(at) is K.V and self.stem_among(at, "placing") and self.follows(at + 1, "P"):
+            self.tokens[at].kind = K.PARTICIPLE
+        return self.kind(at) in (K.PARTICIPLE, K.ADJ) or self.among(at - 1, "end_states")
+
     def _they_are_due(self, at: int, end: int) -> bool:
         """Return whether a clause says in what state things are to be: "they should be off", "they need washing"."""
         said = range(at + 1, end)

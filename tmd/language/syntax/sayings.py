@@ -264,6 +264,11 @@ class Saying:
         attach(draft, [] if owned else about, self.rest)
         draft.landmarks += acting
         draft.relations += [Relation(AGENT, draft.direct[-1].name if draft.direct else None, p.name) for p in acting]
+        if acting:
+            who = empty_draft(verb.stem, [self.part])
+            attach(who, self.subject, ())  # "everyone in the hall except Ann"
+            draft.relations += who.relations
+            draft.landmarks += who.landmarks
         return draft
 
     def _owned(self, attach: Attach) -> list[ClauseDraft]:
