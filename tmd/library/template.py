@@ -210,13 +210,14 @@ def _by_states(
     """Rule 3, with its ties broken."""
     before = template.profiles[variable]
     taken = set(grounding.values())
+    joints = _joints(template, variable, grounding)
     best: tuple[tuple[int, int, bool, bool], str] | None = None
     for name in world.profiles.objects:
         if name in taken or not _fits(template, variable, name, world):
             continue
         rank = (
             shared(before, world.profiles.of(name, state)),
-            _joined_alike(template, variable, name, grounding, world),
+            _joined_alike(joints, name, world),
             world.mentions.kinds[name] == template.classes[variable],
             name == template.grounding[variable],
         )
@@ -225,13 +226,27 @@ def _by_states(
     return best[1] if best else None
 
 
-def _joined_alike(template: Template, variable: str, name: str, grounding: Mapping[str, str], world: World) -> int:
+_Joint = tuple[str, frozenset[str], frozenset[str]]
+"""An object already chosen, with the edges of the template to it and from it."""
+
+
+def _joints(template: Template, variable: str, grounding: Mapping[str, str]) -> list[_Joint]:
+    """Return the objects already chosen for what the template joins to ``variable``: few of them."""
+    none: frozenset[str] = frozenset()
+    joints = [
+        (chosen, template.links.get((variable, other), none), template.links.get((other, variable), none))
+        for other, chosen in grounding.items()
+    ]
+    return [joint for joint in joints if joint[1] or joint[2]]
+
+
+def _joined_alike(joints: Sequence[_Joint], name: str, world: World) -> int:
     """Return how many edges to objects already chosen are as in the template."""
-    count = 0
-    for other, chosen in grounding.items():
-        for ours, theirs in (((name, chosen), (variable, other)), ((chosen, name), (other, variable))):
-            count += len(world.profiles.links.get(ours, frozenset()) & template.links.get(theirs, frozenset()))
-    return count
+    links, none = world.profiles.links, frozenset[str]()
+    return sum(
+        len(links.get((name, chosen), none) & to) + len(links.get((chosen, name), none) & back)
+        for chosen, to, back in joints
+    )
 
 
 def _fits(template: Template, variable: str, name: str, world: World) -> bool:

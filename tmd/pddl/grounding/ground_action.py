@@ -127,7 +127,7 @@ def absorb(clauses: set[Literals]) -> list[Literals]:
     kept: list[Literals] = []
     # clauses of one length cannot contain each other
     for length, alike in groupby(sorted(clauses, key=lambda c: (len(c), sorted(c))), key=len):
-        kept += [c for c in alike if length == 1 or not any(k <= c for k in kept)]
+        kept += [c for c in alike if length == 1 or not any(map(c.issuperset, kept))]
     return kept
 
 

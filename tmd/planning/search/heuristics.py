@@ -349,7 +349,7 @@ def prepared(t: Tables, positive: Ints, negative: Ints, fact_start: Ints, fact: 
 class Scratch(NamedTuple):
     """Working memory of the lower bound. ``value`` is hmax of a fact, ``reach`` that of a row's needs.
 
-    ``head`` has the first row that each fact supports, ``next`` the one after each row; -1 where there is none.
+    ``crosses`` marks the rows that make a fact of the zone before a cut, and ``crossing`` lists them.
     """
 
     value: Ints
@@ -364,8 +364,8 @@ class Scratch(NamedTuple):
     in_cut: Ints
     cut: Ints
     part: Ints
-    head: Ints
-    next: Ints
+    crosses: Ints
+    crossing: Ints
 
 
 def scratch(t: Tables, r: Relaxed) -> Scratch:
@@ -374,7 +374,7 @@ def scratch(t: Tables, r: Relaxed) -> Scratch:
     return Scratch(
         zeros(f), zeros(f), zeros(f + 1), zeros(f), zeros(f + 1), zeros(rows), zeros(rows), zeros(rows),
         zeros(len(t.cost)), zeros(len(t.cost)), zeros(len(t.cost) + 1), zeros(f),
-        zeros(f), zeros(rows),
+        zeros(rows), zeros(rows),
     )  # fmt: skip
 
 
@@ -456,70 +456,86 @@ def earliest(t: Tables, r: Relaxed, s: Scratch) -> Ints:
     return early
 
 
-def zone(r: Relaxed, s: Scratch, target: int) -> None:
-    """Mark (2) the facts from which ``target`` follows for nothing."""
+def zone(r: Relaxed, s: Scratch, target: int) -> int:
+    """Mark (2) the facts from which ``target`` follows for nothing, and the rows that make one of them.
+
+    Returns how many of these rows are within reach.
+    """
     for fact in range(r.facts):
         s.mark[fact] = 0
+    for row in range(r.rows):
+        s.crosses[row] = 0
     s.mark[target] = 2
     s.queue[0] = target
-    count = 1
+    count, rows = 1, 0
     while count > 0:
         count -= 1
         fact = s.queue[count]
         for i in range(r.maker_start[fact], r.maker_start[fact + 1]):
             row = r.maker[i]
-            if s.cost[r.action[row]] == 0 and s.reach[row] != FAR and s.mark[s.support[row]] == 0:
+            if s.crosses[row] != 0 or s.reach[row] == FAR:
+                continue
+            s.crosses[row] = 1
+            s.crossing[rows] = row
+            rows += 1
+            if s.cost[r.action[row]] == 0 and s.mark[s.support[row]] == 0:
                 s.mark[s.support[row]] = 2
                 s.queue[count] = s.support[row]
                 count += 1
+    return rows
 
 
-def cut(r: Relaxed, s: Scratch) -> int:
-    """Collect the operators that lead from what holds into the goal zone; returns how many."""
-    size, count = 0, s.true[r.facts]
-    for i in range(count):
-        s.queue[i] = s.true[i]
-        s.mark[s.true[i]] = 1
-    link_supported(r, s)
-    while count > 0:
-        count -= 1
-        row = s.head[s.queue[count]]
-        while row >= 0:
-            crosses = False
-            for j in range(r.make_start[row], r.make_start[row + 1]):
-                crosses = crosses or s.mark[r.make[j]] == 2
-            if crosses:
-                s.cut[size] = r.action[row]
-                size += 1 if s.in_cut[r.action[row]] < 2 else 0
-                s.in_cut[r.action[row]] = 2
-            else:
-                for j in range(r.make_start[row], r.make_start[row + 1]):
-                    if s.mark[r.make[j]] == 0:
-                        s.mark[r.make[j]] = 1
-                        s.queue[count] = r.make[j]
-                        count += 1
-            row = s.next[row]
+def cut(r: Relaxed, s: Scratch, target: int, rows: int) -> int:
+    """Collect the operators that lead from what holds into the zone of ``target``; returns how many.
+
+    ``rows`` is the number of rows that lead into the zone. Nothing in the zone is cheaper than the target. So what is
+    cheaper comes about without the zone, and only what is not has to be looked into.
+    """
+    size, price = 0, s.value[target]
+    for i in range(rows):
+        row = s.crossing[i]
+        fact, action = s.support[row], r.action[row]
+        if s.reach[row] < price or s.mark[fact] == 1 or (s.mark[fact] == 0 and outside(r, s, fact, price)):
+            s.cut[size] = action
+            size += 1 if s.in_cut[action] < 2 else 0
+            s.in_cut[action] = 2
     return size
 
 
-def link_supported(r: Relaxed, s: Scratch) -> None:
-    """Link the rows that each fact supports, in their order: most of the rows that need a fact have another support."""
-    for fact in range(r.facts):
-        s.head[fact] = -1
-    row = r.rows
-    while row > 0:
-        row -= 1
-        if s.reach[row] != FAR:
-            s.next[row] = s.head[s.support[row]]
-            s.head[s.support[row]] = row
+def outside(r: Relaxed, s: Scratch, fact: int, price: int) -> bool:
+    """Return whether a fact comes about without the zone: from anything cheaper than ``price``.
+
+    Marks the fact (1) if so; if not, marks it and all that it might come from (3).
+    """
+    s.queue[0] = fact
+    s.mark[fact] = 3
+    head, tail, found = 0, 1, False
+    while head < tail and not found:
+        made = s.queue[head]
+        head += 1
+        for i in range(r.maker_start[made], r.maker_start[made + 1]):
+            row = r.maker[i]
+            if s.reach[row] == FAR or s.crosses[row] != 0:
+                continue
+            support = s.support[row]
+            if s.reach[row] < price or s.mark[support] == 1:
+                found = True
+            elif s.mark[support] == 0:
+                s.mark[support] = 3
+                s.queue[tail] = support
+                tail += 1
+    if found:
+        for i in range(tail):
+            s.mark[s.queue[i]] = 0
+        s.mark[fact] = 1
+    return found
 
 
 def cut_off(r: Relaxed, s: Scratch, target: int) -> int:
     """Cut until ``target`` is free; returns the cost of all cuts."""
     total = 0
     while s.value[target] > 0:
-        zone(r, s, target)
-        size = cut(r, s)
+        size = cut(r, s, target, zone(r, s, target))
         least = FAR
         for i in range(size):
             least = min(least, s.cost[s.cut[i]])

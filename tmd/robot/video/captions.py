@@ -6,7 +6,7 @@ import importlib.util
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
@@ -37,6 +37,8 @@ _COLOURS = {
 _BADGES = {"ok": "#6fcf7c", "failed": "#ff7b6b", "mismatch": "#ff7b6b", "stopped": "#ff7b6b"}
 _COLUMNS = 4
 _GAP = 10
+_REMEMBERED = 1_000
+"""Maximum number of texts whose width is kept: each picture of a film says almost what the one before it said."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,18 +127,18 @@ def _write(whole: Image, top: int, caption: Caption) -> None:
     x = left
     if caption.number:
         draw.text((x, at(10)), caption.number, _PALE, bold)
-        x += draw.textlength(caption.number, bold) + 10 * unit
+        x += _width(caption.number, bold) + 10 * unit
     if caption.badge:
-        width = draw.textlength(caption.badge, bold)
+        width = _width(caption.badge, bold)
         draw.text((right - width, at(10)), caption.badge, _BADGES.get(caption.badge, _PALE), bold)
         end = right - width - 12 * unit
     else:
         end = right
-    draw.text((x, at(10)), _fitted(draw, caption.title, bold, end - x), _INK, bold)
-    draw.text((left, at(37)), _fitted(draw, caption.said, small, right - left), _PALE, small)
+    draw.text((x, at(10)), _fitted(caption.title, bold, end - x), _INK, bold)
+    draw.text((left, at(37)), _fitted(caption.said, small, right - left), _PALE, small)
     rows = _facts(draw, caption.facts, plain, unit, (left, right, at(60)))
     free = 3 - rows
-    lines = _wrapped(draw, caption.note, small, right - left, max(1, free))
+    lines = _wrapped(caption.note, small, right - left, max(1, free))
     for index, line in enumerate(lines[: max(0, free)]):
         colour = _COLOURS["missing"] if caption.badge in ("failed", "mismatch", "stopped") else _PALE
         draw.text((left, at(60 + 21 * (rows + index))), line, colour, small)
@@ -151,17 +153,17 @@ def _facts(
     for index, (fact, mark) in enumerate(facts):
         rest = len(facts) - index
         # on the last row there must be room for the words that tell of the others
-        spare = draw.textlength(f"and {rest} more", font) + gap if rest > 1 else 0.0
-        wide = step + draw.textlength(fact, font)
+        spare = _width(f"and {rest} more", font) + gap if rest > 1 else 0.0
+        wide = step + _width(fact, font)
         if row == 0 and x > left and x + wide > right:
             x, row = left, 1
         elif row == 1 and x + wide + spare > right:
             draw.text((x, top + 21 * unit), f"and {rest} more", _PALE, font)
             return 2
-        text = _fitted(draw, fact, font, right - x - step - (spare if row else 0.0))
+        text = _fitted(fact, font, right - x - step - (spare if row else 0.0))
         _mark(draw, (x, top + 21 * unit * row + 2 * unit), mark, 13 * unit)
         draw.text((x + step, top + 21 * unit * row), text, _COLOURS[mark] if mark != "measured" else _INK, font)
-        x += step + draw.textlength(text, font) + gap
+        x += step + _width(text, font) + gap
     return row + 1 if facts else 0
 
 
@@ -191,24 +193,30 @@ def _mark(draw: ImageDraw, place: tuple[float, float], mark: Mark, size: float) 
         line((0.85, 0.2), (0.1, 0.95))
 
 
-def _fitted(draw: ImageDraw, text: str, font: Font, width: float) -> str:
+@lru_cache(_REMEMBERED)
+def _width(text: str, font: Font) -> float:
+    """Return how wide a text is."""
+    return font.getlength(text)
+
+
+def _fitted(text: str, font: Font, width: float) -> str:
     """Cut the text with dots if it is too wide."""
-    if draw.textlength(text, font) <= width:
+    if _width(text, font) <= width:
         return text
-    while text and draw.textlength(text + "…", font) > width:
+    while text and _width(text + "…", font) > width:
         text = text[:-1]
     return text.rstrip() + "…"
 
 
-def _wrapped(draw: ImageDraw, text: str, font: Font, width: float, most: int) -> list[str]:
+def _wrapped(text: str, font: Font, width: float, most: int) -> list[str]:
     """Wrap the text to at most ``most`` lines; the rest is cut."""
     lines: list[str] = []
     words = text.split()
     while words and len(lines) < most:
         count = len(words) if len(lines) == most - 1 else 1
-        while count < len(words) and draw.textlength(" ".join(words[: count + 1]), font) <= width:
+        while count < len(words) and _width(" ".join(words[: count + 1]), font) <= width:
             count += 1
-        lines.append(_fitted(draw, " ".join(words[:count]), font, width))
+        lines.append(_fitted(" ".join(words[:count]), font, width))
         words = words[count:]
     return lines
 
