@@ -296,22 +296,25 @@ def _with_end(steps: Sequence[RuleStep], clause: Clause, number: int) -> tuple[R
 
 def _continued(step: RuleStep, clauses: Sequence[Clause]) -> RuleStep:
     """Return a step with whether the next clause goes on with its things; to take them may then mean nothing here."""
-    continued = _goes_on(step, clauses)
-    return replace(step, continued=continued, optional=step.optional or (continued and _takes(step.clause)))
-
-
-def _takes(clause: Clause) -> bool:
-    """Return whether a clause only takes things, from nowhere in particular."""
-    return is_verb(clause.verb, "holding") and not (clause.relations or clause.conditions)
-
-
-def _goes_on(step: RuleStep, clauses: Sequence[Clause]) -> bool:
-    """Return whether the next clause goes on with what a step acts on: *pick up the boxes and put them in the bag*."""
     following = clauses[step.number + 1] if step.number + 1 < len(clauses) else None
-    if following is None or following.mood is not Mood.DO:
-        return False
+    continued = following is not None and _goes_on(step, following)
+    taken = continued and following is not None and _only_takes(step.clause, following)
+    return replace(step, continued=continued, optional=step.optional or taken)
+
+
+def _only_takes(clause: Clause, following: Clause) -> bool:
+    """Return whether a clause only takes things that the next one moves: *get it from the box, put it on the shelf*."""
+    away = all(is_relation(relation.relation, "origin") for relation in clause.relations)
+    again = {noun for noun in following.direct if not set(clause.direct).isdisjoint(following.meant(noun))}
+    moved = any(is_relation(r.relation, "place") and r.source in again for r in following.relations)
+    takes = is_verb(clause.verb, "getting") and not clause.conditions
+    return takes and (not clause.relations or (away and moved))
+
+
+def _goes_on(step: RuleStep, following: Clause) -> bool:
+    """Return whether the next clause goes on with what a step acts on: *pick up the boxes and put them in the bag*."""
     direct = set(step.direct)
-    return any(direct & set(names) for names in following.antecedents.values())
+    return following.mood is Mood.DO and any(direct & set(names) for names in following.antecedents.values())
 
 
 def _in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:

@@ -157,10 +157,8 @@ class Facts:
 
     def related(self, relation: str, name: str, target: str, moments: Moments) -> Formula:
         """Return that ``name`` is in a relation to ``target``: as the table says it, or as the facts themselves do."""
-        if is_relation(relation, "part") and self.world.profiles.wholes.get(name) == target:
-            return TRUE  # "the button on the microwave"
-        if is_relation(relation, "partitive") and _called_after(name, target):
-            return TRUE  # racing_front, "the front wheel of the racing bike"
+        if self._always_related(relation, name, target):
+            return TRUE
         rows = [(row, row.direct, row.places[0]) for row in self.table.of(BE) if row.direct and len(row.places) == 1]
         inverse = table("inverse").get(relation)
         if inverse and not any(relations_said(relation, place.prepositions) for _, _, place in rows):
@@ -190,6 +188,16 @@ class Facts:
             if found:
                 return disjunction(Atom(a.predicate, a.args) for a in found)
         return FALSE
+
+    def _always_related(self, relation: str, name: str, target: str) -> bool:
+        """Return whether a thing is a part of another one, or is named after it."""
+        if is_relation(relation, "part") and self.world.profiles.wholes.get(name) == target:
+            return True  # "the button on the microwave"
+        if is_relation(relation, "partitive") and _called_after(name, target):
+            return True  # racing_front, "the front wheel of the racing bike"
+        # ``hall-heater`` is in the hall, if it stands nowhere else
+        nowhere = is_relation(relation, "resting") and all(len(fact.args) == 1 for fact in self.facts_about(name))
+        return nowhere and set(split_name(target)) < set(split_name(name))
 
     def _joining(self, name: str, end: str, *, ordered: bool) -> Iterable[GroundAtom]:
         """Return the facts that join two things and say something of these two; in this order, if ``ordered``."""

@@ -40,7 +40,7 @@ from tmd.language.clause import AGENT, BRING, PERSONS, PUT, TO, WITH, Clause, No
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section
 from tmd.language.lexicon.names import split_name
 from tmd.pddl.ground_formula import TRUE, conjunction, disjunction
-from tmd.pddl.model import Or, Predicate, hierarchy
+from tmd.pddl.model import Not, Or, Predicate, hierarchy
 from tmd.pddl.task import Bits, Cube, Operator
 from tmd.world.world import World
 
@@ -428,12 +428,16 @@ class GoalReader:
         if clause.verb == BE and is_relation(given[0].relation, "accompanying"):  # "the van needs an oil change"
             return self._needed(clause, given[0].target)
         deed = self._deed(noun, clause)
-        gives = self._gives(clause, given[0])
         mark = self._laid_mark(noun, clause)
-        if not (deed or mark) or not gives or self._names_thing(deed or noun):
+        if not (deed or mark) or not self._gives(clause, given[0], deed) or self._names_thing(deed or noun):
             return None
         treated = replace(clause, verb=deed or BE, direct=receivers, objects=receivers, relations=())
         return treated if deed else replace(treated, result=mark)
+
+    def _takes_away(self, verb: str) -> bool:
+        """Return whether a verb only ends states: to dust leaves nothing dusty."""
+        rows = [row for table in self.tables for row in table.of(verb)]
+        return bool(rows) and all(isinstance(row.condition, Not) for row in rows)
 
     def _deed(self, noun: str, clause: Clause) -> str:
         """Return the verb that a noun stands for: *wash* of "a wash" and "a bath"; empty for other nouns."""
@@ -464,8 +468,10 @@ class GoalReader:
         objects = (noun, *clause.direct)
         return replace(clause, verb=row.verbs[0], direct=(noun,), objects=objects, relations=given)
 
-    def _gives(self, clause: Clause, relation: Relation) -> bool:
+    def _gives(self, clause: Clause, relation: Relation, deed: str) -> bool:
         """Return whether a verb only gives something, or puts it there, and is none of this domain's own."""
+        if is_relation(relation.relation, "origin") and clause.phrase(relation.source or "").definite:
+            return self._takes_away(deed)  # "wipe the dust off it"; but watering takes no water off
         if is_verb(clause.verb, "giving"):
             return relation.relation == TO
         phrasal = clause.verb.rpartition("_")[2] in words_of("names", "particles")  # "switch the light off"

@@ -498,9 +498,12 @@ class Referents:
         gone = bound.containers if bound is not None and said.plural else ()
         if not gone and antecedent in reading.clause.phrases and antecedent not in reading.taken:
             gone = self.targets(antecedent, reading)  # "from the table with the mug to the other one"
-        whole = self._named(antecedent, NounPhrase(antecedent, definite=said.plural), types, [], reading)
-        left = [n for n in whole.names if n not in gone]
-        return whole.only(left) if gone and (left or said.plural) else None
+        for kind in dict.fromkeys((antecedent, split_name(antecedent)[-1])):  # "on the tall shelf and … the other one"
+            whole = self._named(kind, NounPhrase(kind, definite=said.plural), types, [], reading)
+            left = [n for n in whole.names if n not in gone]
+            if gone and (left or said.plural):
+                return whole.only(left)
+        return None
 
     def _together(self, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
         groups = self._groups(pronoun, reading.clause)

@@ -448,6 +448,10 @@ class Bracketer(Corrections):
             self.kind(place) is not K.ADJ or self._leads(place)
         ):
             things = things or self.kind(place) is K.N or self.among(place, "whole_words")
+            behind = self.kind(place + 1) is K.P and not self.among(place + 1, "static")
+            if things and behind and self.among(place, "end_states"):
+                self.tokens[place].kind = K.STATE  # "I want the lamp on for the guests"
+                return True
             place += 1
         return things and self._is_wished(place)
 

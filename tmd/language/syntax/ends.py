@@ -203,7 +203,8 @@ class ClauseEnds(Words):
 
     def _reports(self, at: int, verb: int, *, past: bool) -> bool:
         """Return whether a clause reports: "they left it open", "he never puts them away", "they are getting warm"."""
-        denied = self.follows(at + 1, "IDLE* NEG IDLE* (V|N|ADJ|PARTICIPLE)")
+        unable = self.among(self.peek(at), "abilities")  # "I can hardly see it"; but not "we must not open it"
+        denied = self.follows(self.peek(at) + 1 if unable else at + 1, "IDLE* NEG IDLE* (V|N|ADJ|PARTICIPLE)")
         progressive = self.kind(verb) is K.ING and self._is(at, verb)
         return denied or progressive or (past and verb == self.peek(at))
 

@@ -136,7 +136,7 @@ class Linker(Words):
         unit = self._unit()
         shared = any(t.kind is K.V and t.stem in section("result_verbs") for t in unit)
         shared = shared and not any(t.kind in (K.STATE, K.P) for t in unit)
-        return self.follows(at, "NP+ (STATE|MOD) (BREAK|SUB)") and not shared
+        return self.follows(at, "NP+ (P NP+)* (STATE|MOD) (BREAK|SUB)") and not shared
 
     def _before_verb(self, before: Kind, after: Kind, end: int, *, joined: bool) -> Kind | None:
         if self._fronted:
