@@ -7,18 +7,19 @@ from pathlib import Path
 import pytest
 
 import tmd
-from tests.goals.conftest import assert_ends, goals, plain_world
+from tests.goals.conftest import assert_ends, end, goals, plain_world
 from tmd.language.parser import parse
 
 DOMAIN = """
 (define (domain lighthouse)
   (:requirements :strips :typing :negative-preconditions)
-  (:types room crew lostParcel cart machine - object)
+  (:types room crew lostParcel cart machine coat - object)
   (:constants cellar - room pump siren - machine)
   (:predicates (isIn ?c - crew ?r - room) (hatch_locked ?r - room) (lamps_on ?r - room) (scrubbed ?r - room)
                (small ?r - room) (lies ?p - lostParcel ?r - room) (on_hook ?p - lostParcel) (waits_at ?c - cart
                 ?r - room)
-               (on_rope ?c - cart ?w - crew) (isDirty ?c - cart) (isWet ?c - cart) (isRunning ?m - machine))
+               (on_rope ?c - cart ?w - crew) (isDirty ?c - cart) (isWet ?c - cart) (isRunning ?m - machine)
+               (wears ?c - crew ?k - coat) (hangs ?k - coat) (dusty ?m - machine))
   (:action walk :parameters (?c - crew ?from ?to - room) :precondition (isIn ?c ?from)
     :effect (and (isIn ?c ?to) (not (isIn ?c ?from))))
   (:action lock_hatch :parameters (?c - crew ?r - room) :precondition (not (hatch_locked ?r)) :effect (hatch_locked ?r))
@@ -37,14 +38,19 @@ DOMAIN = """
   (:action wash :parameters (?c - crew ?k - cart) :precondition (isRunning pump)
     :effect (and (isWet ?k) (not (isDirty ?k))))
   (:action start :parameters (?c - crew ?m - machine) :precondition (not (isRunning ?m)) :effect (isRunning ?m))
+  (:action put_on_coat :parameters (?c - crew ?k - coat) :precondition (hangs ?k)
+    :effect (and (wears ?c ?k) (not (hangs ?k))))
+  (:action wipe_down :parameters (?c - crew ?m - machine) :precondition (dusty ?m) :effect (not (dusty ?m)))
   (:action halt :parameters (?c - crew ?m - machine) :precondition (isRunning ?m) :effect (not (isRunning ?m))))
 """
 PROBLEM = """
 (define (problem storm) (:domain lighthouse)
- (:objects attic gallery - room ida olaf - crew tin crate - lostParcel redCart oldCart - cart)
+ (:objects attic gallery - room ida olaf - crew tin crate - lostParcel redCart oldCart - cart
+           cellar_bell - machine wool_coat rain_coat - coat)
  (:init (isIn ida gallery) (isIn olaf attic) (hatch_locked cellar) (lamps_on attic) (lamps_on gallery) (scrubbed attic)
         (small attic) (small cellar) (lies tin gallery) (lies crate attic) (waits_at redCart cellar)
-        (waits_at oldCart gallery) (isDirty redCart) (isWet redCart) (isDirty oldCart) (isRunning siren))
+        (waits_at oldCart gallery) (isDirty redCart) (isWet redCart) (isDirty oldCart) (isRunning siren)
+        (hangs wool_coat) (hangs rain_coat) (dusty siren))
  (:goal (and)))
 """
 
@@ -98,6 +104,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         ("The attic and the cellar get a parcel each.", {"(lies tin cellar)", "(lies crate attic)"}, set()),
         ("Is the cellar scrubbed? It should be.", {"(scrubbed cellar)"}, set()),
         ("Scrub the cellar. If the attic is small, lock it.", {"(scrubbed cellar)", "(hatch_locked attic)"}, set()),
+        # what is taken off, only taken, or stays
+        ("Wipe the dust off the siren.", set(), {"(dusty siren)"}),
+        ("Get the tin from the gallery, put it in the cellar and lock the attic.", {"(lies tin cellar)"}, set()),
+        ("All parcels go in the cellar, only the tin stays put.", {"(lies tin gallery)", "(lies crate cellar)"}, set()),
+        # a thing that is named after where it is
+        ("Start the bell in the cellar.", {"(isrunning cellar_bell)"}, {"(isrunning pump)"}),
         # one thing alone, and all but one
         ("Only the tin should be in the attic.", {"(lies tin attic)"}, {"(lies crate attic)"}),
         ("Nothing but the tin should be in the gallery.", {"(lies tin gallery)"}, set()),
@@ -118,6 +130,20 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 )
 def test_a_request_ends_as_it_was_meant(folder: Path, text: str, held: set[str], gone: set[str]) -> None:
     assert_ends(folder, text, held, gone)
+
+
+@pytest.mark.parametrize(
+    ("text", "dressed"),
+    [
+        ("Everyone has to put on a coat.", {"ida", "olaf"}),
+        ("Ida and Olaf have to put on a coat.", {"ida", "olaf"}),
+        ("Everybody except Ida has to put on a coat.", {"olaf"}),
+        ("Everybody in the attic has to put on a coat.", {"olaf"}),
+    ],
+)
+def test_each_one_who_is_meant_acts(folder: Path, text: str, dressed: set[str]) -> None:
+    grounded = tmd.load_domain(str(folder)).ground(text, folder / "problem.pddl")
+    assert {fact.split()[1] for fact in end(grounded) if fact.startswith("(wears ")} == dressed
 
 
 @pytest.mark.parametrize("text", ["Scrub the attic.", "Put the old cart in the gallery."])

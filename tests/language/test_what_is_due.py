@@ -63,6 +63,16 @@ def clauses(text: str) -> list[str]:
         ("Fill the jug, which you should rinse.", ["(fill, [jug])", "(rinse, [jug])"]),
         ("Get the rope, which should be in the shed.", ["(get, [rope, shed], in: rope -> shed)"]),
         ("Take the jug, which should be full, to the table.", ["(take, [jug, table], to: jug -> table)"]),
+        ("The carpets want beating.", ["(beat, [carpet])"]),
+        ("I only want the radio on for the guests.", ["(turn_on, [radio, guest], for: radio -> guest)"]),
+        ("I want the rope put in the shed.", ["(put, [rope, shed], in: rope -> shed)"]),
+        ("Fill the jug, I can hardly lift it.", ["(fill, [jug])"]),
+        ("I can not reach the bell. Ring it.", ["(ring, [it])"]),
+        (
+            "Turn the radio on and the lamp in the hall off.",
+            ["(turn_on, [radio])", "(turn_off, [lamp, hall], in: lamp -> hall)"],
+        ),
+        ("The radio should be on, with the rope in the shed.", ["(turn_on, [radio])"]),
         # what is taken from a whole behind a statement, a place or a thing
         (
             "Each cup gets some milk, except the one that is full.",

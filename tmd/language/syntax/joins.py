@@ -415,9 +415,10 @@ class _Particles(Words):
 
     def _joins(self, at: int, place: int, *, behind: bool) -> bool:
         """Return whether the word at a place is the particle of the verb."""
-        if self.among(place + 1, "there_words") and self.among(place, "static"):
-            return False  # "make it dark in here"
         match = self._match(self.tokens[at].stem, place)
+        if self.among(place + 1, "there_words") and self.among(place, "static"):  # "make it dark in here"
+            if not match or self.stem_among(at, "placing", "put_verbs"):  # but "switch the lamp on there"
+                return False
         if match is None:
             return not behind and self._moves_object(at, place) and self._before_noun(at, place, strict=False)
         pure = self.among(place, "pure_particles")
