@@ -207,7 +207,7 @@ def _yaml(text: str) -> Any | None:  # noqa: ANN401 - any YAML
     from tmd.yaml_nodes import look_over
 
     try:
-        look_over(text, "", aliases=False)
+        look_over(text, "")
         return yaml.load(text, Loader=yaml.BaseLoader)
     except (TmdError, yaml.YAMLError):
         return None
