@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
+from itertools import chain
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.grounding.ground_action import Tree
@@ -22,15 +24,10 @@ def goal_cubes(task: Task, formula: Formula) -> tuple[Cube, ...]:
     Raises:
         TmdError: There are too many cases even with one alternative for each disjunction.
     """
-    try:
-        return ground_condition(task, formula)
-    except TmdError:
-        *more, last = _MOST_ALTERNATIVES
-    for most in more:
-        try:
-            return ground_condition(task, fewer(formula, most))
-        except TmdError:
-            continue
+    *more, last = _MOST_ALTERNATIVES
+    for tried in chain([formula], (fewer(formula, most) for most in more)):
+        with suppress(TmdError):
+            return ground_condition(task, tried)
     return ground_condition(task, fewer(formula, last))
 
 
