@@ -9,7 +9,7 @@ from itertools import chain
 from tmd.diagnostics import TmdError
 from tmd.pddl.grounding.ground_action import Tree
 from tmd.pddl.grounding.ground_task import expand_condition, ground_condition
-from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or, signed_subformulas, subformulas
+from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or, signed_subformulas, walk
 from tmd.pddl.task import Cube, Task
 
 TRUE, FALSE = And(), Or()
@@ -90,7 +90,7 @@ def _joined(kind: type[And | Or], parts: Iterable[Formula], decisive: Formula) -
 
 def atoms_of(formula: Formula) -> frozenset[GroundAtom]:
     """Return the atoms of a ground formula."""
-    atoms = (part for part in subformulas(formula) if isinstance(part, Atom))
+    atoms = (part for part in walk(formula) if isinstance(part, Atom))
     return frozenset(GroundAtom(atom.predicate, atom.terms) for atom in atoms)
 
 
