@@ -119,7 +119,7 @@ class _Improvement:
         self.moved = self._moved(end) | vessels
         # what was poured away, or is not in a vessel of a goal, was in the way there
         gone = ~end & setup.contents & ~wanted
-        own = sum(1 << self.task.index[a] for a in self.task.names(gone) if a.args[0] in vessels)
+        own = self.task.encode(atom for atom in self.task.names(gone) if atom.args[0] in vessels)
         self.absent = (gone & start) | own
         self.asked_true, self.asked_false = _asked(kept, end, plan, states)
         self.asked = self.asked_true | self.asked_false
@@ -150,7 +150,7 @@ class _Improvement:
     def home(self) -> Bits:
         """The atoms of ``places`` about things that the request does not name."""
         named = self._names(self.asked)
-        return sum(1 << self.task.index[atom] for atom in self.places if atom.args[0] not in named)
+        return self.task.encode(atom for atom in self.places if atom.args[0] not in named)
 
     @cached_property
     def usual(self) -> set[str]:
@@ -355,7 +355,7 @@ class _Improvement:
         }
         held -= self.settled
         lost = self.task.names(self.start & ~state & self.setup.lasting & ~self.asked)
-        return sum(1 << self.task.index[atom] for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
+        return self.task.encode(atom for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
 
     # ------------------------------------------------------------------ shorter plans
 
@@ -449,7 +449,7 @@ class _Improvement:
         if plan[part].need.fixed:
             return
         state = self._states(self._executable(_arranged(plan, kept)))[-1][-1]
-        home, needed = 1 << self.task.index[atom], 0
+        home, needed = self.task.encode([atom]), 0
         if rest:
             needed = self.task.by_instruction[rest[0][1]].precondition.positive & state
         for goal in dict.fromkeys((Cube(home), Cube(home | needed))):
