@@ -81,8 +81,7 @@ class Setting:
 
         What can never be done is not among them.
 
-        Args:
-            name: The object, whose own instructions come before those of its parts; ``None`` for none.
+        The object's own instructions come before those of its parts; without a ``name`` there are none.
 
         Raises:
             TmdError: There is no such object.
@@ -97,9 +96,7 @@ class Setting:
 class Reel:
     """A sequence of states, the first one that of the environment.
 
-    Args:
-        setting: The environment.
-        plan: Instructions that lead through further states; each of them must apply.
+    The instructions of ``plan`` lead through further states; each of them must apply.
 
     Attributes:
         states: As bits of the environment's task; never empty.

@@ -98,9 +98,7 @@ class ObjectClass:
 class Classes:
     """All object classes of a domain.
 
-    Args:
-        source: ``objects.yaml``.
-        types: The types (with their parents) that the domain's instructions know already.
+    ``types`` are those that the domain's instructions know already, with their parents.
 
     Raises:
         TmdError: With the place in ``objects.yaml`` of what does not fit.

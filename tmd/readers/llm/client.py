@@ -47,10 +47,7 @@ _MAY_BE_REFUSED = ("response_format", "seed", "temperature")
 class ModelError(TmdError):
     """The language model cannot be asked, or gives no answer.
 
-    Args:
-        message: What is wrong, in one line.
-        hint: What to do about it.
-        passing: Whether another request, or the same one later, may well be answered.
+    ``passing`` says whether another request, or the same one later, may well be answered.
     """
 
     exit_code = ExitCode.MODEL_FAILED
@@ -124,8 +121,7 @@ class _Kept(BaseModel):
 class ModelClient:
     """A client of a language model.
 
-    Args:
-        settings: How it is reached; environment variables fill in what is missing.
+    Environment variables fill in what is missing in ``settings``.
 
     Raises:
         ModelError: There is no model, or no key for a server that needs one.

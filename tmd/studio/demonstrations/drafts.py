@@ -158,8 +158,7 @@ _Form = TypeVar("_Form", Draft, CorrectionDraft)
 class Drafts:
     """The drafts of a studio. Threads may share it, and several studios the directory.
 
-    Args:
-        directory: Where they are; see :func:`place`.
+    They lie in ``directory``; see :func:`place`.
     """
 
     def __init__(self, directory: Path) -> None:
@@ -170,8 +169,7 @@ class Drafts:
     def enter(self, visitor: str | None = None) -> str:
         """Hold the drafts of a visitor until :meth:`leave`, or the end of the process.
 
-        Args:
-            visitor: Letters, digits, ``_`` and ``-``, at most 64; by default a name that nobody has.
+        The name has letters, digits, ``_`` and ``-``, at most 64; by default it is one that nobody has.
 
         Returns:
             The visitor's name.
