@@ -35,7 +35,6 @@ class Look:
         still: Draws its states.
         first: How it looks at the start.
         room: The floor and the walls.
-        objects: The pieces of each object.
     """
 
     still: Still
@@ -49,8 +48,6 @@ class Setting:
     """An environment, ready. Nothing in it changes: threads may share it.
 
     Attributes:
-        world: The environment, ground.
-        path: Its file.
         look: What there is to see; ``None`` where nothing is.
         blind: Why nothing is.
     """

@@ -42,8 +42,6 @@ class Server:
     With ``port`` 0 a free one is taken.
 
     Attributes:
-        port: The port.
-        token: What a visitor must know.
         url: Where it is reached from this machine, with the token.
 
     Raises:

@@ -111,13 +111,9 @@ class Visitor:
 
     Attributes:
         panels: The panels of the page; see :func:`tmd.studio.panels.furnish`.
-        setting: The environment that is looked at.
-        reel: The states that are looked at.
         cursor: The number of steps before the state that is seen.
         owner: The panel whose steps are looked at, if any.
         instructions: The steps of that panel.
-        selected: The object that was pointed at.
-        run: The robot's run, if there is one.
         moment: The moment of the run that is seen, where a run is looked at.
         live: Whether the robot is followed in its run.
         view: The folder of what there is to choose about the view.

@@ -84,7 +84,6 @@ class ObjectClass:
     """A class of objects: a directed graph over its parts.
 
     Attributes:
-        name: The class, a PDDL type.
         vertices: The parts by name, ``root`` first.
         edges: ``(predicate, tail, head, *more)``; acting on the tail changes the head.
     """

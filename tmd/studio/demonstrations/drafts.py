@@ -71,10 +71,7 @@ class Draft(_Kept):
     """A demonstration that is not saved.
 
     Attributes:
-        environment: The name of its environment.
         task: The task it would be saved under.
-        text: The text that is demonstrated.
-        instructions: The instructions carried out so far.
         marks: The steps whose clause the person chose: the step's number, from 1, and the clause's, from 0.
     """
 
@@ -117,8 +114,6 @@ class CorrectionDraft(_Kept):
     """A correction that is not done.
 
     Attributes:
-        environment: The name of its environment.
-        text: The request.
         proposed: The plan that is corrected.
         steps: The plan as it is now.
         goal: The condition on the end, as it was typed.

@@ -44,7 +44,6 @@ class EditedSteps:
     They begin in ``world``; ``text`` says what is to be done.
 
     Attributes:
-        world: The environment.
         text: The text, without control characters.
         clauses: The pieces of the text that steps serve, at least one.
         proposed: The plan that is corrected, if one is.

@@ -56,7 +56,6 @@ class RobotRun(Reel):
     ends, and at the end of the run.
 
     Attributes:
-        planned: The plan.
         done: The instructions that were done, each with its clause, *repair* for what the monitor put in.
         faults: What was not as predicted, by the number of the instruction.
         now: The instruction that is being done; ``None`` between two of them.
