@@ -270,11 +270,8 @@ class Profiles:
 
     def _atoms_of(self, name: str) -> Bits:
         """Return the atoms that the profile of ``name`` depends on."""
-        bits = 0
-        for thing in (name, *(part for _, part in self.parts.get(name, ()))):
-            for atom, _ in self._fluent.get(thing, ()):
-                bits |= 1 << self.task.index[atom]
-        return bits
+        things = (name, *(part for _, part in self.parts.get(name, ())))
+        return self.task.encode(atom for thing in things for atom, _ in self._fluent.get(thing, ()))
 
     def own(self, name: str, state: Bits) -> dict[tuple[str, ...], bool]:
         """Return the profile of ``name`` without that of its parts."""
