@@ -75,7 +75,6 @@ class Refusal:
     It is a result, not an error.
 
     Attributes:
-        kind: The kind of reason.
         message: The reason, in one line.
         hint: What to say or do instead.
         rows: For authors, the rows that were tried, each with its place and the reason why it did not fit.

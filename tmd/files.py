@@ -197,9 +197,7 @@ def try_lock(path: Path, wait: float = 0.0) -> FileLock | None:
 def locked(path: Path, *, wait: float) -> Iterator[None]:
     """Hold the lock on a file.
 
-    Args:
-        path: The file.
-        wait: Seconds after which no more attempts are made.
+    No more attempts are made after ``wait`` seconds.
 
     Raises:
         OutputError: Somebody else holds it all that time, or the file cannot be made.

@@ -149,11 +149,8 @@ def restored_in(
 ) -> tuple[tuple[Cube, ...], ...]:
     """Return what no plan leaves behind in an environment: each condition for each object, as cubes.
 
-    Args:
-        world: The environment.
-        lexicon: The words of its domain, which may declare such conditions.
-        learned: What demonstrations undo; it counts where the lexicon declares nothing.
-        unrestored: What demonstrations leave as it came about, whatever the lexicon declares.
+    ``learned`` is what demonstrations undo; it counts where the lexicon declares nothing. ``unrestored`` is what they
+    leave as it came about, whatever the lexicon declares.
     """
     task, kinds = world.task, world.mentions.kinds
     declared = declared_goals(lexicon, task.problem.domain).restored

@@ -58,10 +58,7 @@ class JsonRecord(BaseModel):
     def from_value(cls, value: object, file: str, line: int | None = None) -> Self:
         """Return the record in a JSON value.
 
-        Args:
-            value: The value.
-            file: Its file, for messages.
-            line: Its line, where the file is JSON Lines.
+        ``file`` and, of JSON Lines, ``line`` are for messages.
 
         Raises:
             TmdError: A key is missing, unknown or of the wrong kind.
@@ -127,11 +124,7 @@ def expectation(fault: ErrorDetails, mapping: str) -> str:
 def json_value(text: str, file: str, line: int | None = None, hint: str | None = None) -> Any:  # noqa: ANN401 - any
     """Return the JSON value in a text.
 
-    Args:
-        text: The text.
-        file: Its file, for messages.
-        line: Its line, where the file is JSON Lines.
-        hint: What to do if it is not JSON.
+    ``file`` and, of JSON Lines, ``line`` are for messages; ``hint`` is what to do if it is not JSON.
 
     Raises:
         TmdError: It is not JSON; with its place.

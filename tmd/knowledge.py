@@ -237,8 +237,7 @@ _PATIENCE = 2.0
 class Progress:
     """Progress of work that has taken two seconds: the share done on a terminal, one line elsewhere.
 
-    Args:
-        what: The work, such as *learning from the demonstrations of kitchen*.
+    ``what`` is the work, such as *learning from the demonstrations of kitchen*.
     """
 
     def __init__(self, what: str) -> None:
@@ -337,9 +336,7 @@ class Knowledge:
 def study(corpus: Corpus, tell: Callable[[float], None] = lambda share: None) -> Knowledge:
     """Learn library and policy from all demonstrations of a domain.
 
-    Args:
-        corpus: The domain.
-        tell: Called with the share of the work that is done.
+    ``tell`` is called with the share of the work that is done.
 
     Raises:
         TmdError: A demonstration is wrong, or cannot be executed in its environment.
@@ -380,12 +377,8 @@ def place(corpus: Corpus, root: Path | None = None) -> Path:
 def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str | None = None) -> None:
     """Write what was learned; a reader finds all of it or, until the last file is there, none.
 
-    Args:
-        knowledge: What was learned.
-        corpus: The domain.
-        directory: Where to.
-        made_from: The :func:`~tmd.knowledge.digest` of the corpus before it was read, where others may
-            write to it meanwhile; what it is now where none is given.
+    ``made_from`` is the :func:`~tmd.knowledge.digest` of the corpus before it was read, where others may write to it
+    meanwhile; what it is now where none is given.
 
     Raises:
         OutputError: It cannot be written.
@@ -430,11 +423,8 @@ def recall(corpus: Corpus, directory: Path) -> Knowledge | None:
 def known(corpus: Corpus, root: Path | None = None, tell: Callable[[float], None] | None = None) -> Knowledge:
     """Return the saved or cached knowledge of a domain, or else learn it now and cache it.
 
-    Args:
-        corpus: The domain.
-        root: Where ``tmd learn --out`` saved; beside the demonstrations where none is given.
-        tell: Called with the share of the learning that is done; without it, learning that takes long is reported on
-            standard error.
+    ``root`` is where ``tmd learn --out`` saved; beside the demonstrations where none is given. ``tell`` is called with
+    the share of the learning that is done; without it, learning that takes long is reported on standard error.
 
     Raises:
         TmdError: Nothing was saved that still holds, and a demonstration is wrong.

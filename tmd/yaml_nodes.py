@@ -56,7 +56,7 @@ def compose(text: str, file: str) -> yaml.Node | None:
     if len(text) > MAX_CHARACTERS:
         hint = "this is not a file of tmd"
         raise TmdError(f"{file}: larger than {MAX_CHARACTERS // 1_000_000} MB", hint=hint, code="too-large")
-    look_over(text, file, aliases=False)
+    look_over(text, file)
     try:
         root = yaml.compose(text, Loader=Loader)
     except yaml.YAMLError as error:
@@ -65,13 +65,8 @@ def compose(text: str, file: str) -> yaml.Node | None:
     return root
 
 
-def look_over(text: str, file: str, *, aliases: bool = True) -> None:
-    """Refuse a text that is deeper or has more values than any file of ours.
-
-    Args:
-        text: The text.
-        file: Names it in errors.
-        aliases: Whether it may have aliases.
+def look_over(text: str, file: str) -> None:
+    """Refuse a text that has aliases, is deeper or has more values than any file of ours; ``file`` names it in errors.
 
     Raises:
         TmdError: It is, or it is not YAML; with its place.
@@ -81,7 +76,7 @@ def look_over(text: str, file: str, *, aliases: bool = True) -> None:
         for event in yaml.parse(text, Loader=Loader):
             nodes += isinstance(event, yaml.NodeEvent)
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
-            if isinstance(event, yaml.AliasEvent) and not aliases:
+            if isinstance(event, yaml.AliasEvent):
                 fault = "aliases are not accepted", "yaml-alias", "write the value out"
             elif depth > MAX_LEVELS:
                 message = f"nested more than {MAX_LEVELS} levels deep"

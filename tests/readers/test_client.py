@@ -16,7 +16,7 @@ from tests.cli.conftest import Ended, run_tmd
 from tests.readers.conftest import Start, kit
 from tests.readers.fake_server import Answer, asked, reply
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.readers.llm import client as client_module
+from tmd.planning.processes import in_thread
 from tmd.readers.llm.client import KEY, ModelClient, ModelError, ModelSettings
 from tmd.readers.llm.reply import MOST_CHARACTERS, Reply, schema_of
 
@@ -108,8 +108,8 @@ def test_no_reply_in_time(start: Start) -> None:
 
 def test_a_reply_that_drips_ends_in_time() -> None:
     with pytest.raises(TimeoutError):
-        client_module._within(partial(time.sleep, 60), 0.01)
-    assert client_module._within(lambda: 7, 60) == 7
+        in_thread(partial(time.sleep, 60)).result(0.01)
+    assert in_thread(lambda: 7).result(60) == 7
 
 
 @pytest.mark.parametrize("key", [f"{SECRET}\r", f" {SECRET}\n"])

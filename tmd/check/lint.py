@@ -32,7 +32,7 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.reading.syntax import Node, Source, Word, after, read_text, split_lines
 from tmd.pddl.semantics import instantiate, size, solutions
-from tmd.pddl.task import Cube
+from tmd.pddl.task import Cube, Task
 from tmd.pddl.writer import format_formula
 from tmd.planning.unsolvable import reachable, relaxed_literals, unreachable_reason
 
@@ -238,12 +238,13 @@ def types_of(parameters: Iterable[TypedName]) -> dict[str, tuple[str, ...]]:
 
 def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
     """Return the warnings for a problem that has no faults."""
+    task = _ground(problem)
     return [
         *_constants_again(problem, source),
         *_costs_missing(problem, source),
         *_said_twice(conjuncts(problem.goal), "in the goal", source),
-        *lint_cases(problem),
-        *(_contradictory_goal(problem, source) or _goal_holds(problem, source) or _unreachable(problem, source)),
+        *_too_many_cases(problem, task),
+        *(_contradictory_goal(problem, source) or _goal_holds(problem, source) or _unreachable(problem, task, source)),
     ]
 
 
@@ -321,36 +322,36 @@ _MOST_ATOMS = 200_000
 
 def lint_cases(problem: Problem) -> list[TmdError]:
     """Return the condition that keeps ``problem`` from being ground, if there is one; with its place in the domain."""
-    if _is_large(problem):
+    return _too_many_cases(problem, _ground(problem))
+
+
+def _too_many_cases(problem: Problem, task: Task | TmdError | None) -> list[TmdError]:
+    place = task.location if isinstance(task, TmdError) and task.code == TOO_MANY_CASES else None
+    found = [a for a in problem.domain.actions for part in conjuncts(a.precondition) if part.location == place]
+    if not isinstance(task, TmdError) or place is None or not found:
         return []
-    try:
-        ground(problem)
-    except TmdError as error:
-        place = error.location
-        found = [a for a in problem.domain.actions for part in conjuncts(a.precondition) if part.location == place]
-        if error.code == TOO_MANY_CASES and place is not None and found:
-            message = f'this condition of action "{found[0].name}" is too large to be written out in "{problem.name}"'
-            line = split_lines(read_text(place.file))[place.line - 1] if Path(place.file).is_file() else None
-            return [TmdError(message, location=place, hint=error.hint, source=line, code=TOO_MANY_CASES)]
-    return []
+    message = f'this condition of action "{found[0].name}" is too large to be written out in "{problem.name}"'
+    line = split_lines(read_text(place.file))[place.line - 1] if Path(place.file).is_file() else None
+    return [TmdError(message, location=place, hint=task.hint, source=line, code=TOO_MANY_CASES)]
 
 
-def _is_large(problem: Problem) -> bool:
-    """Return whether the actions may have too many instances, or too many atoms in their conditions."""
+def _ground(problem: Problem) -> Task | TmdError | None:
+    """Ground ``problem``, or return why that fails; ``None`` for too many instances or atoms in their conditions."""
     objects = universe(problem)
     actions = problem.domain.actions
     instances = [prod(len(objects.of(p.types)) for p in action.parameters) for action in actions]
     atoms = sum(size(a.precondition, objects) * many for a, many in zip(actions, instances, strict=True))
-    return sum(instances) > _MOST_GROUND or atoms > _MOST_ATOMS
-
-
-def _unreachable(problem: Problem, source: Source) -> list[TmdError]:
-    """Return the proof that ``tmd plan`` gives: what relaxed reachability from the initial state never reaches."""
-    if _is_large(problem):
-        return []
+    if sum(instances) > _MOST_GROUND or atoms > _MOST_ATOMS:
+        return None
     try:
-        task = ground(problem)
-    except TmdError:
+        return ground(problem)
+    except TmdError as error:
+        return error
+
+
+def _unreachable(problem: Problem, task: Task | TmdError | None, source: Source) -> list[TmdError]:
+    """Return the proof that ``tmd plan`` gives: what relaxed reachability from the initial state never reaches."""
+    if not isinstance(task, Task):
         return []
     may_hold = relaxed_literals(task, task.init)
 

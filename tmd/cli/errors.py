@@ -64,9 +64,7 @@ class Fault:
 def fault_of(error: BaseException, command: str = "tmd") -> Fault:
     """Return an error as the user sees it; unforeseen ones are faults of the program.
 
-    Args:
-        error: What ended the program.
-        command: What it was doing, whose help is the last resort of those who look for a remedy.
+    ``command`` is what it was doing; its help is the last resort of those who look for a remedy.
     """
     if isinstance(error, TmdError):
         hint = error.hint or _remedy(error, command)

@@ -36,11 +36,7 @@ _FACTS = 2
 class RunReport(StepRecorder):
     """The report of a run as it goes: a line for each instruction, or one JSON value in the end; and the log.
 
-    Args:
-        asked: What was asked, as the beginning of the record.
-        orders: The plan.
-        journal: The log.
-        as_json: Print JSON, and nothing before the end.
+    With ``as_json`` it prints JSON, and nothing before the end.
 
     Attributes:
         heading: What is done, where and how, in a few words.

@@ -29,7 +29,7 @@ from typing import TypeAlias
 from rapidfuzz.distance import Levenshtein
 
 from tmd.pddl.forced_execution import ForcedExecution
-from tmd.pddl.model import Formula, Instruction, Problem, universe
+from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, universe
 from tmd.pddl.semantics import holds
 from tmd.pddl.task import Bits, Task
 
@@ -144,12 +144,12 @@ def visible(task: Task, problem: Problem, cover: AbstractSet[str]) -> Bits:
     """Return the atoms that EED looks at: about objects of the cover only, and not about the robot."""
     known = universe(problem)
     constants = {constant.name for constant in problem.domain.constants}
-    looked_at = 0
-    for number, atom in enumerate(task.atoms):
+
+    def looked_at(atom: GroundAtom) -> bool:
         about = set(atom.args) - constants
-        if about and about <= cover and not any(known.is_a(arg, (ROBOT,)) for arg in atom.args):
-            looked_at |= 1 << number
-    return looked_at
+        return bool(about) and about <= cover and not any(known.is_a(arg, (ROBOT,)) for arg in atom.args)
+
+    return task.where(looked_at)
 
 
 class Scorer:

@@ -35,17 +35,16 @@ def starts(count: int) -> list[Decimal]:
     return [number * (DURATION + GAP) for number in range(count)]
 
 
-def format_temporal(plan: Sequence[Instruction]) -> str:
+def format_temporal(plan: Sequence[Instruction], gap: str = " ") -> str:
     """Return a plan of PDDL 2.1: ``0.000: (grasp cup1) [1.000]``."""
-    lines = [f"{start:.3f}: {i.pddl()} [{DURATION:.3f}]" for start, i in zip(starts(len(plan)), plan, strict=True)]
-    return "".join(f"{line}\n" for line in lines)
+    timed = zip(starts(len(plan)), plan, strict=True)
+    return "".join(f"{start:.3f}: {instruction.pddl()}{gap}[{DURATION:.3f}]\n" for start, instruction in timed)
 
 
 def format_popf(plan: Sequence[Instruction]) -> str:
     """Return a plan as the planner POPF prints it, which is what PlanSys2 reads: from ``Solution Found`` on."""
     makespan = len(plan) * DURATION + max(0, len(plan) - 1) * GAP
-    lines = [f"{start:.3f}: {i.pddl()}  [{DURATION:.3f}]" for start, i in zip(starts(len(plan)), plan, strict=True)]
-    return "".join(f"{line}\n" for line in [";;;; Solution Found", f"; Cost: {makespan:.3f}", *lines])
+    return f";;;; Solution Found\n; Cost: {makespan:.3f}\n{format_temporal(plan, '  ')}"
 
 
 # How long every action takes; PDDL says nothing of how long an instruction takes a robot.

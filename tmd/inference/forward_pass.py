@@ -150,7 +150,7 @@ class ForwardPass:
     def lasting(self) -> Bits:
         """The atoms that do not pass by themselves."""
         passing = passing_predicates(self.task.problem.domain)
-        return sum(1 << bit for bit, atom in enumerate(self.task.atoms) if atom.predicate not in passing)
+        return self.task.where(lambda atom: atom.predicate not in passing)
 
     def pruned(self, found: Iterable[Way], beam: int | None) -> list[Way]:
         """Return the cheapest ways to each of the ``beam`` cheapest environments; ``None`` keeps all."""

@@ -22,7 +22,7 @@ from tmd.inference.tidying import Need, PlanPart, Tidying, moved, passes
 from tmd.library.library import tidy
 from tmd.pddl.domain_traits import single_valued
 from tmd.pddl.ground_formula import TRUE, goal_cubes
-from tmd.pddl.model import And, Formula, Instruction
+from tmd.pddl.model import And, Formula, GroundAtom, Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube
 from tmd.planning.gap_filler import GapFiller, eliminate
@@ -461,8 +461,7 @@ class GoalPass(ForwardPass):
     @cached_property
     def _made(self) -> Bits:
         """The atoms that say what is in what, or tell of one thing alone."""
-        single = sum(1 << bit for bit, atom in enumerate(self.task.atoms) if len(atom.args) == 1)
-        return self._contents | single
+        return self._contents | self.task.where(lambda atom: len(atom.args) == 1)
 
     def _foreign(self, state: Bits, end: Bits, aim: Sequence[Cube]) -> frozenset[str]:
         """Return what else came into the vessels of an aim from ``state`` to ``end``: coffee, to heat milk."""
@@ -484,8 +483,8 @@ class GoalPass(ForwardPass):
         """Return a cube without some contents in its vessels, unless they are there in ``state`` or asked for."""
         vessels = {atom.args[0] for atom in self.task.names(cube.positive & self._contents)}
         atoms = self.task.names(self._contents & ~cube.positive & ~state)
-        unwanted = (a for a in atoms if a.args[0] in vessels and a.args[1] in contents)
-        return Cube(cube.positive, cube.negative | sum(1 << self.task.index[atom] for atom in unwanted))
+        unwanted = self.task.encode(a for a in atoms if a.args[0] in vessels and a.args[1] in contents)
+        return Cube(cube.positive, cube.negative | unwanted)
 
     def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
@@ -570,9 +569,12 @@ class GoalPass(ForwardPass):
     def _contents(self) -> Bits:
         """The atoms that say what is in what: food may be cooked by waiting, but it does not leave."""
         constants, values = set(self.world.profiles.constants), single_valued(self.task.problem.domain)
-        pairs = ((a.args if len(a.args) == 2 and a.predicate not in values else ("", "")) for a in self.task.atoms)
-        inside = (thing not in constants and content in constants for thing, content in pairs)
-        return sum(1 << bit for bit, found in enumerate(inside) if found)
+
+        def inside(atom: GroundAtom) -> bool:
+            pair = len(atom.args) == 2 and atom.predicate not in values
+            return pair and atom.args[0] not in constants and atom.args[1] in constants
+
+        return self.task.where(inside)
 
     # ------------------------------------------------------------------ the whole plan
 

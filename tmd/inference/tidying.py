@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from itertools import pairwise, permutations
 from typing import TypeAlias
 
@@ -119,7 +119,7 @@ class _Improvement:
         self.moved = self._moved(end) | vessels
         # what was poured away, or is not in a vessel of a goal, was in the way there
         gone = ~end & setup.contents & ~wanted
-        own = sum(1 << self.task.index[a] for a in self.task.names(gone) if a.args[0] in vessels)
+        own = self.task.encode(atom for atom in self.task.names(gone) if atom.args[0] in vessels)
         self.absent = (gone & start) | own
         self.asked_true, self.asked_false = _asked(kept, end, plan, states)
         self.asked = self.asked_true | self.asked_false
@@ -150,7 +150,7 @@ class _Improvement:
     def home(self) -> Bits:
         """The atoms of ``places`` about things that the request does not name."""
         named = self._names(self.asked)
-        return sum(1 << self.task.index[atom] for atom in self.places if atom.args[0] not in named)
+        return self.task.encode(atom for atom in self.places if atom.args[0] not in named)
 
     @cached_property
     def usual(self) -> set[str]:
@@ -355,7 +355,7 @@ class _Improvement:
         }
         held -= self.settled
         lost = self.task.names(self.start & ~state & self.setup.lasting & ~self.asked)
-        return sum(1 << self.task.index[atom] for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
+        return self.task.encode(atom for atom in lost if len(atom.args) > 1 and atom.args[0] in held)
 
     # ------------------------------------------------------------------ shorter plans
 
@@ -366,20 +366,25 @@ class _Improvement:
         instructions = (*segment.instructions[:first], *own, *segment.instructions[last:])
         return (*plan[:place], replace(segment, instructions=instructions), *plan[place + 1 :])
 
-    def _executable(self, plan: Plan, *, without: str = "", but: tuple[int, int] | None = None) -> Plan:
-        """Return the plan without one object or one instruction, and without what cannot be executed then.
+    def _executable(
+        self, plan: Plan, changed: Callable[[Instruction], Instruction | None] = lambda i: i, *, untaken: str = ""
+    ) -> Plan:
+        """Return the plan with its instructions changed, and without what cannot be executed then.
 
-        ``but`` are the number of a part and that of the instruction in it.
+        The object ``untaken`` is not taken in a hand, nor anything else begun with it.
         """
         found, state = [], self.start
-        for place, segment in enumerate(plan):
-            own = []
-            for at, instruction in enumerate(segment.instructions):
-                operator = self.task.by_instruction[instruction]
-                gone = without in instruction.args or (place, at) == but
-                if operator.applicable(state) and (segment.need.fixed or not gone):
-                    own.append(instruction)
-                    state = operator.apply(state)
+        for segment in plan:
+            own, fixed = [], segment.need.fixed
+            for instruction in segment.instructions:
+                new = instruction if fixed else changed(instruction)
+                operator = self.task.by_instruction.get(new) if new is not None else None
+                if new is None or operator is None or not operator.applicable(state):
+                    continue
+                after = operator.apply(state)
+                if fixed or untaken not in new.args or self._begun(after) <= self._begun(state):
+                    own.append(new)
+                    state = after
             found.append(replace(segment, instructions=tuple(own)))
         return tuple(found)
 
@@ -392,7 +397,7 @@ class _Improvement:
                 restores = self._begun(trace[at + 1]) < self._begun(trace[at])
                 careless = self.setup.is_careless(instruction)
                 if restores or careless:
-                    other = self._executable(plan, but=(place, at))
+                    other = self._executable(self._with(plan, place, at, at + 1, ()))
                     if self._key(other) is not None:
                         plan = self._better(plan, [self._restored(other)])
                 if careless:
@@ -444,7 +449,7 @@ class _Improvement:
         if plan[part].need.fixed:
             return
         state = self._states(self._executable(_arranged(plan, kept)))[-1][-1]
-        home, needed = 1 << self.task.index[atom], 0
+        home, needed = self.task.encode([atom]), 0
         if rest:
             needed = self.task.by_instruction[rest[0][1]].precondition.positive & state
         for goal in dict.fromkeys((Cube(home), Cube(home | needed))):
@@ -506,36 +511,16 @@ class _Improvement:
     def _without_objects(self, plan: Plan) -> Plan:
         """Return the plan without the objects that it handles for nothing."""
         for name in dict.fromkeys(a for s in plan for i in s.instructions for a in i.args):
-            plan = self._better(plan, [self._executable(plan, without=name)])
+            plan = self._better(plan, [self._executable(plan, partial(_unless_about, name))])
         return plan
 
     def _without_detours(self, plan: Plan) -> Plan:
         """Return the plan without objects that only stand for others: sugar goes into the mug that it is for."""
         pairs = (pair for s in plan for i in s.instructions for pair in permutations(i.args, 2) if pair[0] != pair[1])
         for name, other in dict.fromkeys(pairs):
-            direct = (self._renamed(plan, name, other, taking=taking) for taking in (True, False))
-            plan = self._better(plan, direct)
+            renamed = partial(_with_name, name=name, other=other)
+            plan = self._better(plan, (self._executable(plan, renamed, untaken=thing) for thing in ("", other)))
         return plan
-
-    def _renamed(self, plan: Plan, name: str, other: str, *, taking: bool) -> Plan:
-        """Return the plan with one object instead of another, without what cannot be executed then.
-
-        Without ``taking``, that object is not taken in a hand, nor anything else begun with it.
-        """
-        found, state = [], self.start
-        for segment in plan:
-            own = []
-            for instruction in segment.instructions:
-                new = instruction if segment.need.fixed else _with_name(instruction, name, other)
-                operator = self.task.by_instruction.get(new)
-                if operator is None or not operator.applicable(state):
-                    continue
-                after = operator.apply(state)
-                if taking or segment.need.fixed or other not in new.args or self._begun(after) <= self._begun(state):
-                    own.append(new)
-                    state = after
-            found.append(replace(segment, instructions=tuple(own)))
-        return tuple(found)
 
     def _without_instructions(self, plan: Plan) -> Plan:
         """Return the plan without single instructions, and those that need them, that are there for nothing."""
@@ -546,7 +531,8 @@ class _Improvement:
                 place -= 1
                 at = len(plan[place].instructions) if place >= 0 else 0
                 continue
-            plan = self._better(plan, [self._executable(plan, but=(place, at))])
+            if not plan[place].need.fixed:
+                plan = self._better(plan, [self._executable(self._with(plan, place, at, at + 1, ()))])
             at = min(at, len(plan[place].instructions))
         return plan
 
@@ -591,6 +577,11 @@ class _Improvement:
                 cubes += _read_by(self.task.by_instruction[instruction], state)
         state, read = states[place][at], atoms_in(cubes)
         return Cube(read & state, read & ~state)
+
+
+def _unless_about(name: str, instruction: Instruction) -> Instruction | None:
+    """Return an instruction that does not handle an object; ``None`` for others."""
+    return None if name in instruction.args else instruction
 
 
 def _with_name(instruction: Instruction, name: str, other: str) -> Instruction:

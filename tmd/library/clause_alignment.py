@@ -31,12 +31,7 @@ def split(
 ) -> list[tuple[Instruction, ...]]:
     """Return the instructions of each clause: consecutive runs, some perhaps empty.
 
-    Args:
-        clauses: The clauses of the segment, in order; at least one.
-        instructions: Its instructions.
-        profiles: The environment's objects.
-        mentions: Their nouns.
-        state: The state when the segment began.
+    ``clauses`` are those of the segment, at least one; ``state`` is the one in which the segment began.
     """
     if len(clauses) == 1:
         return [tuple(instructions)]

@@ -110,7 +110,7 @@ class ForcedExecution:
         blind = replace(domain, actions=tuple(replace(a, precondition=FALSE) for a in domain.actions))
         problem = replace(self.problem, domain=blind, objects=objects)
         task = ground(problem, forced=sorted({b for b in bound.values() if b}))
-        real = ~sum(1 << i for i, atom in enumerate(task.atoms) if any(a in ghosts for a in atom.args))
+        real = ~task.where(lambda atom: any(a in ghosts for a in atom.args))
         self._steps.clear()
         for instruction in known:
             target = bound[instruction]

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
+from itertools import chain
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.grounding.ground_action import Tree
 from tmd.pddl.grounding.ground_task import expand_condition, ground_condition
-from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or, signed_subformulas, subformulas
+from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or, signed_subformulas, walk
 from tmd.pddl.task import Cube, Task
 
 TRUE, FALSE = And(), Or()
@@ -22,15 +24,10 @@ def goal_cubes(task: Task, formula: Formula) -> tuple[Cube, ...]:
     Raises:
         TmdError: There are too many cases even with one alternative for each disjunction.
     """
-    try:
-        return ground_condition(task, formula)
-    except TmdError:
-        *more, last = _MOST_ALTERNATIVES
-    for most in more:
-        try:
-            return ground_condition(task, fewer(formula, most))
-        except TmdError:
-            continue
+    *more, last = _MOST_ALTERNATIVES
+    for tried in chain([formula], (fewer(formula, most) for most in more)):
+        with suppress(TmdError):
+            return ground_condition(task, tried)
     return ground_condition(task, fewer(formula, last))
 
 
@@ -93,7 +90,7 @@ def _joined(kind: type[And | Or], parts: Iterable[Formula], decisive: Formula) -
 
 def atoms_of(formula: Formula) -> frozenset[GroundAtom]:
     """Return the atoms of a ground formula."""
-    atoms = (part for part in subformulas(formula) if isinstance(part, Atom))
+    atoms = (part for part in walk(formula) if isinstance(part, Atom))
     return frozenset(GroundAtom(atom.predicate, atom.terms) for atom in atoms)
 
 

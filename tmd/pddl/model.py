@@ -295,11 +295,6 @@ def signed_subformulas(formula: Formula, positive: bool = True) -> Iterator[tupl
         yield from signed_subformulas(part, positive != negated)
 
 
-def subformulas(formula: Formula) -> Iterator[Formula]:
-    """Yield a formula and everything in it, outer formulas first."""
-    return (part for part, _ in signed_subformulas(formula))
-
-
 # The types of parts that have no parts: to leave them out takes half the time.
 _LEAVES = frozenset({str, int, bool, type(None), Location})
 
@@ -332,7 +327,7 @@ def rebuilt(node: Any, change: Callable[[Any], Any]) -> Any:  # noqa: ANN401 - a
 
 def predicates_of(formula: Formula) -> frozenset[str]:
     """Return the predicates of a formula."""
-    return frozenset(part.predicate for part in subformulas(formula) if isinstance(part, Atom))
+    return frozenset(part.predicate for part in walk(formula) if isinstance(part, Atom))
 
 
 def free_variables(formula: Formula) -> frozenset[str]:

@@ -19,6 +19,7 @@ from typing import Any
 
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.reading.foreign import blanks
 from tmd.pddl.reading.syntax import NAME, read_text, shifted, split_lines
 
 _CALL = re.compile(r"([^(]*)\((.*)\)\s*", re.DOTALL)
@@ -123,7 +124,7 @@ def parse_plan(text: str, file: str = "<text>", problem: Problem | None = None) 
             time.
     """
     reader = _Reader(file, _Vocabulary.of(problem))
-    text = reader.vocabulary.in_steps(_THOUGHTS.sub(lambda thought: _blanks(thought[0]), text).translate(_QUOTES))
+    text = reader.vocabulary.in_steps(_THOUGHTS.sub(lambda thought: blanks(thought[0]), text).translate(_QUOTES))
     plans, of_data = _plans(text, reader)
     whole = [plan for plan in plans if not plan.cut]
     if not plans:
@@ -207,7 +208,7 @@ def _yaml(text: str) -> Any | None:  # noqa: ANN401 - any YAML
     from tmd.yaml_nodes import look_over
 
     try:
-        look_over(text, "", aliases=False)
+        look_over(text, "")
         return yaml.load(text, Loader=yaml.BaseLoader)
     except (TmdError, yaml.YAMLError):
         return None
@@ -256,15 +257,15 @@ class _Vocabulary:
 
         def constructor(found: re.Match[str]) -> str:
             known = found[1].lower() not in self.parameters and found[2].lower() in self.parameters
-            return f"{_blanks(found[1])}(" if known else found[0]
+            return f"{blanks(found[1])}(" if known else found[0]
 
         def arguments(found: re.Match[str]) -> str:
             inner = re.split(r"\W", found[5].lstrip("\"' ").lower(), maxsplit=1)[0]
             if found[3].lower() not in self.parameters or inner in self.parameters:
                 return found[0]
-            before = f"({_blanks(found[0][1 : found.start(2) - found.start()])}{found[2]}"
+            before = f"({blanks(found[0][1 : found.start(2) - found.start()])}{found[2]}"
             start, end = found.start(5) - found.start(), found.end(5) - found.start()
-            return f"{before.ljust(start)}{found[5]}{_blanks(found[0][end:-1])})"
+            return f"{before.ljust(start)}{found[5]}{blanks(found[0][end:-1])})"
 
         def following(found: re.Match[str]) -> str:
             words = self.words(found[1])
@@ -540,10 +541,6 @@ def _split(lines: Iterable[_Line]) -> list[_Found]:
             plans.append(_Found())
         apart = not line.steps
     return plans
-
-
-def _blanks(text: str) -> str:
-    return re.sub(r"[^\n]", " ", text)
 
 
 def _code(line: str) -> str:

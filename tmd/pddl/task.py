@@ -7,7 +7,7 @@ microseconds. The meaning is that of :mod:`tmd.pddl.semantics`, and tests hold t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import reduce
 from operator import or_
@@ -126,14 +126,13 @@ class Task:
             states.append(self.by_instruction[instruction].apply(states[-1]))
         return states
 
-    def encode(self, state: State) -> Bits:
-        """Return the bits of ``state``; atoms that are not fluent here are left out."""
-        bits = 0
-        for atom in state:
-            number = self.index.get(atom)
-            if number is not None:
-                bits |= 1 << number
-        return bits
+    def encode(self, state: Iterable[GroundAtom]) -> Bits:
+        """Return the bits of atoms; those that are not fluent here are left out."""
+        return reduce(or_, (1 << self.index[atom] for atom in state if atom in self.index), 0)
+
+    def where(self, chosen: Callable[[GroundAtom], bool]) -> Bits:
+        """Return the atoms that are ``chosen``."""
+        return sum(1 << bit for bit, atom in enumerate(self.atoms) if chosen(atom))
 
     def decode(self, bits: Bits) -> State:
         """Return the full state (static atoms included) of ``bits``."""

@@ -7,7 +7,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib.util import find_spec
-from threading import Thread
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
@@ -15,7 +14,7 @@ from tmd.pddl.model import And, Atom, Formula, Instruction, Not, Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.planning.fast_downward import binaries, fast_downward
 from tmd.planning.kairos import kairos, kairos_beside
-from tmd.planning.processes import Deadline, TimeIsUpError, limited, memory_limit
+from tmd.planning.processes import Deadline, TimeIsUpError, in_thread, limited, memory_limit
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved, Unreachable, filled
 from tmd.planning.up_planners import EngineSpec, fast_downward_engine, require_unified_planning, solve_with_engine
 
@@ -390,17 +389,7 @@ def _in_time(search: Callable[[], Solution], deadline: Deadline) -> Solution:
     It runs in a thread, because Python handles no signals while compiled code runs in the main one. A search that is
     given up goes on until its cap of states, or until the program ends.
     """
-    from concurrent.futures import Future
-
-    answer: Future[Solution] = Future()
-
-    def run() -> None:
-        try:
-            answer.set_result(search())
-        except BaseException as error:  # for the thread that asked
-            answer.set_exception(error)
-
-    Thread(target=run, daemon=True).start()
+    answer = in_thread(search)
     while deadline.left():
         with suppress(TimeoutError):
             return answer.result(min(deadline.left(), _LOOK))

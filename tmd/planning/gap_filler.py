@@ -29,10 +29,9 @@ class GapFiller:
 
     Every answer depends on the question alone: the canonical cheapest plan. Answers are remembered, failures too.
 
-    Args:
-        task: The instantiated problem. States may be any that its operators reach from where it was instantiated.
-        backend: The form of the search kernel: ``"auto"``, ``"numba"`` or ``"python"``; plans are the same.
-        cap: Give up after this many generated states.
+    States may be any that the operators of ``task`` reach from where it was instantiated. ``backend`` is the form of
+    the search kernel, ``"auto"``, ``"numba"`` or ``"python"``; plans are the same. The search gives up after ``cap``
+    generated states.
 
     Raises:
         MissingToolError: ``backend`` is ``"numba"`` and numba is not installed.

@@ -17,6 +17,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from concurrent.futures import Future
 from contextlib import ExitStack, contextmanager, suppress
 from copy import copy
 from functools import cache
@@ -24,11 +25,12 @@ from pathlib import Path
 from pkgutil import resolve_name
 from shutil import rmtree
 from tempfile import TemporaryDirectory, TemporaryFile, gettempdir
-from typing import IO
+from typing import IO, TypeVar
 
 from tmd.diagnostics import LimitError, PlannerError
 from tmd.pddl.model import Problem
 
+T = TypeVar("T")
 MEGABYTE = 1 << 20
 # A planner that prints without end must not fill the disk.
 _LARGEST_FILE = 4 << 30
@@ -224,6 +226,20 @@ def memory_limit(memory: int | None) -> Iterator[None]:
         yield
     finally:
         resource.setrlimit(resource.RLIMIT_AS, before)
+
+
+def in_thread(call: Callable[[], T]) -> Future[T]:
+    """Begin a call in a thread of its own, which does not keep the program from ending as those of executors do."""
+    future: Future[T] = Future()
+
+    def run() -> None:
+        try:
+            future.set_result(call())
+        except BaseException as error:  # for the thread that asked
+            future.set_exception(error)
+
+    threading.Thread(target=run, daemon=True).start()
+    return future
 
 
 class TimeIsUpError(LimitError):

@@ -121,7 +121,6 @@ class Question:
     """A question to the user: two readings of a step differ, and neither is much likelier.
 
     Attributes:
-        text: The question.
         step: The index of the step in :attr:`Dialogue.steps`.
         options: The answers, the likeliest first.
         taken: The index of the option that the plans are for, where nobody answered.
@@ -138,7 +137,6 @@ class Usage:
     """The effort of a language model for one request.
 
     Attributes:
-        model: The name of the model.
         prompt_tokens: Tokens that were sent, as the server counts them.
         completion_tokens: Tokens that were received.
         seconds: Time spent waiting for the server.
@@ -186,7 +184,6 @@ class Dialogue:
     Attributes:
         clauses: The verb clauses in the order of the text, for templates and factors.
         steps: The steps in the order of doing.
-        constraints: Conditions on the whole plan.
         memory: The memory before the first step.
         refusal: Why the request as a whole has no plan; ``None`` where it may have one.
         question: A question that the reader itself wants to be answered.

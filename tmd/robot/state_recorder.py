@@ -46,7 +46,6 @@ class Recorded:
     """The subject of a recording.
 
     Attributes:
-        environment: The environment's name.
         fixtures: The poses of the furniture.
         rate: Samples a second.
         robot: The robot's URDF, which has the joints of the samples.

@@ -35,7 +35,6 @@ class Look:
         still: Draws its states.
         first: How it looks at the start.
         room: The floor and the walls.
-        objects: The pieces of each object.
     """
 
     still: Still
@@ -49,8 +48,6 @@ class Setting:
     """An environment, ready. Nothing in it changes: threads may share it.
 
     Attributes:
-        world: The environment, ground.
-        path: Its file.
         look: What there is to see; ``None`` where nothing is.
         blind: Why nothing is.
     """
@@ -81,8 +78,7 @@ class Setting:
 
         What can never be done is not among them.
 
-        Args:
-            name: The object, whose own instructions come before those of its parts; ``None`` for none.
+        The object's own instructions come before those of its parts; without a ``name`` there are none.
 
         Raises:
             TmdError: There is no such object.
@@ -97,9 +93,7 @@ class Setting:
 class Reel:
     """A sequence of states, the first one that of the environment.
 
-    Args:
-        setting: The environment.
-        plan: Instructions that lead through further states; each of them must apply.
+    The instructions of ``plan`` lead through further states; each of them must apply.
 
     Attributes:
         states: As bits of the environment's task; never empty.

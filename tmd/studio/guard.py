@@ -62,10 +62,7 @@ def kept_token(directory: Path) -> str:
 class Guard:
     """Access control of one server.
 
-    Args:
-        host: The address that is listened at.
-        port: The port, which distinguishes the cookies of several studios.
-        token: What a visitor must know.
+    ``port`` distinguishes the cookies of several studios; a visitor must know the ``token``.
     """
 
     def __init__(self, host: str, port: int, token: str) -> None:
@@ -147,10 +144,7 @@ def guarding(guard: Guard, own: _Answer, change: Callable[[Request, Response], R
 
     viser starts its server itself, and hands nothing of this on (1.1.1); what it calls is replaced while it starts.
 
-    Args:
-        guard: Who is asked.
-        own: Answers what viser knows nothing of.
-        change: What becomes of a page before it is sent.
+    ``own`` answers what viser knows nothing of; ``change`` is what becomes of a page before it is sent.
 
     Raises:
         TmdError: Nothing was served: it would be served unguarded.

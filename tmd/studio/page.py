@@ -151,9 +151,7 @@ def stored(client: ClientHandle, key: str) -> str:
 class Window:
     """A window of a browser, beside what viser shows in it.
 
-    Args:
-        client: viser's side of it.
-        told: Called with each event in it.
+    ``told`` is called with each event in it.
 
     Attributes:
         dark: Whether its system is dark.

@@ -39,14 +39,9 @@ _WARMING = 5.0
 class Server:
     """Web server of a studio.
 
-    Args:
-        studio: What is shown.
-        host: The address to listen at.
-        port: The port; 0 takes a free one.
+    With ``port`` 0 a free one is taken.
 
     Attributes:
-        port: The port.
-        token: What a visitor must know.
         url: Where it is reached from this machine, with the token.
 
     Raises:

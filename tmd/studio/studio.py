@@ -24,11 +24,8 @@ from tmd.world.demonstration import Demonstration
 class Studio:
     """A domain, opened for visitors; its methods may be called from any thread.
 
-    Args:
-        corpus: The domain, with its demonstrations.
-        teacher: What was learned of it.
-        start: The environment that visitors come to first, or its file, which need not be among those of the domain;
-            the first one by default.
+    ``start`` is the environment that visitors come to first, or its file, which need not be among those of the domain;
+    the first one by default.
 
     Attributes:
         archive: Where demonstrations are saved.
@@ -97,10 +94,8 @@ class Studio:
     def save(self, session: EditedSteps, task: str, goal: str | None = None) -> Demonstration:
         """Save a demonstration: the next text is grounded with it, and the rest is learned in the background.
 
-        Args:
-            session: The demonstration.
-            task: What it is an example of.
-            goal: The goal of the text, as a closed PDDL condition; not recorded by default.
+        ``task`` is what it is an example of, ``goal`` the goal of the text, as a closed PDDL condition; not recorded by
+        default.
 
         Raises:
             TmdError: It cannot be saved; nothing is written.

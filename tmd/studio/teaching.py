@@ -48,10 +48,8 @@ def _study(folder: Path, directory: Path, root: Path | None) -> None:
 class Teacher:
     """Knowledge learned in one domain. Threads may share it.
 
-    Args:
-        corpus: The domain's environments and demonstrations.
-        root: Where ``tmd learn --out`` keeps what it learns; beside the demonstrations where none is given. What was
-            saved there and still holds is taken, else everything is learned now.
+    ``root`` is where ``tmd learn --out`` keeps what it learns; beside the demonstrations where none is given. What was
+    saved there and still holds is taken, else everything is learned now.
 
     Attributes:
         knowledge: The current knowledge.
@@ -83,8 +81,7 @@ class Teacher:
         The library is then that of ``tmd learn`` for the same files. The policy and the meanings of verbs stay as they
         are until :meth:`retrain` is done.
 
-        Args:
-            demonstration: The return value of :meth:`tmd.studio.demonstrations.demo_store.Archive.save`.
+        It is what :meth:`tmd.studio.demonstrations.demo_store.Archive.save` returned.
 
         Raises:
             TmdError: A file of demonstrations is wrong, or the demonstration is in none. What was known stays.
@@ -161,10 +158,8 @@ class Teacher:
     def model_reader(self, model: str, url: str, *, verify: bool) -> Reader:
         """Return the reader that asks a language model; the same one for the same settings.
 
-        Args:
-            model: The name of the model; that of the environment variable where it is empty.
-            url: The address of the server; likewise.
-            verify: Whether the model is asked once more whether a plan does what was asked.
+        Where ``model`` or ``url`` is empty, that of the environment variable is taken. With ``verify`` the model is
+        asked once more whether the plan does what was asked.
 
         Raises:
             ModelError: There is no model, or no key for a server that needs one.
@@ -182,12 +177,8 @@ class Teacher:
 
         Changes that others made to the files are taken up first, and learned in the background.
 
-        Args:
-            text: The request.
-            world: The environment.
-            top: The number of distinct plans.
-            reader: The reader; by default the offline reader of grammar and lexicon.
-            ask: Answers a question of the reader; without it the likeliest option is taken.
+        ``reader`` is the offline reader of grammar and lexicon by default. ``ask`` answers a question of the reader;
+        without it the likeliest option is taken.
 
         Raises:
             TmdError: A file of demonstrations is wrong, or the reader cannot work.

@@ -61,11 +61,7 @@ Colour = Literal["gray", "blue", "red"]
 
 
 class Panel:
-    """Panel of a visitor's page; its methods are called for what is done elsewhere.
-
-    Args:
-        visitor: The browser.
-    """
+    """Panel of a visitor's page; its methods are called for what is done elsewhere."""
 
     name: ClassVar[str] = ""
 
@@ -111,20 +107,13 @@ class Panel:
 class Visitor:
     """One connected browser.
 
-    Args:
-        studio: The state that all visitors share.
-        client: The browser's side.
-        identity: The visitor's name, under which drafts are kept.
+    ``identity`` is the visitor's name, under which drafts are kept.
 
     Attributes:
         panels: The panels of the page; see :func:`tmd.studio.panels.furnish`.
-        setting: The environment that is looked at.
-        reel: The states that are looked at.
         cursor: The number of steps before the state that is seen.
         owner: The panel whose steps are looked at, if any.
         instructions: The steps of that panel.
-        selected: The object that was pointed at.
-        run: The robot's run, if there is one.
         moment: The moment of the run that is seen, where a run is looked at.
         live: Whether the robot is followed in its run.
         view: The folder of what there is to choose about the view.
@@ -471,12 +460,8 @@ class Visitor:
     def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
         """Show a message at the top of the panel.
 
-        Args:
-            message: The message.
-            hint: The remedy.
-            fault: Something was not done.
-            aloud: Show it over the view as well, for a while or until the next message: the panel may be scrolled down.
-                Faults always are.
+        With ``aloud`` it is shown over the view as well, as faults always are, for a while or until the next message:
+        the panel may be scrolled down.
         """
         self._message.content = notice(message, hint, fault=fault)
         self.at_fault = fault

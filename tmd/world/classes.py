@@ -84,7 +84,6 @@ class ObjectClass:
     """A class of objects: a directed graph over its parts.
 
     Attributes:
-        name: The class, a PDDL type.
         vertices: The parts by name, ``root`` first.
         edges: ``(predicate, tail, head, *more)``; acting on the tail changes the head.
     """
@@ -98,9 +97,7 @@ class ObjectClass:
 class Classes:
     """All object classes of a domain.
 
-    Args:
-        source: ``objects.yaml``.
-        types: The types (with their parents) that the domain's instructions know already.
+    ``types`` are those that the domain's instructions know already, with their parents.
 
     Raises:
         TmdError: With the place in ``objects.yaml`` of what does not fit.

@@ -44,9 +44,7 @@ _RULE = "a rule is an effect, such as (when (on ?x table1) (near ?x))"
 def update_domain(folder: DomainFolder, *, write: bool = True) -> bool:
     """Compile a folder with object graphs to its ``domain.pddl``.
 
-    Args:
-        folder: The domain.
-        write: Whether to write the file.
+    The file is only compared with its sources without ``write``.
 
     Returns:
         Whether the file was not there, or was another.

@@ -24,10 +24,6 @@ class Corpus:
     """The content of ``<problems>/<domain>/``: ``environments/`` and ``<task>/demonstrations.jsonl``.
 
     An environment is a YAML file, or, in a domain without object graphs, a PDDL problem whose goal is not looked at.
-
-    Args:
-        folder: The domain.
-        directory: ``<problems>/<domain>``.
     """
 
     def __init__(self, folder: DomainFolder, directory: Path) -> None:
@@ -48,8 +44,7 @@ class Corpus:
     def world(self, environment: str | Path) -> World:
         """Return an environment, ground.
 
-        Args:
-            environment: Its name, or its file. Those with a name are made once.
+        ``environment`` is its name or its file; those with a name are made once.
 
         Raises:
             TmdError: There is none, or it is wrong.

@@ -209,10 +209,8 @@ class _Line:
 def step_fault(demonstration: Demonstration, number: int, fault: TmdError) -> TmdError:
     """Return the fault of step ``number`` (the first is 1), with its segment, and its place in the file.
 
-    Args:
-        demonstration: The demonstration.
-        number: Which of its instructions, over all segments.
-        fault: What is wrong; the place is that of the first name that it quotes, where the step has it.
+    ``number`` counts over all segments. The place is that of the first name that ``fault`` quotes, where the step has
+    it.
     """
     owners = [segment for segment in demonstration.segments for _ in segment.instructions]
     at, segment = demonstration.segments.index(owners[number - 1]) + 1, owners[number - 1]

@@ -157,9 +157,8 @@ class Roots:
     def world(self, environment: str, domain: str | None = None) -> tuple[Corpus, World]:
         """Return an environment, ready for grounding, and the corpus of its domain.
 
-        Args:
-            environment: A file (YAML, or a PDDL problem), or the name of a bundled environment.
-            domain: The domain, where the environment's own ``domain:`` is not to be asked.
+        ``environment`` is a file (YAML, or a PDDL problem), or the name of a bundled one; its own ``domain:`` is asked
+        where no ``domain`` is given.
 
         Raises:
             TmdError: One of them is missing or wrong.

@@ -86,12 +86,9 @@ class Scaffold:
 def scaffold(name: str, start: str, domains: Path, problems: Path, given: tuple[str, str] | None = None) -> Scaffold:
     """Begin the domain ``name`` in ``domains/name`` and ``problems/name``.
 
-    Args:
-        name: Lower-case letters, digits and ``_``.
-        start: One of :data:`STARTS`, or ``empty``.
-        domains: The directory of all domains; made if it is not there.
-        problems: The directory of all problems; likewise.
-        given: The texts of its ``domain.pddl`` and ``lexicon.yaml``, in place of a start.
+    ``name`` has lower-case letters, digits and ``_``; ``start`` is one of :data:`STARTS`, or ``empty``. The directories
+    are made if they are not there. ``given`` are the texts of ``domain.pddl`` and ``lexicon.yaml``, in place of a
+    start.
 
     Raises:
         TmdError: The name or the start is none, or another domain has that name.

@@ -56,12 +56,8 @@ def make_world(
 
     The goal and the metric of ``problem`` are dropped, because the request says what is wanted.
 
-    Args:
-        name: The environment's name.
-        problem: The environment.
-        lexicon: The words of the domain.
-        kinds: For objects whose PDDL type says less than that, what kind of thing each is.
-        costs: The costs of actions, where some differ.
+    ``kinds`` says what kind of thing an object is whose PDDL type says less than that; ``costs`` are those of actions,
+    where some differ.
     """
     problem = replace(problem, goal=TRUE, minimize_cost=False, metric_location=None)
     problem = with_costs(problem, costs or {})
@@ -89,11 +85,7 @@ _CONTAINED_SHARE = 0.9
 class Mentions:
     """The nouns of one environment.
 
-    Args:
-        profiles: The environment's objects and their states.
-        problem: The environment, with types.
-        lexicon: The domain's words.
-        kinds: For objects whose PDDL type says less than that, what kind of thing each is.
+    ``problem`` is the environment, with types; ``kinds`` is as for :func:`make_world`.
     """
 
     def __init__(
@@ -216,8 +208,7 @@ Profile = Mapping[tuple[str, ...], bool]
 class Profiles:
     """Profiles of the objects of one task.
 
-    Args:
-        task: The ground problem; its fluent atoms are the states that an object can be in.
+    The fluent atoms of ``task`` are the states that an object can be in.
     """
 
     def __init__(self, task: Task) -> None:
@@ -279,11 +270,8 @@ class Profiles:
 
     def _atoms_of(self, name: str) -> Bits:
         """Return the atoms that the profile of ``name`` depends on."""
-        bits = 0
-        for thing in (name, *(part for _, part in self.parts.get(name, ()))):
-            for atom, _ in self._fluent.get(thing, ()):
-                bits |= 1 << self.task.index[atom]
-        return bits
+        things = (name, *(part for _, part in self.parts.get(name, ())))
+        return self.task.encode(atom for thing in things for atom, _ in self._fluent.get(thing, ()))
 
     def own(self, name: str, state: Bits) -> dict[tuple[str, ...], bool]:
         """Return the profile of ``name`` without that of its parts."""

@@ -24,9 +24,7 @@ Model = TypeVar("Model", bound=BaseModel)
 class YamlSource(Reporting):
     """One YAML file: its text, its data and the place of every node.
 
-    Args:
-        path: The file.
-        report: Takes the faults of what the file says; without it the first one is raised.
+    ``report`` takes the faults of what the file says; without it the first one is raised.
 
     ``left_out`` are the keys whose values :meth:`load` left out.
 

@@ -157,11 +157,8 @@ def compile_environment(
 ) -> Problem:
     """Return the PDDL problem of an environment at its start, without a goal.
 
-    Args:
-        environment: What to compile.
-        semantics: Whose rules.
-        relations: What is on what at the start; by default ``literal`` for the literal semantics and
-            ``honest`` for the sane one.
+    ``relations`` says what is on what at the start; by default ``literal`` for the literal semantics and ``honest`` for
+    the sane one.
 
     Raises:
         TmdError: Unknown semantics or rule.

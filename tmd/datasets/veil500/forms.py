@@ -112,9 +112,7 @@ def from_veil(text: str, location: Location | None = None) -> Instruction:
 def to_veil(instruction: Instruction, names: Mapping[str, str]) -> str:
     """Return the VEIL action of an instruction.
 
-    Args:
-        instruction: An instruction of the VEIL domains.
-        names: PDDL name to VEIL name, such as :attr:`VeilEnvironment.names`; others stay as they are.
+    ``names`` maps PDDL names to VEIL names, as :attr:`VeilEnvironment.names` does; others stay as they are.
 
     Raises:
         DataError: VEIL cannot say it: scooping with something other than the one spoon.

@@ -143,7 +143,7 @@ class _Text:
                     f'each line begins with something like "{self.kept[slice(*spans[0])].strip()}", which is not PDDL'
                 )
                 self.fault(message, 0, "remove it", "foreign-text", edits)
-                self.change(spans, _blanks)
+                self.change(spans, blanks)
                 return
 
     def conflict(self) -> None:
@@ -152,7 +152,7 @@ class _Text:
         if found:
             message, hint = "a merge was left undone here", "keep one of the two versions, and remove the marks"
             self.fault(message, found[0].start(), hint, "foreign-text", ())
-            self.change((span for match in found for span in (match.span(1), match.span(2))), _blanks)
+            self.change((span for match in found for span in (match.span(1), match.span(2))), blanks)
 
     def marks(self) -> None:
         """Blank the marks of Markdown and comments of other languages; comments of PDDL are no part of ``bare``."""
@@ -165,8 +165,8 @@ class _Text:
             if match.lastgroup and match.lastgroup != "comment":
                 found.setdefault(match.lastgroup, []).append(match)
         for kind, matches in found.items():
-            self.change((match.span() for match in matches), _KEPT.get(kind, _blanks))
-        self.bare = re.sub(r";[^\n]*", lambda comment: _blanks(comment[0]), self.bare)
+            self.change((match.span() for match in matches), _KEPT.get(kind, blanks))
+        self.bare = re.sub(r";[^\n]*", lambda comment: blanks(comment[0]), self.bare)
         self.hidden()
         for kind, matches in found.items():
             message, hint = _TOLD[kind]
@@ -247,7 +247,7 @@ class _Text:
             edits = [self.removal(*span) for span in spans]
             message, hint = "this definition begins twice", "remove one of the two beginnings"
             self.fault(message, spans[0][0], hint, "two-definitions", edits)
-            self.change(spans, _blanks)
+            self.change(spans, blanks)
 
     def _prose(self, start: int, end: int, message: str) -> None:
         """Report and blank text; the comments of PDDL in it stay."""
@@ -256,7 +256,7 @@ class _Text:
             message = '"(in-package ...)" is Lisp, not PDDL'
         edits = [self.removal(*span) for span in spans]
         self.fault(message, spans[0][0], 'remove it, or write ";" before each of its lines', "foreign-text", edits)
-        self.change(spans, _blanks)
+        self.change(spans, blanks)
 
     def _definitions(self, others: Sequence[re.Match[str]]) -> None:
         """Report and blank further definitions."""
@@ -272,7 +272,7 @@ class _Text:
         message = f'this file has {len(others) + 1} definitions: here begins the {kind.lower()} "{name}"'
         hint = f"put it into a file of its own, such as {Path(edits[0].start.file).name}"
         self.fault(message, others[0].start(), hint, "two-definitions", edits)
-        self.change([(others[0].start(), len(self.kept))], _blanks)
+        self.change([(others[0].start(), len(self.kept))], blanks)
 
     def _file_for(self, match: re.Match[str]) -> Path:
         """Return the file that a definition may be put into."""
@@ -302,7 +302,7 @@ class _Text:
             edits.append(self.edit(place, place + 1, "" if re.search(r"[\s()]", around) or len(around) < 2 else " "))
         more = f" ({len(places)} of them)" if len(places) > 1 else ""
         self.fault(f"PDDL has no commas{more}", places[0], "separate words by blanks", "other-notation", edits)
-        self.change([(place, place + 1) for place in places], _blanks)
+        self.change([(place, place + 1) for place in places], blanks)
 
 
 def _plain(text: str) -> str:
@@ -312,7 +312,8 @@ def _plain(text: str) -> str:
     return unescape(unescape(text)).replace("\xa0", " ").ljust(len(text))
 
 
-def _blanks(text: str) -> str:
+def blanks(text: str) -> str:
+    """Return a text with each character but the ends of lines a blank."""
     return re.sub(r"[^\n]", " ", text)
 
 

@@ -10,20 +10,19 @@ import json
 import os
 import re
 import time
-from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import Future
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
-from threading import Thread
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
 from pydantic import BaseModel
 
 from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError, install_extra, one_line
 from tmd.files import cache_directory, make_directory, read_bytes, write_bytes
+from tmd.planning.processes import in_thread
 from tmd.readers.interface import Usage
 
 if TYPE_CHECKING:
@@ -48,10 +47,7 @@ _MAY_BE_REFUSED = ("response_format", "seed", "temperature")
 class ModelError(TmdError):
     """The language model cannot be asked, or gives no answer.
 
-    Args:
-        message: What is wrong, in one line.
-        hint: What to do about it.
-        passing: Whether another request, or the same one later, may well be answered.
+    ``passing`` says whether another request, or the same one later, may well be answered.
     """
 
     exit_code = ExitCode.MODEL_FAILED
@@ -125,8 +121,7 @@ class _Kept(BaseModel):
 class ModelClient:
     """A client of a language model.
 
-    Args:
-        settings: How it is reached; environment variables fill in what is missing.
+    Environment variables fill in what is missing in ``settings``.
 
     Raises:
         ModelError: There is no model, or no key for a server that needs one.
@@ -185,7 +180,8 @@ class ModelClient:
                     )
                 said = cast(Any, list(messages))
                 create = partial(self._client.chat.completions.create, model=self.model, messages=said, **options)
-                answer = _within(create, (_RETRIES + 1) * own.timeout)
+                # a server that sends a byte now and then never exceeds the client's own limits
+                answer = in_thread(create).result((_RETRIES + 1) * own.timeout)
                 break
             except openai.APIStatusError as error:
                 refused = _refused_parameter(error.status_code, str(error), options)
@@ -239,25 +235,6 @@ class ModelClient:
         key = self.settings.key or ""
         line = one_line(text)
         return (line.replace(key, "***") if len(key) > 4 else line)[:300]
-
-
-def _within(call: Callable[[], Any], seconds: float) -> Any:  # noqa: ANN401 - what the client returns
-    """Return the result of a call.
-
-    Raises:
-        TimeoutError: There was none in time. A server that sends a byte now and then never exceeds the client's own
-            limits.
-    """
-    future: Future[Any] = Future()
-
-    def run() -> None:
-        try:
-            future.set_result(call())
-        except BaseException as error:  # for the thread that waits
-            future.set_exception(error)
-
-    Thread(target=run, daemon=True).start()  # an executor would wait for the thread when the program ends
-    return future.result(seconds)
 
 
 def _encodable(text: str) -> str:

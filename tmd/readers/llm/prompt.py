@@ -71,12 +71,7 @@ def filled(section: str, **values: str) -> str:
 def prompt_for(request: str, world: World, state: Bits, lexicon: Lexicon, examples: Sequence[SentenceTest]) -> Prompt:
     """Return the prompt for a request that is made in ``state``.
 
-    Args:
-        request: The request.
-        world: The environment.
-        state: Its state.
-        lexicon: The words of the domain.
-        examples: Sentence tests of the domain; those in the same environment, or without a goal, are not shown.
+    ``examples`` are sentence tests of the domain; those in the same environment, or without a goal, are not shown.
     """
     domain = world.task.problem.domain
     shown = _shown(request, world, state)

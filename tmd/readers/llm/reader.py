@@ -45,11 +45,8 @@ def llm_reader(corpus: Corpus, settings: ModelSettings, *, verify: bool = False)
 class LLMReader:
     """A reader that asks a language model.
 
-    Args:
-        client: Asks the model.
-        lexicon: The words of the domain.
-        examples: Requests of the domain with their goals.
-        verify: Whether the model is asked once more whether a plan does what was asked.
+    ``examples`` are requests of the domain with their goals. With ``verify`` the model is asked once more whether a
+    plan does what was asked.
     """
 
     def __init__(

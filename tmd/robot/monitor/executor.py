@@ -194,14 +194,8 @@ class Performer(Protocol):
 class Executor:
     """Executes plans and checks each step.
 
-    Args:
-        problem: The environment.
-        observer: Reads the state back.
-        performer: Carries out the instructions.
-        planner: Name of the planner for repairs.
-        most_repairs: Maximum number of replannings.
-        begin: Called before each instruction.
-        watch: Called with each finished step.
+    ``observer`` reads the state back. ``planner`` makes at most ``most_repairs`` repairs. ``begin`` is called before
+    each instruction, ``watch`` with each finished step.
     """
 
     def __init__(

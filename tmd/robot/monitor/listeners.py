@@ -61,9 +61,7 @@ class Recorder:
 
     Its methods are the callbacks ``begin`` and ``watch`` of :class:`tmd.robot.monitor.executor.Executor`.
 
-    Args:
-        orders: The plan.
-        listeners: Receivers of all events, in this order.
+    The ``listeners`` receive all events, in this order.
     """
 
     def __init__(self, orders: Sequence[Order], listeners: Sequence[Listener]) -> None:

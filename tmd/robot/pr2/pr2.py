@@ -40,11 +40,8 @@ _VIEW = (0.75, 0.6)
 class Pr2:
     """The robot, with tucked arms and open hands; ``rng`` is for planners that it calls itself.
 
-    Args:
-        sim: The world; it is loaded into it.
-        urdf: Another PR2's URDF; None: the packaged one.
-        kinematic: Set joints instead of driving them.
-        pose: Of the base: x, y, theta.
+    It is loaded into ``sim``, from ``urdf`` where that is not the packaged one. With ``kinematic`` joints are set
+    instead of driven. ``pose`` is that of the base: x, y, theta.
 
     Attributes:
         boxes: Boxes around its solid links, by link name.

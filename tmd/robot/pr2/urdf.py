@@ -65,7 +65,6 @@ class RobotDescription:
 
     Attributes:
         urdf: The repaired file.
-        root: Its parsed ``<robot>``.
         source: The file as it was, with the robot's own names.
         disabled: Pairs of links, in both orders, that never collide or always do (the SRDF's list, and neighbours).
         tucked: The postures of the arms for driving with empty hands.

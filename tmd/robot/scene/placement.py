@@ -34,7 +34,6 @@ class Placing:
 
     Attributes:
         room: The fixtures' poses and the walls.
-        poses: Of every object.
 
     Raises:
         TmdError: Something does not fit where it should be; with its place in the environment's file.

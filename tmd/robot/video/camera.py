@@ -68,7 +68,6 @@ class Camera:
     """The camera of one film.
 
     Attributes:
-        view: The chosen view.
         wide: Whether that shows the whole robot.
     """
 

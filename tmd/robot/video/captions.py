@@ -46,7 +46,6 @@ class Caption:
     """One caption.
 
     Attributes:
-        title: The instruction.
         number: Its place in the plan.
         said: Its purpose.
         facts: Each fact with its mark.

@@ -66,11 +66,7 @@ def open_movie(
 class Film:
     """Takes the pictures of a run as simulated time goes by, and listens to its events.
 
-    Args:
-        cell: Robot and scene.
-        skills: Of the domain.
-        movie: The film, from :func:`open_movie`; None: no film, only the filmstrip.
-        strip: Whether to make a filmstrip.
+    ``movie`` is the film, from :func:`open_movie`; with None there is only the filmstrip, which is made with ``strip``.
     """
 
     def __init__(

@@ -93,12 +93,9 @@ def propose(
 ) -> tuple[int, ...]:
     """Return the number of the clause of each instruction, from 0, never falling.
 
-    Args:
-        clauses: The clauses of the text, at least one.
-        instructions: What was done, from the environment's initial state on.
-        world: The environment.
-        pinned: The clauses that the person chose, from 0 and never falling, by the number of the instruction, from 0.
-        habits: What was done for verbs before.
+    There is at least one clause. ``instructions`` were carried out from the environment's initial state on. ``pinned``
+    has the clauses that the person chose, from 0 and never falling, by the number of the instruction, from 0.
+    ``habits`` are what was done for verbs before.
     """
     if len(clauses) == 1 or not instructions:
         return (0,) * len(instructions)
@@ -124,10 +121,8 @@ def propose(
 def _advanced(best: Sequence[float], ended: Sequence[float], cut: float) -> tuple[list[float], list[int]]:
     """Return for each clause the best value one step on, and the clause of the step before that leads there.
 
-    Args:
-        best: The same for the step before.
-        ended: For each clause how likely it is that the step before was its last.
-        cut: What it costs to change the clause here.
+    ``best`` has the same for the step before, ``ended`` for each clause how likely it is that this step was its last;
+    ``cut`` is what it costs to change the clause here.
     """
     values, origins = [], []
     for number in range(len(best)):

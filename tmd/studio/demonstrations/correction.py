@@ -31,12 +31,8 @@ from tmd.world.world import World
 class Correction(EditedSteps):
     """A plan under correction.
 
-    Args:
-        world: The environment.
-        text: The request.
-        proposed: The plan that was proposed for it, each instruction with its clause.
-        lexicon: The words of the domain.
-        steps: What it was made already; what was proposed by default.
+    ``proposed`` is the plan that was proposed for ``text``, each instruction with its clause; ``steps`` is what it was
+    made already.
 
     Attributes:
         proposed: The plan as it was proposed.
@@ -72,9 +68,7 @@ class Correction(EditedSteps):
     def insert(self, step: int, instruction: Instruction) -> None:
         """Put an instruction in, so that it becomes the step of that number, for the clause of the step behind it.
 
-        Args:
-            step: From 1; one more than there are steps appends it.
-            instruction: What to do.
+        ``step`` counts from 1; one more than there are steps appends it.
 
         Raises:
             TmdError: The environment has no such instruction, or the plan no such place.
@@ -101,10 +95,7 @@ class Correction(EditedSteps):
     def swap(self, old: str, new: str, step: int | None = None) -> int:
         """Take another object instead of ``old``, and its parts instead of those of ``old``.
 
-        Args:
-            old: The object that is in the plan.
-            new: The object to take instead.
-            step: Only in this step; in all where none is given.
+        The object ``old`` is in the plan; ``new`` takes its place in one ``step``, or in all where none is given.
 
         Returns:
             How many steps changed.

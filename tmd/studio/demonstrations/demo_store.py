@@ -40,9 +40,7 @@ _LONGEST = 200
 class Archive:
     """Store of the demonstrations of one domain. Threads may share it.
 
-    Args:
-        corpus: The domain's environments and demonstrations.
-        wait: Seconds after which a writer gives up waiting for another.
+    A writer gives up after it waited ``wait`` seconds for another.
     """
 
     def __init__(self, corpus: Corpus, *, wait: float = _WAIT) -> None:
@@ -81,10 +79,8 @@ class Archive:
     def save(self, session: EditedSteps, task: str = SHOWN, *, goal: str | None = None) -> Demonstration:
         """Append a demonstration to the file of its task.
 
-        Args:
-            session: The demonstration, or the correction; all its steps, wherever it is looked at.
-            task: The task it is an example of.
-            goal: The goal of the text, as a closed PDDL condition; not recorded by default.
+        ``session`` is the demonstration, or the correction: all its steps, wherever it is looked at. ``task`` is what
+        it is an example of, ``goal`` the goal of the text, as a closed PDDL condition; not recorded by default.
 
         Returns:
             The demonstration as the file has it now.

@@ -71,10 +71,7 @@ class Draft(_Kept):
     """A demonstration that is not saved.
 
     Attributes:
-        environment: The name of its environment.
         task: The task it would be saved under.
-        text: The text that is demonstrated.
-        instructions: The instructions carried out so far.
         marks: The steps whose clause the person chose: the step's number, from 1, and the clause's, from 0.
     """
 
@@ -117,8 +114,6 @@ class CorrectionDraft(_Kept):
     """A correction that is not done.
 
     Attributes:
-        environment: The name of its environment.
-        text: The request.
         proposed: The plan that is corrected.
         steps: The plan as it is now.
         goal: The condition on the end, as it was typed.
@@ -158,8 +153,7 @@ _Form = TypeVar("_Form", Draft, CorrectionDraft)
 class Drafts:
     """The drafts of a studio. Threads may share it, and several studios the directory.
 
-    Args:
-        directory: Where they are; see :func:`place`.
+    They lie in ``directory``; see :func:`place`.
     """
 
     def __init__(self, directory: Path) -> None:
@@ -170,8 +164,7 @@ class Drafts:
     def enter(self, visitor: str | None = None) -> str:
         """Hold the drafts of a visitor until :meth:`leave`, or the end of the process.
 
-        Args:
-            visitor: Letters, digits, ``_`` and ``-``, at most 64; by default a name that nobody has.
+        The name has letters, digits, ``_`` and ``-``, at most 64; by default it is one that nobody has.
 
         Returns:
             The visitor's name.

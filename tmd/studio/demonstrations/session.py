@@ -41,14 +41,9 @@ class DemonstratedStep:
 class EditedSteps:
     """Steps for a text, with undo and redo.
 
-    Args:
-        world: The environment they begin in.
-        text: What is to be done.
-        lexicon: The words of the domain.
-        steps: The steps.
+    They begin in ``world``; ``text`` says what is to be done.
 
     Attributes:
-        world: The environment.
         text: The text, without control characters.
         clauses: The pieces of the text that steps serve, at least one.
         proposed: The plan that is corrected, if one is.
@@ -136,13 +131,8 @@ class EditedSteps:
 class Session(EditedSteps):
     """A demonstration under way.
 
-    Args:
-        world: The environment it begins in.
-        text: What is to be done.
-        lexicon: The words of the domain.
-        instructions: What was done already.
-        pins: The clauses that the person chose, from 0, by the number of the step, from 1.
-        habits: What was done for verbs before; proposals of clauses are better with it.
+    ``instructions`` were carried out already. ``pins`` are the clauses that the person chose, from 0, by the number of
+    the step, from 1. ``habits`` are what was done for verbs before; proposals of clauses are better with them.
 
     Attributes:
         cursor: After how many steps the state is that is looked at.
@@ -220,9 +210,7 @@ class Session(EditedSteps):
         Steps before it that serve a later clause, and steps behind it that serve an earlier one, move along; where
         one of them was marked otherwise, that mark goes.
 
-        Args:
-            step: The number of the step, from 1.
-            clause: The number of the clause, from 0.
+        ``step`` counts from 1, ``clause`` from 0.
 
         Raises:
             TmdError: There is no such step or clause.

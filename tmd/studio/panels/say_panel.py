@@ -524,10 +524,7 @@ def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
 def run_outcome(*, over: bool, failed: bool, reached: bool) -> str:
     """Return the outcome of a robot's run in a few words.
 
-    Args:
-        over: Whether it has ended.
-        failed: Whether the robot could not go on.
-        reached: Whether all goals hold in the state that was observed last.
+    The robot could not go on if ``failed``; all goals hold in the state that was observed last if ``reached``.
     """
     if not over:
         return "… the robot is at work"

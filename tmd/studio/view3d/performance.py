@@ -52,14 +52,10 @@ class _StoppedError(Exception):
 class RobotRun(Reel):
     """The robot's run of a plan: the observed states, and the moments in between.
 
-    Args:
-        setting: The environment, which has shapes.
-        plan: The plan.
-        moved: Called after each moment.
-        advanced: Called when an instruction begins or ends, and at the end of the run.
+    The environment must have shapes. ``moved`` is called after each moment, ``advanced`` when an instruction begins or
+    ends, and at the end of the run.
 
     Attributes:
-        planned: The plan.
         done: The instructions that were done, each with its clause, *repair* for what the monitor put in.
         faults: What was not as predicted, by the number of the instruction.
         now: The instruction that is being done; ``None`` between two of them.

@@ -49,14 +49,9 @@ Aim = tuple[Vector, Vector]
 class Scenery:
     """The 3D view of one visitor.
 
-    Args:
-        scene: Where it is drawn.
-        look: The environment.
-        figure: The robot; ``None`` where its model is not installed.
-        pointed: Called with the name of an object that was clicked.
-        dark: Whether the floor and the walls are dark.
-        number: Of the scenes of one view, so that no two have nodes of one name: what the browser still does for a
-            node that is removed, it does to the new one of that name.
+    ``figure`` is ``None`` where the robot's model is not installed. ``pointed`` is called with the name of an object
+    that was clicked. ``number`` is that of the scene among those of one view, so that no two have nodes of one name:
+    what the browser still does for a node that is removed, it does to the new one of that name.
     """
 
     def __init__(
@@ -241,9 +236,8 @@ class Scenery:
 
         In view are all objects and the robot, where it begins and where it may stand beside them.
 
-        Args:
-            fov: Radians that are seen from the lower to the upper edge of the view.
-            aspect: The view's width divided by its height.
+        ``fov`` is the angle between the lower and the upper edge of the view, in radians; ``aspect`` is its width
+        divided by its height.
         """
         points = np.concatenate([self._corners(name, self._look.first.poses[name]) for name in self._frames])
         points = np.concatenate((points, self._standing(points)))
