@@ -73,6 +73,14 @@ def clauses(text: str) -> list[str]:
             ["(turn_on, [radio])", "(turn_off, [lamp, hall], in: lamp -> hall)"],
         ),
         ("The radio should be on, with the rope in the shed.", ["(turn_on, [radio])"]),
+        # "there" as a place, beside a particle, and behind "back"
+        ("Open the chest and put the rope there.", ["(open, [chest])", "(put, [rope, there], at: rope -> there)"]),
+        ("Switch the lamp on there.", ["(switch_on, [lamp])"]),
+        ("Wash the jug, then put it back there.", ["(wash, [jug])", "(put_back, [it])"]),
+        (
+            "The rope should be in the shed and the lamp on by then.",
+            ["(put, [rope, shed], in: rope -> shed)", "(turn_on, [lamp])"],
+        ),
         # what is taken from a whole behind a statement, a place or a thing
         (
             "Each cup gets some milk, except the one that is full.",

@@ -196,7 +196,8 @@ class Facts:
         if is_relation(relation, "partitive") and _called_after(name, target):
             return True  # racing_front, "the front wheel of the racing bike"
         # ``hall-heater`` is in the hall, if it stands nowhere else
-        nowhere = is_relation(relation, "resting") and all(len(fact.args) == 1 for fact in self.facts_about(name))
+        apart = is_relation(relation, "resting") and name not in self.world.profiles.wholes
+        nowhere = apart and all(len(fact.args) == 1 for fact in self.facts_about(name))
         return nowhere and set(split_name(target)) < set(split_name(name))
 
     def _joining(self, name: str, end: str, *, ordered: bool) -> Iterable[GroundAtom]:

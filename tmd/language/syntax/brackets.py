@@ -749,11 +749,15 @@ class Bracketer(Corrections):
         return self._keep(at)
 
     def _is_whereabouts(self, at: int) -> bool:
-        """Return whether a condition says of a pronoun that it is "there": "unless it is there already"."""
+        """Return whether "there" is a place of its own: "unless it is there already", "put it there"."""
+        if not (self.among(at, "there_words") and self.follows(at + 1, "IDLE* (BREAK|SUB)")):
+            return False
         conditional = bool(self._open) and self._open[-1].kind is K.SUB
         said = conditional and self._last() is K.AUX and self.out[-1].text in section("be")
         about = len(self.out) > 1 and self.out[-2].kind is K.PRON
-        return said and about and self.among(at, "there_words") and self.follows(at + 1, "IDLE* (BREAK|SUB)")
+        placing = section("placing") - section("returning")  # "put it back there" is where it was
+        puts = not self._open and self._verb is not None and self._verb.stem in placing
+        return (said and about) or (puts and self._last() in HEADS)
 
     def _moves_at(self, at: int) -> bool:
         """Return whether the open verb moves something, whose place is said by a word that ends the clause."""

@@ -416,9 +416,9 @@ class _Particles(Words):
     def _joins(self, at: int, place: int, *, behind: bool) -> bool:
         """Return whether the word at a place is the particle of the verb."""
         match = self._match(self.tokens[at].stem, place)
-        if self.among(place + 1, "there_words") and self.among(place, "static"):  # "make it dark in here"
-            if not match or self.stem_among(at, "placing", "put_verbs"):  # but "switch the lamp on there"
-                return False
+        there = self.among(place + 1, "there_words") and self.among(place, "static")
+        if there and not (match and not self.stem_among(at, "placing", "put_verbs")):
+            return False  # "make it dark in here"; but "switch the lamp on there"
         if match is None:
             return not behind and self._moves_object(at, place) and self._before_noun(at, place, strict=False)
         pure = self.among(place, "pure_particles")
