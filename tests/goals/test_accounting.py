@@ -25,6 +25,8 @@ from tmd.goals.words import family
         ("kitchen/kitchen1", "Pour half of the milk into the cup.", "half"),
         ("kitchen/kitchen1", "Put the mug where the piano is.", "piano"),
         ("living_room/room1", "Turn on the garden lamp.", "garden lamp"),
+        ("living_room/room1", "Turn on the lamp by the piano.", "piano"),
+        ("living_room/room5", "Turn off all the lamps except the one by the piano.", "piano"),
     ],
 )
 def test_a_word_that_fits_nothing_here_refuses_the_step(place: str, text: str, word: str) -> None:
@@ -47,6 +49,11 @@ def test_what_is_taken_from_a_whole_gets_nothing(text: str, expected: set[str]) 
     grounded = said("kitchen", "kitchen5", text)
     assert grounded.plans
     assert set(re.findall(r"\bcup\d", " ".join(goals(grounded)))) == expected
+
+
+def test_an_exception_that_nothing_fits_gives_a_warning() -> None:
+    grounded = said("living_room", "room5", "Turn off all the lamps except the one by the shelf.")
+    assert any("exception" in warning for warning in map(str, grounded.warnings))
 
 
 def test_a_guess_may_leave_a_word_out() -> None:

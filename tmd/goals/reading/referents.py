@@ -804,6 +804,8 @@ class Referents:
             phrase = reading.clause.phrase(target)
             alike, _ = self.nouns.narrowed(self.targets(target, reading), phrase, reading.moments)  # "the full one"
             names = self._where_it_was_said(target, alike, reading)
+            if alike and not names:
+                reading.notes.append("nothing here is what the exception names")
             placed = any(is_relation(relation, "place") for relation, _ in self.relations_of(target, reading.clause))
             one = is_one(target) or (placed and bool(names))  # "the bottle on the shelf"
             one = one or (phrase.definite and not phrase.plural and self._is_kind(target, names))
@@ -816,7 +818,7 @@ class Referents:
         """Return those things that are where the clause says: where no mug is on the table, *the one on it* is none."""
         named = self.likeliest(noun, reading.clause)
         for relation, place in self.relations_of(noun, reading.clause):
-            there = is_relation(relation, "place") or is_relation(relation, "partitive")  # "the one of the shed"
+            there = is_relation(relation, "naming")  # "the one of the shed", "the one by the door"
             if there and self.targets(place, reading):
                 names = self._described(Referent(named, names), (relation, place), reading)
         return names
